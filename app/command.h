@@ -1,0 +1,33 @@
+// A command of the program: its row in the table of commands.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+namespace fathom {
+
+/// Options that every command has.
+struct CommonOptions {
+  std::filesystem::path output;  ///< -o DIR; empty when not given
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0: all
+  bool quiet = false;
+  bool json = false;
+};
+
+struct Command {
+  std::string_view name;
+  std::string_view summary;   ///< one line for `fathom --help`
+  std::string_view examples;  ///< lines that run as they stand, shown under `fathom NAME --help`
+  /// Adds the command's own options to `app` and returns what runs it. `common` is filled when the run starts.
+  std::function<void()> (*define)(CLI::App& app, const CommonOptions& common);
+};
+
+}  // namespace fathom

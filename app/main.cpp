@@ -1,0 +1,56 @@
+// The table of commands. The only place that prints errors and exits.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <thread>
+
+#include "app/commands.h"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+
+void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
+  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR");
+  app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
+  app.add_flag("--quiet", common.quiet, "No progress on the terminal");
+  app.add_flag("--json", common.json, "Results as JSON on stdout");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Fathom: simulates a structured-light depth camera that looks at cups with liquids in them", "fathom");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string(FATHOM_VERSION));
+  fathom::CommonOptions common;
+  std::function<void()> run;
+  for (const fathom::Command& command : fathom::kCommands) {
+    CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.summary));
+    sub->footer("Examples:\n" + std::string(command.examples));
+    sub->callback([&run, body = command.define(*sub, common)] { run = body; });
+    add_common_options(*sub, common);
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : kBadUsage;
+  }
+  try {
+    const auto threads = common.threads > 0 ? static_cast<unsigned>(common.threads) : std::thread::hardware_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    run();
+    return 0;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory\n");
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "error: {}\n", problem.what());
+  }
+  return kFailed;
+}

@@ -1,0 +1,87 @@
+#include "core/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace fathom {
+namespace fs = std::filesystem;
+
+namespace {
+
+void flush_to_disk(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY);
+  if (file < 0) throw Error(path.string(), std::strerror(errno));
+  const bool flushed = ::fsync(file) == 0 || errno == EINVAL;  // EINVAL: a file system without fsync
+  ::close(file);
+  if (!flushed) throw Error(path.string(), "cannot be flushed to disk");
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) throw Error(path.string(), "cannot be written: its folder does not exist");
+  if (fs::is_directory(path)) throw Error(path.string(), "cannot be written: a folder of that name exists");
+  // The extension stays last: some writers choose their format by it.
+  fs::path beside = folder / ("." + path.stem().string() + "." + std::to_string(::getpid()) + ".part");
+  beside += path.extension();
+  try {
+    write(beside);
+    flush_to_disk(beside);
+    fs::rename(beside, path);
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    throw;
+  } catch (const std::exception& problem) {
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    throw Error(path.string(), std::string("cannot be written: ") + problem.what());
+  }
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+  write_atomically(path, [&](const fs::path& beside) {
+    std::ofstream file(beside, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (!file) throw Error(path.string(), "cannot be written");
+  });
+}
+
+std::string read_text(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw Error(path.string(), "no such file");
+  if (fs::is_directory(path, ignored)) throw Error(path.string(), "is a folder, expected a file");
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw Error(path.string(), "cannot be read");
+  return text.str();
+}
+
+void make_directory(const fs::path& path) {
+  std::error_code problem;
+  fs::create_directories(path, problem);
+  if (problem || !fs::is_directory(path)) throw Error(path.string(), "cannot be created as a folder");
+}
+
+fs::path data_directory() {
+  if (const char* named = std::getenv("FATHOM_DATA")) {
+    if (fs::is_directory(fs::path(named) / "cups")) return named;
+    throw Error(named, "FATHOM_DATA: holds no cups/, expected the folder scenes/ of Fathom");
+  }
+  for (const char* candidate : {FATHOM_INSTALLED_DATA, FATHOM_SOURCE_DATA})
+    if (fs::is_directory(fs::path(candidate) / "cups")) return candidate;
+  throw Error(FATHOM_INSTALLED_DATA, "the libraries of cups, media and sensors are missing; set FATHOM_DATA");
+}
+
+}  // namespace fathom

@@ -1,0 +1,28 @@
+// Files appear whole or not at all: written beside, fsynced, renamed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace fathom {
+
+/// Calls `write` with a temporary path in the same folder, flushes it to disk and renames it to `path`.
+/// When `write` throws, the temporary file is removed and `path` is untouched. Throws Error if `path` cannot be written.
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path& beside)>& write);
+
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// The whole file. Throws Error when it is missing, a directory or unreadable.
+std::string read_text(const std::filesystem::path& path);
+
+/// Creates the directory (and its parents). Throws Error when it cannot, or when a file stands in its place.
+void make_directory(const std::filesystem::path& path);
+
+/// Folder of the libraries that come with the program (`scenes/`): $FATHOM_DATA, the installed share directory or the
+/// source tree, the first that exists. Throws Error when there is none.
+std::filesystem::path data_directory();
+
+}  // namespace fathom

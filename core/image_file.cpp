@@ -1,0 +1,159 @@
+#include "core/image_file.h"
+
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace fathom {
+namespace {
+
+template <class Pixel>
+void write_png_rows(const std::filesystem::path& path, const Image<Pixel>& image, std::uint32_t format) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width());
+  header.height = static_cast<png_uint_32>(image.height());
+  header.format = format;
+  write_atomically(path, [&](const std::filesystem::path& beside) {
+    if (!png_image_write_to_file(&header, beside.c_str(), 0, image.pixels().data(), 0, nullptr))
+      throw Error(path.string(), std::string("cannot write PNG: ") + header.message);
+  });
+}
+
+/// libpng's simplified interface gamma-converts 16-bit data; depth and intensity are plain numbers and must not be.
+void write_png_grey16(const std::filesystem::path& path, const Image<std::uint16_t>& image) {
+  write_atomically(path, [&](const std::filesystem::path& beside) {
+    std::FILE* file = std::fopen(beside.c_str(), "wb");
+    if (!file) throw Error(path.string(), "cannot open for writing");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    if (setjmp(png_jmpbuf(png))) {
+      png_destroy_write_struct(&png, &info);
+      std::fclose(file);
+      throw Error(path.string(), "cannot write PNG");
+    }
+    png_init_io(png, file);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), 16,
+                 PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(png, 3);
+    png_write_info(png, info);
+    png_set_swap(png);
+    for (int y = 0; y < image.height(); ++y) png_write_row(png, reinterpret_cast<png_const_bytep>(image.row(y)));
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    std::fclose(file);
+  });
+}
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>& channels) {
+  assert(!channels.empty());
+  const int width = channels.front().image.width();
+  const int height = channels.front().image.height();
+  Imf::Header header(width, height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer frame;
+  for (const ExrChannel& channel : channels) {
+    assert(channel.image.width() == width && channel.image.height() == height);
+    header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+    // OpenEXR's Slice takes a mutable pointer but only reads through it when writing.
+    auto* base = const_cast<char*>(reinterpret_cast<const char*>(channel.image.pixels().data()));
+    frame.insert(channel.name, Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * width));
+  }
+  write_atomically(path, [&](const std::filesystem::path& beside) {
+    Imf::OutputFile file(beside.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(height);
+  });
+}
+
+std::vector<ExrChannel> read_exr(const std::filesystem::path& path) try {
+  Imf::InputFile file(path.c_str());
+  const Imath::Box2i window = file.header().dataWindow();
+  const int width = window.max.x - window.min.x + 1;
+  const int height = window.max.y - window.min.y + 1;
+  std::vector<ExrChannel> channels;
+  for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it)
+    channels.push_back({it.name(), Image<float>(width, height)});
+  Imf::FrameBuffer frame;
+  for (ExrChannel& channel : channels) {
+    char* origin = reinterpret_cast<char*>(channel.image.pixels().data()) -
+                   sizeof(float) * (window.min.x + static_cast<std::ptrdiff_t>(window.min.y) * width);
+    frame.insert(channel.name, Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * width));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return channels;
+} catch (const Error&) {
+  throw;
+} catch (const std::exception& problem) {
+  throw Error(path.string(), std::string("cannot read as OpenEXR: ") + problem.what());
+}
+
+Image<float> read_exr_channel(const std::filesystem::path& path, const std::string& name) {
+  std::vector<std::string> names;
+  for (ExrChannel& channel : read_exr(path)) {
+    if (channel.name == name) return std::move(channel.image);
+    names.push_back(channel.name);
+  }
+  throw Error(path.string(), unknown_name("channel", name, names));
+}
+
+void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey) {
+  write_png_rows(path, grey, PNG_FORMAT_GRAY);
+}
+
+void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey) { write_png_grey16(path, grey); }
+
+void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb) { write_png_rows(path, rgb, PNG_FORMAT_RGB); }
+
+Image<std::uint16_t> read_png_grey(const std::filesystem::path& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) throw Error(path.string(), "cannot be opened");
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  Image<std::uint16_t> image;
+  std::vector<std::uint8_t> row;
+  if (setjmp(png_jmpbuf(png))) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    std::fclose(file);
+    throw Error(path.string(), "cannot read as PNG");
+  }
+  png_init_io(png, file);
+  png_read_info(png, info);
+  const bool grey = png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY;
+  const int depth_bits = png_get_bit_depth(png, info);
+  if (!grey || (depth_bits != 8 && depth_bits != 16) ||
+      png_get_interlace_type(png, info) != PNG_INTERLACE_NONE) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    std::fclose(file);
+    throw Error(path.string(), "is not a grey, non-interlaced PNG of 8 or 16 bits");
+  }
+  if (depth_bits == 16) png_set_swap(png);
+  image = Image<std::uint16_t>(static_cast<int>(png_get_image_width(png, info)),
+                               static_cast<int>(png_get_image_height(png, info)));
+  row.resize(png_get_rowbytes(png, info));
+  for (int y = 0; y < image.height(); ++y) {
+    png_read_row(png, row.data(), nullptr);
+    if (depth_bits == 16)
+      std::memcpy(image.row(y), row.data(), row.size());
+    else
+      std::copy(row.begin(), row.end(), image.row(y));
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  std::fclose(file);
+  return image;
+}
+
+}  // namespace fathom

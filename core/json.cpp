@@ -1,0 +1,131 @@
+#include "core/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace fathom {
+namespace {
+
+std::string shown(const Json& value) {
+  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() > 40 ? text.substr(0, 37) + "..." : text;
+}
+
+std::string allowed(Range range) {
+  const bool low = range.low > -1e300, high = range.high < 1e300;
+  if (low && high)
+    return fmt::format("a number {} {} and at most {}", range.open_low ? "above" : "from", range.low, range.high);
+  if (low) return fmt::format("a number {} {}", range.open_low ? "above" : "of at least", range.low);
+  if (high) return fmt::format("a number of at most {}", range.high);
+  return "a number";
+}
+
+/// Line and column (from 1) of a byte position.
+std::pair<std::size_t, std::size_t> line_and_column(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
+  const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  const std::size_t start = before.rfind('\n');
+  return {line, 1 + before.size() - (start == std::string_view::npos ? 0 : start + 1)};
+}
+
+}  // namespace
+
+void JsonReader::fail(std::string_view what) const {
+  throw Error(file_, pointer_.empty() ? std::string_view("/") : std::string_view(pointer_), what);
+}
+
+void JsonReader::fail_at(std::string_view key, std::string_view what) const {
+  throw Error(file_, fmt::format("{}/{}", pointer_, key), what);
+}
+
+void JsonReader::allow_only(std::initializer_list<std::string_view> keys) const {
+  if (!value_->is_object()) fail(fmt::format("must be an object, got {}", shown(*value_)));
+  for (const auto& [key, ignored] : value_->items()) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    fail_at(key, unknown_name("key", key, std::vector<std::string>(keys.begin(), keys.end())));
+  }
+}
+
+JsonReader JsonReader::at(std::string_view key) const {
+  if (!value_->is_object()) fail(fmt::format("must be an object, got {}", shown(*value_)));
+  const auto found = value_->find(key);
+  if (found == value_->end()) fail_at(key, "is missing");
+  return {*found, file_, fmt::format("{}/{}", pointer_, key)};
+}
+
+std::vector<JsonReader> JsonReader::items() const {
+  if (!value_->is_array()) fail(fmt::format("must be a list, got {}", shown(*value_)));
+  std::vector<JsonReader> readers;
+  for (std::size_t i = 0; i < value_->size(); ++i)
+    readers.emplace_back((*value_)[i], file_, fmt::format("{}/{}", pointer_, i));
+  return readers;
+}
+
+double JsonReader::number(Range range) const {
+  if (!value_->is_number()) fail(fmt::format("must be {}, got {}", allowed(range), shown(*value_)));
+  const double number = value_->get<double>();
+  const bool inside = number <= range.high && (range.open_low ? number > range.low : number >= range.low);
+  if (!std::isfinite(number) || !inside) fail(fmt::format("must be {}, got {}", allowed(range), shown(*value_)));
+  return number;
+}
+
+std::string JsonReader::text() const {
+  if (!value_->is_string()) fail(fmt::format("must be a text, got {}", shown(*value_)));
+  return value_->get<std::string>();
+}
+
+bool JsonReader::boolean() const {
+  if (!value_->is_boolean()) fail(fmt::format("must be true or false, got {}", shown(*value_)));
+  return value_->get<bool>();
+}
+
+int JsonReader::integer(int low, int high) const {
+  const bool whole = value_->is_number_integer() && (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= 1u << 31);
+  if (!whole || value_->get<std::int64_t>() < low || value_->get<std::int64_t>() > high)
+    fail(fmt::format("must be a whole number from {} to {}, got {}", low, high, shown(*value_)));
+  return value_->get<int>();
+}
+
+std::vector<double> JsonReader::numbers(Range range) const {
+  std::vector<double> result;
+  for (const JsonReader& item : items()) result.push_back(item.number(range));
+  return result;
+}
+
+Eigen::Vector2d JsonReader::vector2() const {
+  const std::vector<double> values = numbers();
+  if (values.size() != 2) fail(fmt::format("must be a list of 2 numbers, got {}", shown(*value_)));
+  return {values[0], values[1]};
+}
+
+Eigen::Vector3d JsonReader::vector3() const {
+  const std::vector<double> values = numbers();
+  if (values.size() != 3) fail(fmt::format("must be a list of 3 numbers, got {}", shown(*value_)));
+  return {values[0], values[1], values[2]};
+}
+
+std::size_t JsonReader::choice(std::span<const std::string> choices, std::string_view kind) const {
+  const std::string name = text();
+  const auto found = std::find(choices.begin(), choices.end(), name);
+  if (found == choices.end()) fail(unknown_name(kind, name, choices));
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+Json read_json(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& problem) {
+    const auto [line, column] = line_and_column(text, problem.byte);
+    throw Error(path.string(), fmt::format("line {}, column {}", line, column), "is not valid JSON");
+  }
+}
+
+void write_json(const std::filesystem::path& path, const Json& value) { write_text(path, value.dump(2) + "\n"); }
+
+}  // namespace fathom

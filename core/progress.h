@@ -1,0 +1,28 @@
+// Progress of long work on stderr: done, rate, time left. Silent when stderr is no terminal or --quiet was given.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace fathom {
+
+class Progress {
+ public:
+  Progress(std::string what, std::size_t total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// One more item is done. Not thread-safe: call it from the thread that drives the work.
+  void step();
+
+ private:
+  std::string what_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool shown_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace fathom

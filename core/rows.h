@@ -1,0 +1,18 @@
+// Results for people and programs: rows `name value unit`, or one JSON object.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct Row {
+  std::string name;
+  double value;
+  std::string unit;  ///< "" for a plain number
+};
+
+/// Aligned rows, or with `json` one object {"name": {"value": v, "unit": "u"}, …}. Ends with a newline.
+std::string format_rows(const std::vector<Row>& rows, bool json);
+
+}  // namespace fathom

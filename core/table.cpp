@@ -1,0 +1,139 @@
+#include "core/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace fathom {
+namespace {
+
+std::vector<std::string> split_line(std::string_view line, std::string_view file, std::size_t number) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[i++];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  if (quoted) throw Error(file, fmt::format("line {}", number), "has a quotation mark that is not closed");
+  return cells;
+}
+
+std::string quoted_if_needed(const std::string& cell) {
+  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+  std::string result = "\"";
+  for (const char c : cell) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string joined(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    line += quoted_if_needed(cell);
+  }
+  return line + '\n';
+}
+
+}  // namespace
+
+bool Table::has(std::string_view column) const {
+  return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
+}
+
+std::size_t Table::index(std::string_view column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found == columns_.end())
+    throw Error(file_, "line 1", fmt::format("has no column '{}', only {}", column, joined(columns_).substr(0, joined(columns_).size() - 1)));
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+const std::string& Table::text(std::size_t row, std::string_view column) const { return cells_.at(row)[index(column)]; }
+
+double Table::number(std::size_t row, std::string_view column) const {
+  const std::optional<double> value = number_if_any(row, column);
+  if (!value) fail(row, column, "is empty, a number is needed");
+  return *value;
+}
+
+std::optional<double> Table::number_if_any(std::size_t row, std::string_view column) const {
+  const std::string& cell = text(row, column);
+  if (cell.empty()) return std::nullopt;
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (problem != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+    fail(row, column, fmt::format("must be a finite number, got '{}'", cell));
+  return value;
+}
+
+void Table::add(std::vector<std::string> cells) {
+  cells.resize(columns_.size());
+  cells_.push_back(std::move(cells));
+}
+
+void Table::add_column(std::string name) {
+  columns_.push_back(std::move(name));
+  for (auto& row : cells_) row.emplace_back();
+}
+
+void Table::set(std::size_t row, std::string_view column, std::string value) {
+  cells_.at(row)[index(column)] = std::move(value);
+}
+
+void Table::fail(std::size_t row, std::string_view column, std::string_view what) const {
+  throw Error(file_, fmt::format("line {}, column '{}'", row + 2, column), what);
+}
+
+std::string Table::csv() const {
+  std::string text = joined(columns_);
+  for (const auto& row : cells_) text += joined(row);
+  return text;
+}
+
+Table read_table(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  std::optional<Table> table;
+  std::size_t number = 0;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    std::string_view line(text.data() + start, end - start);
+    start = end + 1;
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    std::vector<std::string> cells = split_line(line, path.string(), number);
+    if (!table) {
+      std::vector<std::string> sorted = cells;
+      std::sort(sorted.begin(), sorted.end());
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      if (twice != sorted.end()) throw Error(path.string(), "line 1", fmt::format("has the column '{}' twice", *twice));
+      table.emplace(std::move(cells), path.string());
+      continue;
+    }
+    if (line.empty() && start >= text.size()) break;
+    if (cells.size() != table->columns().size())
+      throw Error(path.string(), fmt::format("line {}", number),
+                  fmt::format("has {} cells, the header has {}", cells.size(), table->columns().size()));
+    table->add(std::move(cells));
+  }
+  if (!table) throw Error(path.string(), "is empty, expected a header line");
+  return *table;
+}
+
+void write_table(const std::filesystem::path& path, const Table& table) { write_text(path, table.csv()); }
+
+}  // namespace fathom

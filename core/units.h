@@ -1,0 +1,18 @@
+// Conversions at the border of the program. Inside, everything is SI and radians.
+#pragma once
+
+#include <numbers>
+
+namespace fathom {
+
+inline constexpr double kMetresPerMm = 1e-3;
+
+constexpr double metres_from_mm(double mm) { return mm * kMetresPerMm; }
+constexpr double mm_from_metres(double metres) { return metres / kMetresPerMm; }
+constexpr double radians_from_deg(double deg) { return deg * std::numbers::pi / 180.0; }
+constexpr double deg_from_radians(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+/// Absorption and scattering coefficients: 1/m from 1/mm.
+constexpr double per_metre_from_per_mm(double per_mm) { return per_mm / kMetresPerMm; }
+
+}  // namespace fathom
