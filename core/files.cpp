@@ -1,6 +1,7 @@
 #include "core/files.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,7 +32,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   if (!fs::is_directory(folder)) throw Error(path.string(), "cannot be written: its folder does not exist");
   if (fs::is_directory(path)) throw Error(path.string(), "cannot be written: a folder of that name exists");
   // The extension stays last: some writers choose their format by it.
-  fs::path beside = folder / ("." + path.stem().string() + "." + std::to_string(::getpid()) + ".part");
+  fs::path beside = folder / fmt::format(".{}.{}.part", path.stem().string(), ::getpid());
   beside += path.extension();
   try {
     write(beside);

@@ -9,7 +9,8 @@
 namespace fathom {
 
 /// Calls `write` with a temporary path in the same folder, flushes it to disk and renames it to `path`.
-/// When `write` throws, the temporary file is removed and `path` is untouched. Throws Error if `path` cannot be written.
+/// When `write` throws, the temporary file is removed and `path` is untouched. Throws Error if `path` cannot be
+/// written.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& beside)>& write);
 

@@ -85,7 +85,8 @@ bool JsonReader::boolean() const {
 }
 
 int JsonReader::integer(int low, int high) const {
-  const bool whole = value_->is_number_integer() && (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= 1u << 31);
+  const bool whole =
+      value_->is_number_integer() && (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= 1u << 31);
   if (!whole || value_->get<std::int64_t>() < low || value_->get<std::int64_t>() > high)
     fail(fmt::format("must be a whole number from {} to {}, got {}", low, high, shown(*value_)));
   return value_->get<int>();
@@ -123,6 +124,8 @@ Json read_json(const std::filesystem::path& path) {
   } catch (const Json::parse_error& problem) {
     const auto [line, column] = line_and_column(text, problem.byte);
     throw Error(path.string(), fmt::format("line {}, column {}", line, column), "is not valid JSON");
+  } catch (const Json::out_of_range&) {
+    throw Error(path.string(), "holds a number too large for double precision");
   }
 }
 

@@ -59,7 +59,9 @@ bool Table::has(std::string_view column) const {
 std::size_t Table::index(std::string_view column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end())
-    throw Error(file_, "line 1", fmt::format("has no column '{}', only {}", column, joined(columns_).substr(0, joined(columns_).size() - 1)));
+    throw Error(
+        file_, "line 1",
+        fmt::format("has no column '{}', only {}", column, joined(columns_).substr(0, joined(columns_).size() - 1)));
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
@@ -109,7 +111,8 @@ Table read_table(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   std::optional<Table> table;
   std::size_t number = 0;
-  for (std::size_t start = 0; start < text.size();) {
+  const std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets put it before UTF-8
+  for (std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     std::string_view line(text.data() + start, end - start);
     start = end + 1;

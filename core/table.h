@@ -11,7 +11,8 @@ namespace fathom {
 
 class Table {
  public:
-  explicit Table(std::vector<std::string> columns, std::string file = "") : columns_(std::move(columns)), file_(std::move(file)) {}
+  explicit Table(std::vector<std::string> columns, std::string file = "")
+      : columns_(std::move(columns)), file_(std::move(file)) {}
 
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t rows() const { return cells_.size(); }

@@ -1,0 +1,26 @@
+#include "core/rows.h"
+
+#include <gtest/gtest.h>
+
+#include "core/json.h"
+
+namespace fathom {
+namespace {
+
+const std::vector<Row> kRows{{"height", 9.2101051, "mm"}, {"points_in_cup", 1234.0, ""}};
+
+TEST(Rows, AreNameValueUnitInColumns) {
+  EXPECT_EQ(format_rows(kRows, false),
+            "height              9.21011 mm\n"
+            "points_in_cup          1234\n");
+}
+
+TEST(Rows, AreOneJsonObjectWithEveryDigit) {
+  const std::string text = format_rows(kRows, true);
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_EQ(Json::parse(text), Json::parse(R"({"height": {"value": 9.2101051, "unit": "mm"},
+                                               "points_in_cup": {"value": 1234.0, "unit": ""}})"));
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,61 @@
+#include "core/table.h"
+
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "tests/core/expect_error.h"
+#include "tests/core/temporary_folder.h"
+
+namespace fathom {
+namespace {
+
+Table table_of(std::string_view text) {
+  const TemporaryFolder folder;
+  write_text(folder / "frames.csv", text);
+  return read_table(folder / "frames.csv");
+}
+
+TEST(Table, ComesBackFromItsFile) {
+  const TemporaryFolder folder;
+  Table table({"liquid", "fill_mm"});
+  table.add({"tea, with \"milk\"", "30"});
+  table.add({"", "0.1"});
+  table.add_column("height_mm");
+  table.set(1, "height_mm", "9.21");
+  write_table(folder / "t.csv", table);
+  const Table read = read_table(folder / "t.csv");
+  EXPECT_EQ(read.csv(), table.csv());
+  EXPECT_EQ(read.text(0, "liquid"), "tea, with \"milk\"");
+  EXPECT_EQ(read.number(1, "fill_mm"), 0.1);
+  EXPECT_EQ(read.number(1, "height_mm"), 9.21);
+  EXPECT_FALSE(read.number_if_any(0, "height_mm"));
+}
+
+TEST(Table, AcceptsWhatSpreadsheetsWrite) {
+  const Table table = table_of(
+      "\xEF\xBB\xBF"
+      "a,b\r\n1,\"2\"\r\n\r\n");
+  ASSERT_EQ(table.rows(), 1u);
+  EXPECT_EQ(table.number(0, "a"), 1.0);
+  EXPECT_EQ(table.number(0, "b"), 2.0);
+}
+
+TEST(Table, ErrorsNameFileLineAndColumn) {
+  const Table table = table_of("frame,fill_mm\n1,10\n2,ten\n3,\n4,inf\n");
+  expect_error([&] { table.number(1, "fill_mm"); },
+               {"frames.csv: line 3, column 'fill_mm': must be a finite number, got 'ten'"});
+  expect_error([&] { table.number(2, "fill_mm"); }, {"line 4, column 'fill_mm': is empty"});
+  expect_error([&] { table.number(3, "fill_mm"); }, {"line 5", "finite"});
+  expect_error([&] { table.number(0, "fil_mm"); }, {"line 1: has no column 'fil_mm', only frame,fill_mm"});
+}
+
+TEST(Table, BrokenTablesAreRefused) {
+  expect_error([] { table_of(""); }, {"frames.csv: is empty, expected a header line"});
+  expect_error([] { table_of("a,b\n1,2\n1,2,3\n"); }, {"frames.csv: line 3: has 3 cells, the header has 2"});
+  expect_error([] { table_of("a,b\n1,2\n\n1,2\n"); }, {"line 3: has 1 cells, the header has 2"});
+  expect_error([] { table_of("a,b,a\n"); }, {"line 1: has the column 'a' twice"});
+  expect_error([] { table_of("a\n\"b\n"); }, {"line 2: has a quotation mark that is not closed"});
+}
+
+}  // namespace
+}  // namespace fathom
