@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <thread>
@@ -43,7 +44,8 @@ int main(int argc, char** argv) {
     return app.exit(problem) == 0 ? 0 : kBadUsage;
   }
   try {
-    const auto threads = common.threads > 0 ? static_cast<unsigned>(common.threads) : std::thread::hardware_concurrency();
+    const auto threads =
+        common.threads > 0 ? static_cast<unsigned>(common.threads) : std::max(1u, std::thread::hardware_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     run();
     return 0;

@@ -1,0 +1,144 @@
+// `fathom theory`: Eq. 7 and the exact triangulation of the raised bottom, side by side.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "core/error.h"
+#include "core/json.h"
+#include "core/rows.h"
+#include "core/units.h"
+#include "theory/raised_bottom.h"
+#include "theory/triangulation.h"
+
+namespace fathom {
+namespace {
+
+struct TheoryOptions {
+  std::vector<double> fill_mm{10.0, 20.0, 30.0};
+  std::vector<double> distance_mm{200.0, 300.0, 400.0, 500.0, 600.0};
+  std::vector<double> lateral_mm{0.0};
+  double height_mm = 650.0;
+  double index = 1.333;
+  std::optional<double> pitch_deg;
+  double baseline_mm = 75.0;
+  bool max_skew = false;
+};
+
+// The paper's sensor, Fig. 12.
+constexpr double kPaperFieldOfViewDeg = 58.5;
+constexpr double kPaperMinimumRangeMm = 500.0;
+
+constexpr std::array kColumns{"fill_mm", "distance_mm", "lateral_mm", "incidence_projector_deg", "incidence_camera_deg",
+                              "eq7_mm",  "exact_mm",    "epipolar_px"};
+using TheoryRow = std::array<double, kColumns.size()>;
+
+void check(bool allowed, const char* option, double value, const std::string& must) {
+  if (!allowed) throw Error(option, fmt::format("must be {}, got {}", must, value));
+}
+
+void check(const TheoryOptions& options) {
+  constexpr double kFarMm = 1e6;
+  const auto inside = [](double value, double low, double high) { return value >= low && value <= high; };
+  check(inside(options.index, 1.0, 10.0), "--index", options.index, "from 1 to 10");
+  check(options.height_mm > 0.0 && options.height_mm <= kFarMm, "--height-mm", options.height_mm,
+        "above 0 and at most 1e6");
+  check(options.baseline_mm > 0.0 && options.baseline_mm <= kFarMm, "--baseline-mm", options.baseline_mm,
+        "above 0 and at most 1e6");
+  if (options.pitch_deg)
+    check(inside(*options.pitch_deg, 0.0, 90.0), "--pitch-deg", *options.pitch_deg,
+          "from 0 (horizontal) to 90 (straight down)");
+  for (const double fill : options.fill_mm)
+    check(fill >= 0.0 && fill < options.height_mm, "--fill-mm", fill,
+          fmt::format("at least 0 and below the sensor's height {}", options.height_mm));
+  for (const double distance : options.distance_mm)
+    check(inside(distance, 0.0, kFarMm), "--distance-mm", distance, "from 0 to 1e6");
+  for (const double lateral : options.lateral_mm)
+    check(inside(lateral, -kFarMm, kFarMm), "--lateral-mm", lateral, "from -1e6 to 1e6");
+}
+
+TheoryRow theory_row(const TheoryOptions& options, double fill_mm, double distance_mm, double lateral_mm) {
+  const double h = metres_from_mm(options.height_mm);
+  const double b = metres_from_mm(options.baseline_mm);
+  const double w = metres_from_mm(fill_mm);
+  const double d = metres_from_mm(distance_mm);
+  theory::TriangulationSetup setup{.sensor_height = h,
+                                   .baseline = b,
+                                   .fill = w,
+                                   .index = options.index,
+                                   .lateral = metres_from_mm(lateral_mm),
+                                   .distance = d};
+  if (options.pitch_deg) setup.pitch = radians_from_deg(*options.pitch_deg);
+  const theory::Triangulation exact = theory::triangulate(setup);
+  const double eq7 = theory::raised_height_at(w, {.h = h, .b = b, .d = d, .n = options.index});
+  return {fill_mm,
+          distance_mm,
+          lateral_mm,
+          deg_from_radians(exact.incidence_projector),
+          deg_from_radians(exact.incidence_camera),
+          mm_from_metres(eq7),
+          mm_from_metres(exact.height),
+          exact.epipolar_mismatch_px};
+}
+
+std::string csv(const std::vector<TheoryRow>& rows) {
+  std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
+  for (TheoryRow row : rows) {
+    for (double& value : row) value = std::round(value * 1e6) / 1e6 + 0.0;  // + 0.0: no "-0.000000"
+    text += fmt::format("{},{},{},{:.6f}\n", row[0], row[1], row[2], fmt::join(row.begin() + 3, row.end(), ","));
+  }
+  return text;
+}
+
+std::string json(const std::vector<TheoryRow>& rows) {
+  Json list = Json::array();
+  for (const TheoryRow& row : rows) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < row.size(); ++i) object[kColumns[i]] = row[i];
+    list.push_back(std::move(object));
+  }
+  return list.dump(2) + "\n";
+}
+
+std::string theory_text(const TheoryOptions& options, bool as_json) {
+  check(options);
+  if (options.max_skew) {
+    const double skew =
+        theory::skew_at_field_edge(metres_from_mm(options.baseline_mm), radians_from_deg(kPaperFieldOfViewDeg),
+                                   metres_from_mm(kPaperMinimumRangeMm));
+    return format_rows({{"max_skew", deg_from_radians(skew), "deg"}}, as_json);
+  }
+  std::vector<TheoryRow> rows;
+  for (const double fill : options.fill_mm)
+    for (const double distance : options.distance_mm)
+      for (const double lateral : options.lateral_mm) rows.push_back(theory_row(options, fill, distance, lateral));
+  return as_json ? json(rows) : csv(rows);
+}
+
+}  // namespace
+
+std::function<void()> define_theory(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<TheoryOptions>();
+  const auto add_list = [&app](const char* name, std::vector<double>& values, const char* what) {
+    app.add_option(name, values, what)->delimiter(',')->capture_default_str();
+  };
+  add_list("--fill-mm", options->fill_mm, "Depths of the liquid");
+  add_list("--distance-mm", options->distance_mm, "Horizontal distances of the bottom point from the sensor");
+  add_list("--lateral-mm", options->lateral_mm, "Positions of the bottom point to the sensor's right");
+  app.add_option("--height-mm", options->height_mm, "Height of the sensor above the bottom")->capture_default_str();
+  app.add_option("--index", options->index, "Index of the liquid relative to air")->capture_default_str();
+  app.add_option("--pitch-deg", options->pitch_deg,
+                 "Of the sensor below the horizontal; without it the sensor aims at (0, distance, 0)");
+  app.add_option("--baseline-mm", options->baseline_mm, "Distance of camera and projector")->capture_default_str();
+  app.add_flag("--max-skew", options->max_skew,
+               "Only the largest difference of the two incidence angles at the paper's 58.5 deg and 500 mm (Fig. 12)");
+  return [options, &common] { fmt::print("{}", theory_text(*options, common.json)); };
+}
+
+}  // namespace fathom

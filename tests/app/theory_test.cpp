@@ -1,0 +1,76 @@
+// `fathom theory` as users run it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "core/json.h"
+
+namespace fathom {
+namespace {
+
+struct Outcome {
+  int exit_code;
+  std::string text;  ///< stdout and stderr
+};
+
+Outcome run_program(const std::string& arguments) {
+  std::FILE* pipe = ::popen((FATHOM_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
+  Outcome result{-1, ""};
+  std::array<char, 4096> part;
+  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) result.text.append(part.data(), n);
+  result.exit_code = WEXITSTATUS(::pclose(pipe));
+  return result;
+}
+
+TEST(TheoryCommand, PrintsTheAgreedColumns) {
+  const Outcome result = run_program("theory --fill-mm 30 --distance-mm 400,600");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.text,
+            "fill_mm,distance_mm,lateral_mm,incidence_projector_deg,incidence_camera_deg,eq7_mm,exact_mm,epipolar_px\n"
+            "30,400,0,32.086345,32.086345,9.167075,9.210105,0.000000\n"
+            "30,600,0,43.247880,43.247880,10.800130,10.889308,0.000000\n");
+}
+
+TEST(TheoryCommand, CoversThePapersFifteenConditionsByDefault) {
+  const Json rows = Json::parse(run_program("theory --json").text);
+  ASSERT_EQ(rows.size(), 15u);
+  EXPECT_EQ(rows[12]["fill_mm"], 30.0);
+  EXPECT_EQ(rows[12]["distance_mm"], 400.0);
+}
+
+TEST(TheoryCommand, TakesPointsOnBothSides) {
+  const Json rows = Json::parse(run_program("theory --json --fill-mm 30 --distance-mm 400 --lateral-mm -50,50").text);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(rows[0]["incidence_camera_deg"].get<double>(), rows[1]["incidence_projector_deg"].get<double>());
+}
+
+TEST(TheoryCommand, PrintsTheLargestSkew) {
+  EXPECT_EQ(run_program("theory --max-skew").text, "max_skew       6.95217 deg\n");
+  // The printed digits.
+  EXPECT_NEAR(Json::parse(run_program("theory --max-skew --json").text)["max_skew"]["value"].get<double>(), 6.95,
+              0.005);
+}
+
+TEST(TheoryCommand, RefusesImpossibleValuesInOneLine) {
+  for (const std::string arguments : {"--index 0.9", "--index nan", "--fill-mm -1", "--fill-mm 10,650", "--height-mm 0",
+                                      "--baseline-mm 0", "--pitch-deg 91", "--distance-mm -1", "--lateral-mm inf"}) {
+    const Outcome result = run_program("theory " + arguments);
+    EXPECT_EQ(result.exit_code, 1) << arguments;
+    const std::string option = arguments.substr(0, arguments.find(' '));
+    EXPECT_EQ(result.text.rfind("error: " + option + ": must be ", 0), 0u) << result.text;
+    EXPECT_EQ(result.text.find('\n'), result.text.size() - 1) << result.text;
+  }
+}
+
+TEST(TheoryCommand, AnswersBadUsageWithTwo) {
+  EXPECT_EQ(run_program("theory --no-such-option").exit_code, 2);
+  EXPECT_EQ(run_program("theory --fill-mm ten").exit_code, 2);
+  EXPECT_EQ(run_program("").exit_code, 2);
+  EXPECT_EQ(run_program("theory --help").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace fathom
