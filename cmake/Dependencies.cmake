@@ -8,7 +8,8 @@ find_package(OpenEXR CONFIG REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(CLI11 REQUIRED)
 # Debian's PCL asks for optional parts that are not installed; only its own are used here.
-find_package(PCL 1.12 REQUIRED QUIET COMPONENTS common io kdtree search sample_consensus segmentation filters features registration)
+set(FATHOM_PCL_COMPONENTS common io kdtree search sample_consensus segmentation filters features registration)
+find_package(PCL 1.12 REQUIRED QUIET COMPONENTS ${FATHOM_PCL_COMPONENTS})
 
 # PCL's variables as one target, with its include folders marked as system headers.
 add_library(fathom_pcl INTERFACE)

@@ -9,6 +9,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 
 add_library(fathom_settings INTERFACE)
+target_compile_features(fathom_settings INTERFACE cxx_std_20)
 target_include_directories(fathom_settings INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/fathom>)
 # Results must not depend on how the compiler contracts a*b+c, so that every build gives the same bytes.

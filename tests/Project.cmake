@@ -1,0 +1,18 @@
+# Tests of the project itself: who includes whom, how it is formatted, what it installs.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME layers COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/layers.py)
+add_test(NAME layers_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/layers_test.py)
+set_tests_properties(layers layers_test PROPERTIES LABELS architecture)
+
+find_program(FATHOM_CLANG_FORMAT clang-format-14)
+if(FATHOM_CLANG_FORMAT)
+  add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/scripts/format --check)
+  set_tests_properties(format PROPERTIES LABELS architecture)
+endif()
+
+if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
+  add_test(NAME find_package COMMAND ${CMAKE_COMMAND}
+    -D build=${PROJECT_BINARY_DIR} -D consumer=${CMAKE_CURRENT_SOURCE_DIR}/find_package
+    -D scratch=${CMAKE_CURRENT_BINARY_DIR}/find_package -D generator=${CMAKE_GENERATOR}
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
+endif()

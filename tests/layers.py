@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""usage: tests/layers.py [ROOT]
+Checks who includes whom, and that docs/architecture.md says the same. One line per breach on stderr, exit 1 if any."""
+import re
+import sys
+from fnmatch import fnmatch
+from pathlib import Path
+
+EVERYTHING = "everything"
+# Folder: folders that it may include besides itself.
+LAYERS = {
+    "core": [],
+    "theory": [],
+    "sim/optics": ["core"],
+    "sim/scene": ["core", "sim/optics"],
+    "sim/render": ["core", "sim/optics", "sim/scene"],
+    "sim/sensor": ["core", "sim/*"],
+    "detector": ["core"],
+    "app": EVERYTHING,
+    "bench": EVERYTHING,
+    "tests": EVERYTHING,
+}
+# Library: where its headers may be included; a star also stands for subfolders.
+BORDERS = {
+    "Embree": ["sim/render/*.cpp"],
+    "PCL": ["detector/*.cpp", "tests/*.cpp", "bench/*.cpp"],
+    "tinygltf": ["sim/scene/*.cpp"],
+    "OpenEXR": ["core/*.cpp"],
+    "libpng": ["core/*.cpp"],
+    "CLI11": ["app/*.cpp"],
+}
+LIBRARY_HEADERS = {
+    "Embree": r"embree\d/",
+    "PCL": r"pcl/",
+    "tinygltf": r"tiny_gltf\.h",
+    "OpenEXR": r"((OpenEXR|Imath)/)?(Imf|Imath)\w*\.h",
+    "libpng": r"(libpng\d*/)?png\.h",
+    "CLI11": r"CLI/",
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+DOCUMENT = "docs/architecture.md"
+
+
+def layer_of(path):
+    return max((layer for layer in LAYERS if path.startswith(layer + "/")), key=len, default=None)
+
+
+def matches_any(name, patterns):
+    return any(fnmatch(name, pattern) for pattern in patterns)
+
+
+def include_breaches(root, path, included):
+    source, target = layer_of(path), layer_of(included)
+    may_include = LAYERS[source]
+    if target and not (root / included).exists():
+        yield f"{included} does not exist"
+    elif target and target != source and may_include != EVERYTHING and not matches_any(target, may_include):
+        yield f"{source}/ may not include {included}, only: {', '.join(may_include) or 'nothing'}"
+    elif not target and (root / path).parent.joinpath(included).exists():
+        yield f'"{included}" must be written as a path from the root'
+    for library, places in BORDERS.items():
+        if re.match(LIBRARY_HEADERS[library], included) and not matches_any(path, places):
+            yield f"{included} of {library} may be included only in {', '.join(places)}"
+
+
+def file_breaches(root, path):
+    lines = (root / path).read_text().splitlines()
+    if path.endswith(".h") and "#pragma once" not in lines:
+        yield f"{path}: lacks #pragma once"
+    if not layer_of(path):
+        yield f"{path}: its folder is not in the table"
+        return
+    for number, line in enumerate(lines, 1):
+        if include := INCLUDE.match(line):
+            yield from (f"{path}:{number}: {breach}" for breach in include_breaches(root, path, include[1]))
+
+
+def document_table(text, first_header):
+    """{each name in the first column: the list in the last column} of the table that starts with `first_header`."""
+    body = re.search(rf"^\| {first_header} \|.*\n\|[-|]+\n((?:\|.*\n)+)", text, re.MULTILINE)
+    rows = [line.strip("|").split("|") for line in body[1].splitlines()] if body else []
+    return {name.rstrip("/"): last_column(row[-1].strip()) for row in rows for name in re.findall(r"[^`, ]+", row[0])}
+
+
+def last_column(cell):
+    return cell if cell == EVERYTHING else re.findall(r"[^`, –]+", cell)
+
+
+def document_breaches(root):
+    text = (root / DOCUMENT).read_text()
+    for first_header, table in (("folder", LAYERS), ("library", BORDERS)):
+        written = document_table(text, first_header)
+        for name in sorted(table.keys() | written.keys()):
+            if table.get(name) != written.get(name):
+                yield f"{DOCUMENT}: {name}: says {written.get(name)}, tests/layers.py says {table.get(name)}"
+
+
+def breaches(root):
+    tops = sorted(folder for folder in root.iterdir() if folder.is_dir() and folder.name not in (".git", "build", "out"))
+    for file in (file for top in tops for file in sorted(top.rglob("*")) if file.suffix in (".h", ".cpp")):
+        yield from file_breaches(root, file.relative_to(root).as_posix())
+    yield from document_breaches(root)
+
+
+if __name__ == "__main__":
+    found = list(breaches(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent.parent))
+    print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
+    sys.exit(1 if found else 0)

@@ -1,0 +1,78 @@
+"""The check of the layers catches what it is there to catch."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import layers
+
+SOURCE = Path(__file__).parent.parent
+
+
+class Layers(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.write(layers.DOCUMENT, (SOURCE / layers.DOCUMENT).read_text())
+        self.write("core/error.h", "#pragma once\n")
+        self.write("sim/scene/scene.h", '#pragma once\n#include "core/error.h"\n')
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text)
+
+    def assert_only_breach(self, *words):
+        found = list(layers.breaches(self.root))
+        self.assertEqual(len(found), 1, found)
+        for word in words:
+            self.assertIn(word, found[0])
+
+    def test_a_tree_that_keeps_the_rules_passes(self):
+        self.write("sim/sensor/capture.cpp", '#include "sim/scene/scene.h"\n')
+        self.write("sim/render/mesh.cpp", "#include <embree3/rtcore.h>\n")
+        self.write("tests/sim/render/mesh_test.cpp", '#include "sim/scene/scene.h"\n')
+        self.assertEqual(list(layers.breaches(self.root)), [])
+
+    def test_a_forbidden_include_is_caught(self):
+        self.write("detector/cup.cpp", '\n#include "sim/scene/scene.h"\n')
+        self.assert_only_breach("detector/cup.cpp:2", "sim/scene/scene.h")
+
+    def test_the_oracle_includes_nothing_of_ours(self):
+        self.write("theory/triangulation.cpp", '  #  include <core/error.h>\n')
+        self.assert_only_breach("theory/triangulation.cpp:1", "only: nothing")
+
+    def test_a_library_outside_its_border_is_caught(self):
+        for path, header in (
+            ("detector/plane.h", "pcl/point_types.h"),
+            ("sim/scene/mesh.cpp", "embree3/rtcore.h"),
+            ("sim/render/gltf.cpp", "tiny_gltf.h"),
+            ("sim/sensor/exr.cpp", "OpenEXR/ImfHeader.h"),
+            ("app/picture.cpp", "png.h"),
+            ("core/options.cpp", "CLI/CLI.hpp"),
+        ):
+            with self.subTest(header):
+                self.write(path, f"#pragma once\n#include <{header}>\n")
+                self.assert_only_breach(f"{path}:2", header)
+                (self.root / path).unlink()
+
+    def test_an_include_that_does_not_start_at_the_root_is_caught(self):
+        self.write("core/files.cpp", '#include "error.h"\n')
+        self.assert_only_breach("core/files.cpp:1", "from the root")
+
+    def test_a_header_without_pragma_once_is_caught(self):
+        self.write("core/error.h", "// nothing\n")
+        self.assert_only_breach("core/error.h", "#pragma once")
+
+    def test_a_folder_outside_the_table_is_caught(self):
+        self.write("misc/helper.h", "#pragma once\n")
+        self.assert_only_breach("misc/helper.h", "not in the table")
+
+    def test_a_document_that_says_otherwise_is_caught(self):
+        text = (SOURCE / layers.DOCUMENT).read_text()
+        row = next(line for line in text.splitlines() if line.startswith("| `detector/`"))
+        self.write(layers.DOCUMENT, text.replace(row, row.removesuffix("core |") + "core, sim/scene |"))
+        self.assert_only_breach("detector", "sim/scene")
+        self.write(layers.DOCUMENT, text.replace(row + "\n", ""))
+        self.assert_only_breach("detector", "says None")
+
+
+if __name__ == "__main__":
+    unittest.main()
