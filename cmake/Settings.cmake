@@ -12,9 +12,10 @@ add_library(fathom_settings INTERFACE)
 target_compile_features(fathom_settings INTERFACE cxx_std_20)
 target_include_directories(fathom_settings INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/fathom>)
-# Results must not depend on how the compiler contracts a*b+c, so that every build gives the same bytes.
+# Results must not depend on how the compiler contracts a*b+c, so that every build gives the same bytes. Neither errno nor
+# floating-point traps are looked at; without them loops with square roots and rounding become vectors.
 target_compile_options(fathom_settings INTERFACE
-  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-ffp-contract=off>)
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-ffp-contract=off;-fno-math-errno;-fno-trapping-math>)
 if(FATHOM_WARNINGS_AS_ERRORS)
   target_compile_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()

@@ -33,6 +33,7 @@ class JsonReader {
 
   const Json& value() const { return *value_; }
   const std::string& file() const { return file_; }
+  const std::string& pointer() const { return pointer_; }
 
   [[noreturn]] void fail(std::string_view what) const;
   [[noreturn]] void fail_at(std::string_view key, std::string_view what) const;

@@ -1,0 +1,11 @@
+// Compiles a hot function for several instruction sets and picks one at start-up. The loops inside are written so that
+// every version rounds alike: no reductions across lanes, no fused multiply-add (see cmake/Settings.cmake).
+#pragma once
+
+// Sanitizers run before the resolver's relocations are done, so they get the plain version.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define FATHOM_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define FATHOM_SIMD_CLONES
+#endif

@@ -1,0 +1,47 @@
+#include "sim/render/truth.h"
+
+#include "core/parallel.h"
+#include "sim/render/radiance.h"
+
+namespace fathom {
+namespace {
+
+TruePixel trace_pixel(const Intersector& world, const Rig& rig, double x_px, double y_px) {
+  TruePixel pixel;
+  const Ray chief{rig.camera_in_world(), rig.direction_in_world(x_px, y_px)};
+  const std::optional<SeenPoint> seen = see(world, chief);
+  if (!seen) return pixel;
+  pixel.position = seen->point;
+  pixel.object = seen->object;
+  pixel.path = seen->liquid ? PathKind::refracted : PathKind::direct;
+  const std::optional<Illumination> light = illuminate(world, rig.projector_in_world(), *seen);
+  if (!light) return pixel;
+  pixel.apparent_depth = triangulated_depth(rig, chief.direction, light->direction);
+  pixel.intensity = radiance_dn(rig.sensor, *seen, *light);
+  return pixel;
+}
+
+}  // namespace
+
+Eigen::Vector2d rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world) {
+  const Eigen::Vector3d in_camera = rig.world_from_camera.linear().transpose() * direction_in_world;
+  return in_camera.head<2>() / in_camera.z();
+}
+
+std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& camera_direction,
+                                         const Eigen::Vector3d& projector_direction) {
+  const double parallax = rectified(rig, camera_direction).x() - rectified(rig, projector_direction).x();
+  if (parallax <= 0.0) return std::nullopt;
+  return rig.sensor.baseline / parallax;
+}
+
+Image<TruePixel> trace_truth(const Intersector& world, const Rig& rig) {
+  Image<TruePixel> truth(rig.sensor.width, rig.sensor.height);
+  parallel_ranges(truth.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < truth.width(); ++x) truth(x, y) = trace_pixel(world, rig, x + 0.5, y + 0.5);
+  });
+  return truth;
+}
+
+}  // namespace fathom

@@ -1,0 +1,35 @@
+// What each depth pixel really looks at, and what a noise-free triangulating camera would measure there.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/image.h"
+#include "sim/render/connection.h"
+#include "sim/scene/rig.h"
+
+namespace fathom {
+
+/// How a pixel sees its point; the codes of truth.exr's channel `path`.
+enum class PathKind { nothing = 0, direct = 1, refracted = 2, scattered = 3 };
+
+struct TruePixel {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] world, first diffuse point on the refracted chief ray
+  std::optional<double> apparent_depth;  ///< [m] camera frame, exact triangulation; nothing where the projector is hidden
+  double intensity = 0.0;                ///< [DN] of a dot's centre there
+  int object = 0;
+  PathKind path = PathKind::nothing;
+};
+
+/// Image coordinates, in units of the focal length, of a world direction in the rectified frame: x right, y down.
+Eigen::Vector2d rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world);
+
+/// Depth from the horizontal parallax of two rays: Z = b / (ξ_camera − ξ_projector) [m]; nothing when they do not meet
+/// in front of the sensor.
+std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& camera_direction,
+                                         const Eigen::Vector3d& projector_direction);
+
+/// Traces the chief ray of every depth pixel (width × height of the sensor).
+Image<TruePixel> trace_truth(const Intersector& world, const Rig& rig);
+
+}  // namespace fathom

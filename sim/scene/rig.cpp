@@ -1,0 +1,206 @@
+#include "sim/scene/rig.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/units.h"
+#include "sim/scene/library.h"
+
+namespace fathom {
+namespace {
+
+/// Presets of the image noise.
+/// basic: per-dot speckle Gamma(4.54, mean 1) and detector noise 10.4 DN of 10 bits (Landau 2016); the shot noise's
+/// 10 electrons per DN are an estimate.
+const std::array<std::pair<std::string, NoiseModel>, 2> kNoisePresets{{
+    {"off", NoiseModel{}},
+    {"basic", NoiseModel{4.54, 10.0, 10.4, 10}},
+}};
+
+NoiseModel noise_from_json(const JsonReader& json) {
+  if (json.value().is_string()) {
+    std::vector<std::string> names;
+    for (const auto& preset : kNoisePresets) names.push_back(preset.first);
+    return kNoisePresets[json.choice(names, "noise preset")].second;
+  }
+  json.allow_only({"speckle_shape", "electrons_per_dn", "read_dn", "bits"});
+  NoiseModel noise;
+  noise.speckle_shape = json.number_or("speckle_shape", 0.0, kNonNegative);
+  if (noise.speckle_shape > 0.0 && noise.speckle_shape < 1.0)
+    json.fail_at("speckle_shape", "must be 0 (none) or at least 1 (fully developed speckle)");
+  noise.electrons_per_dn = json.number_or("electrons_per_dn", 0.0, kNonNegative);
+  noise.read_dn = json.number_or("read_dn", 0.0, kNonNegative);
+  noise.bits = json.integer_or("bits", 0, 0, 16);
+  return noise;
+}
+
+void read_pattern(const JsonReader& json, PatternModel& pattern) {
+  json.allow_only({"tile_columns", "tile_rows", "tiles_across", "tiles_down", "step_px", "dots_per_tile", "dot_sigma_ir_px", "seed"});
+  pattern.tile_columns = json.integer_or("tile_columns", pattern.tile_columns, 16, 4096);
+  pattern.tile_rows = json.integer_or("tile_rows", pattern.tile_rows, 16, 4096);
+  pattern.tiles_across = json.integer_or("tiles_across", pattern.tiles_across, 1, 64);
+  pattern.tiles_down = json.integer_or("tiles_down", pattern.tiles_down, 1, 64);
+  pattern.step_px = json.number_or("step_px", pattern.step_px, {0.25, 16.0});
+  const int positions = pattern.tile_columns * pattern.tile_rows;
+  // Dots keep a distance of 2 positions; random placement cannot fill more than about 0.18 of the grid.
+  pattern.dots_per_tile = json.integer_or("dots_per_tile", pattern.dots_per_tile, 1, positions * 15 / 100);
+  pattern.dot_sigma_ir_px = json.number_or("dot_sigma_ir_px", pattern.dot_sigma_ir_px, {0.3, 2.0});
+  pattern.seed = static_cast<std::uint64_t>(json.integer_or("seed", static_cast<int>(pattern.seed), 0, 1 << 30));
+}
+
+void read_matcher(const JsonReader& json, MatcherModel& matcher) {
+  json.allow_only({"window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min", "contrast_min_dn"});
+  matcher.window_columns = json.integer_or("window_columns", matcher.window_columns, 3, 31);
+  matcher.window_rows = json.integer_or("window_rows", matcher.window_rows, 3, 31);
+  if (matcher.window_columns % 2 == 0) json.fail_at("window_columns", "must be odd");
+  if (matcher.window_rows % 2 == 0) json.fail_at("window_rows", "must be odd");
+  matcher.disparity_min_px = json.integer_or("disparity_min_px", matcher.disparity_min_px, -256, 255);
+  matcher.disparity_max_px = json.integer_or("disparity_max_px", matcher.disparity_max_px, -255, 256);
+  if (matcher.disparity_max_px <= matcher.disparity_min_px) json.fail_at("disparity_max_px", "must be above disparity_min_px");
+  matcher.correlation_min = json.number_or("correlation_min", matcher.correlation_min, {0.0, 1.0});
+  matcher.contrast_min = json.number_or("contrast_min_dn", matcher.contrast_min, kNonNegative);
+}
+
+Eigen::Vector2i size_from_json(const JsonReader& json) {
+  const std::vector<JsonReader> items = json.items();
+  if (items.size() != 2) json.fail("must be a width and a height");
+  return {items[0].integer(16, 8192), items[1].integer(16, 8192)};
+}
+
+/// Everything but the pose.
+void read_model(const JsonReader& json, SensorModel& sensor) {
+  sensor.baseline = metres_from_mm(json.number_or("baseline_mm", mm_from_metres(sensor.baseline), kPositive));
+  sensor.wavelength_nm = json.number_or("wavelength_nm", sensor.wavelength_nm, kPositive);
+  if (json.has("ir_size_px")) {
+    const Eigen::Vector2i size = size_from_json(json.at("ir_size_px"));
+    sensor.ir_width = size.x(), sensor.ir_height = size.y();
+  }
+  if (json.has("depth_size_px")) {
+    const Eigen::Vector2i size = size_from_json(json.at("depth_size_px"));
+    sensor.width = size.x(), sensor.height = size.y();
+    sensor.principal_px = 0.5 * size.cast<double>();
+  }
+  if (sensor.ir_width != 2 * sensor.width || sensor.ir_height < 2 * sensor.height || (sensor.ir_height - 2 * sensor.height) % 2)
+    json.fail(fmt::format("ir_size_px must be twice depth_size_px in width and at least twice, by an even number, in height; got {}×{} and {}×{}",
+                          sensor.ir_width, sensor.ir_height, sensor.width, sensor.height));
+  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, kPositive);
+  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2();
+  sensor.reference = metres_from_mm(json.number_or("reference_mm", mm_from_metres(sensor.reference), kPositive));
+  sensor.near = metres_from_mm(json.number_or("near_mm", mm_from_metres(sensor.near), kPositive));
+  sensor.far = metres_from_mm(json.number_or("far_mm", mm_from_metres(sensor.far), kPositive));
+  if (sensor.far <= sensor.near) json.fail_at("far_mm", "must be above near_mm");
+  sensor.radiant_dn_mm2 = json.number_or("radiant_dn_mm2", sensor.radiant_dn_mm2, kPositive);
+  if (json.has("noise")) sensor.noise = noise_from_json(json.at("noise"));
+  if (json.has("pattern")) read_pattern(json.at("pattern"), sensor.pattern);
+  if (json.has("matcher")) read_matcher(json.at("matcher"), sensor.matcher);
+  if (json.has("quantization")) {
+    const std::string choices[] = {"device", "off"};
+    sensor.quantized = json.at("quantization").choice(choices, "quantization") == 0;
+  }
+}
+
+Pose pose_from_json(const JsonReader& json, double baseline) {
+  const double height = metres_from_mm(json.number("height_mm", kPositive));
+  const Eigen::Vector3d midpoint(0.0, 0.0, height);
+  const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, {-180.0, 180.0}));
+  if (json.has("aim_mm") == json.has("pitch_deg")) json.fail("needs either aim_mm or pitch_deg beside height_mm");
+  if (json.has("pitch_deg"))
+    return camera_pose(midpoint, radians_from_deg(json.number("pitch_deg", {-90.0, 90.0})), 0.0, roll, baseline);
+  const Eigen::Vector3d forward = json.at("aim_mm").vector3() * kMetresPerMm - midpoint;
+  if (forward.norm() == 0.0) json.fail_at("aim_mm", "must not be the sensor's own place");
+  const double horizontal = std::hypot(forward.x(), forward.y());
+  const double yaw = horizontal > 0.0 ? std::atan2(-forward.x(), forward.y()) : 0.0;
+  return camera_pose(midpoint, std::atan2(-forward.z(), horizontal), yaw, roll, baseline);
+}
+
+}  // namespace
+
+Eigen::Vector3d Rig::direction_in_world(double x_px, double y_px) const {
+  const Eigen::Vector3d in_camera((x_px - sensor.principal_px.x()) / sensor.focal_px,
+                                  (y_px - sensor.principal_px.y()) / sensor.focal_px, 1.0);
+  return world_from_camera.linear() * in_camera.normalized();
+}
+
+Pose camera_pose(const Eigen::Vector3d& midpoint_in_world, double pitch, double yaw, double roll, double baseline) {
+  // Columns: the camera's right, down and forward in the world when it looks along +y.
+  Eigen::Matrix3d world_from_level;
+  world_from_level << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  Pose world_from_camera;
+  world_from_camera.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * world_from_level *
+                               Eigen::AngleAxisd(-pitch, Eigen::Vector3d::UnitX()) *
+                               Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
+  world_from_camera.translation() = midpoint_in_world - 0.5 * baseline * world_from_camera.linear().col(0);
+  return world_from_camera;
+}
+
+Rig rig_from_json(const JsonReader& json) {
+  json.allow_only({"model", "height_mm", "aim_mm", "pitch_deg", "roll_deg", "baseline_mm", "wavelength_nm", "ir_size_px",
+                   "depth_size_px", "focal_px", "principal_px", "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2",
+                   "noise", "quantization", "pattern", "matcher"});
+  Rig rig;
+  rig.sensor.noise = kNoisePresets[1].second;
+  if (json.has("model")) {
+    const std::string name = json.text("model");
+    const std::filesystem::path file = library_file("sensors", "sensor model", name, json.file(), json.pointer() + "/model");
+    const Json text = read_json(file);
+    const JsonReader model(text, file.string());
+    model.allow_only({"source", "baseline_mm", "wavelength_nm", "ir_size_px", "depth_size_px", "focal_px", "principal_px",
+                      "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2", "noise", "quantization", "pattern", "matcher"});
+    read_model(model, rig.sensor);
+    rig.sensor.name = name;
+  }
+  read_model(json, rig.sensor);
+  rig.world_from_camera = pose_from_json(json, rig.sensor.baseline);
+  return rig;
+}
+
+Json json_from_rig(const Rig& rig) {
+  const SensorModel& s = rig.sensor;
+  const Eigen::Matrix3d world_from_camera = rig.world_from_camera.linear();
+  const Eigen::Vector3d forward = world_from_camera.col(2), right = world_from_camera.col(0);
+  const Eigen::Vector3d midpoint = 0.5 * (rig.camera_in_world() + rig.projector_in_world());
+  const double pitch = std::asin(std::clamp(-forward.z(), -1.0, 1.0));
+  return {
+      {"model", s.name},
+      {"height_mm", mm_from_metres(midpoint.z())},
+      {"pitch_deg", deg_from_radians(pitch)},
+      {"roll_deg", deg_from_radians(std::asin(std::clamp(-right.z(), -1.0, 1.0)))},
+      {"baseline_mm", mm_from_metres(s.baseline)},
+      {"wavelength_nm", s.wavelength_nm},
+      {"ir_size_px", {s.ir_width, s.ir_height}},
+      {"depth_size_px", {s.width, s.height}},
+      {"focal_px", s.focal_px},
+      {"principal_px", {s.principal_px.x(), s.principal_px.y()}},
+      {"reference_mm", mm_from_metres(s.reference)},
+      {"near_mm", mm_from_metres(s.near)},
+      {"far_mm", mm_from_metres(s.far)},
+      {"radiant_dn_mm2", s.radiant_dn_mm2},
+      {"quantization", s.quantized ? "device" : "off"},
+      {"noise",
+       {{"speckle_shape", s.noise.speckle_shape},
+        {"electrons_per_dn", s.noise.electrons_per_dn},
+        {"read_dn", s.noise.read_dn},
+        {"bits", s.noise.bits}}},
+      {"pattern",
+       {{"tile_columns", s.pattern.tile_columns},
+        {"tile_rows", s.pattern.tile_rows},
+        {"tiles_across", s.pattern.tiles_across},
+        {"tiles_down", s.pattern.tiles_down},
+        {"step_px", s.pattern.step_px},
+        {"dots_per_tile", s.pattern.dots_per_tile},
+        {"dot_sigma_ir_px", s.pattern.dot_sigma_ir_px},
+        {"seed", s.pattern.seed}}},
+      {"matcher",
+       {{"window_columns", s.matcher.window_columns},
+        {"window_rows", s.matcher.window_rows},
+        {"disparity_min_px", s.matcher.disparity_min_px},
+        {"disparity_max_px", s.matcher.disparity_max_px},
+        {"correlation_min", s.matcher.correlation_min},
+        {"contrast_min_dn", s.matcher.contrast_min}}},
+  };
+}
+
+}  // namespace fathom

@@ -1,0 +1,192 @@
+#include "sim/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/units.h"
+#include "sim/scene/library.h"
+
+namespace fathom {
+namespace {
+
+constexpr Range kAlbedo{0.0, 1.0};
+
+Desk desk_from_json(const JsonReader& json) {
+  json.allow_only({"albedo", "size_mm", "centre_mm"});
+  Desk desk;
+  desk.albedo = json.number_or("albedo", desk.albedo, kAlbedo);
+  if (json.has("size_mm")) desk.size = json.at("size_mm").vector2() * kMetresPerMm;
+  if (json.has("centre_mm")) desk.centre = json.at("centre_mm").vector2() * kMetresPerMm;
+  if (desk.size.minCoeff() <= 0.0) json.fail_at("size_mm", "must be two lengths above 0");
+  return desk;
+}
+
+Handle handle_from_json(const JsonReader& json) {
+  json.allow_only({"low_mm", "high_mm", "reach_mm", "tube_radius_mm"});
+  Handle handle;
+  handle.low = metres_from_mm(json.number_or("low_mm", mm_from_metres(handle.low), kPositive));
+  handle.high = metres_from_mm(json.number_or("high_mm", mm_from_metres(handle.high), kPositive));
+  handle.reach = metres_from_mm(json.number_or("reach_mm", mm_from_metres(handle.reach), kPositive));
+  handle.tube_radius = metres_from_mm(json.number_or("tube_radius_mm", mm_from_metres(handle.tube_radius), kPositive));
+  if (handle.high <= handle.low) json.fail_at("high_mm", "must be above low_mm");
+  return handle;
+}
+
+std::vector<Eigen::Vector2d> profile_from_json(const JsonReader& json) {
+  std::vector<Eigen::Vector2d> profile;
+  for (const JsonReader& item : json.items()) {
+    profile.push_back(item.vector2() * kMetresPerMm);
+    if (profile.back().minCoeff() < 0.0) item.fail("must be a radius and a height of at least 0");
+    if (profile.size() > 1 && profile.back().y() < profile[profile.size() - 2].y())
+      item.fail("must not be lower than the point before it");
+  }
+  if (profile.size() < 3) json.fail("must hold at least 3 points, from the axis to the rim");
+  if (profile.front().x() != 0.0) json.fail("must start on the axis (radius 0)");
+  return profile;
+}
+
+/// Straight walls: the paper's cup and every "height, radii, bottom" description.
+void set_cylinder(const JsonReader& json, CupShape& shape) {
+  const double height = metres_from_mm(json.number("height_mm", kPositive));
+  const double bottom = metres_from_mm(json.number("bottom_mm", kNonNegative));
+  const double inner = metres_from_mm(json.number("inner_radius_mm", kPositive));
+  const double outer = metres_from_mm(json.number("outer_radius_mm", kPositive));
+  if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
+  if (outer <= inner) json.fail_at("outer_radius_mm", "must be above inner_radius_mm");
+  shape.inner = {{0.0, bottom}, {inner, bottom}, {inner, height}};
+  shape.outer = {{0.0, 0.0}, {outer, 0.0}, {outer, height}};
+}
+
+CupShape shape_from_object(const JsonReader& json) {
+  json.allow_only({"name", "height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm", "inner_profile_mm",
+                   "outer_profile_mm", "albedo", "handle", "source"});
+  CupShape shape;
+  shape.name = json.text_or("name", "cup");
+  shape.albedo = json.number_or("albedo", shape.albedo, kAlbedo);
+  shape.source = json.text_or("source", "");
+  if (json.has("handle")) shape.handle = handle_from_json(json.at("handle"));
+  if (!json.has("inner_profile_mm") && !json.has("outer_profile_mm")) {
+    set_cylinder(json, shape);
+    return shape;
+  }
+  for (const char* key : {"height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm"})
+    if (json.has(key)) json.fail_at(key, "cannot stand beside a profile, which already says it");
+  shape.inner = profile_from_json(json.at("inner_profile_mm"));
+  shape.outer = profile_from_json(json.at("outer_profile_mm"));
+  if (shape.outer.front().y() != 0.0) json.fail_at("outer_profile_mm", "must start at height 0, on the desk");
+  if (shape.inner.back().y() != shape.outer.back().y()) json.fail_at("inner_profile_mm", "must end at the outer rim's height");
+  if (shape.inner.back().x() >= shape.outer.back().x()) json.fail_at("inner_profile_mm", "must end inside the outer rim");
+  return shape;
+}
+
+Cup cup_from_json(const JsonReader& json) {
+  json.allow_only({"shape", "position_mm", "yaw_deg", "liquid", "fill_mm"});
+  Cup cup;
+  cup.shape = cup_shape_from_json(json.at("shape"));
+  cup.position = json.at("position_mm").vector2() * kMetresPerMm;
+  cup.yaw = radians_from_deg(json.number_or("yaw_deg", 0.0));
+  if (!json.has("liquid")) {
+    if (json.has("fill_mm")) json.fail_at("fill_mm", "needs a liquid");
+    return cup;
+  }
+  const double depth_limit = cup.shape.height() - cup.shape.bottom();
+  Filling filling;
+  filling.medium = medium_from_json(json.at("liquid"));
+  filling.depth = metres_from_mm(json.number("fill_mm", kNonNegative));
+  if (filling.depth > depth_limit)
+    json.fail_at("fill_mm", fmt::format("must be at most {:g}, the depth of the cup", mm_from_metres(depth_limit)));
+  if (filling.depth > 0.0) cup.filling = std::move(filling);
+  return cup;
+}
+
+Object object_from_json(const JsonReader& json) {
+  json.allow_only({"gltf", "position_mm", "rotation_deg"});
+  Object object;
+  object.gltf = std::filesystem::path(json.file()).parent_path() / json.text("gltf");
+  const Eigen::Vector3d position =
+      json.has("position_mm") ? Eigen::Vector3d(json.at("position_mm").vector3() * kMetresPerMm) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d angles = json.has("rotation_deg") ? json.at("rotation_deg").vector3() : Eigen::Vector3d::Zero();
+  // About the fixed world axes x, then y, then z.
+  object.world_from_object = Eigen::Translation3d(position) *
+                             Eigen::AngleAxisd(radians_from_deg(angles.z()), Eigen::Vector3d::UnitZ()) *
+                             Eigen::AngleAxisd(radians_from_deg(angles.y()), Eigen::Vector3d::UnitY()) *
+                             Eigen::AngleAxisd(radians_from_deg(angles.x()), Eigen::Vector3d::UnitX());
+  return object;
+}
+
+void set_index(const JsonReader& json, Medium& medium) {
+  constexpr Range kIndex{1.0, 4.0};
+  const JsonReader index = json.at("index");
+  if (index.value().is_number()) {
+    medium.index = ConstantIndex{index.number(kIndex)};
+    return;
+  }
+  index.allow_only({"sellmeier_a", "sellmeier_b_um2", "range_nm"});
+  SellmeierIndex law{index.at("sellmeier_a").numbers(), index.at("sellmeier_b_um2").numbers()};
+  if (law.a.size() != law.b_um2.size() || law.a.empty())
+    index.fail_at("sellmeier_b_um2", "must hold as many numbers as sellmeier_a, at least one");
+  const Eigen::Vector2d range = index.at("range_nm").vector2();
+  medium.index = std::move(law);
+  medium.wavelength_min_nm = range[0];
+  medium.wavelength_max_nm = range[1];
+}
+
+}  // namespace
+
+double CupShape::inner_radius(double height_above_desk) const {
+  for (std::size_t i = 1; i < inner.size(); ++i) {
+    const Eigen::Vector2d &below = inner[i - 1], &above = inner[i];
+    if (height_above_desk > above.y() || above.y() == below.y()) continue;
+    const double t = (height_above_desk - below.y()) / (above.y() - below.y());
+    return below.x() + std::clamp(t, 0.0, 1.0) * (above.x() - below.x());
+  }
+  return inner.back().x();
+}
+
+CupShape cup_shape_from_json(const JsonReader& json) {
+  if (!json.value().is_string()) return shape_from_object(json);
+  const std::string name = json.text();
+  if (name.ends_with(".gltf") || name.ends_with(".glb"))
+    json.fail("glTF cups cannot be filled yet; name a shape of scenes/cups or describe one by its profile");
+  const std::filesystem::path file = library_file("cups", "cup shape", name, json.file(), json.pointer());
+  const Json text = read_json(file);
+  CupShape shape = shape_from_object(JsonReader(text, file.string()));
+  shape.name = name;
+  return shape;
+}
+
+Medium medium_from_json(const JsonReader& json) {
+  if (json.value().is_string()) {
+    const std::string name = json.text();
+    const std::filesystem::path file = library_file("media", "liquid", name, json.file(), json.pointer());
+    const Json text = read_json(file);
+    Medium medium = medium_from_json(JsonReader(text, file.string()));
+    medium.name = name;
+    return medium;
+  }
+  json.allow_only({"name", "index", "absorption_per_mm", "scattering_per_mm", "anisotropy", "source", "quality"});
+  Medium medium;
+  medium.name = json.text_or("name", "liquid");
+  set_index(json, medium);
+  medium.absorption = per_metre_from_per_mm(json.number_or("absorption_per_mm", 0.0, kNonNegative));
+  medium.scattering = per_metre_from_per_mm(json.number_or("scattering_per_mm", 0.0, kNonNegative));
+  medium.anisotropy = json.number_or("anisotropy", 0.0, {-0.999, 0.999});
+  medium.source = json.text_or("source", "");
+  return medium;
+}
+
+Scene scene_from_json(const JsonReader& json) {
+  Scene scene;
+  if (json.has("desk")) {
+    if (json.value()["desk"].is_null())
+      scene.desk.reset();
+    else
+      scene.desk = desk_from_json(json.at("desk"));
+  }
+  for (const JsonReader& cup : json.items_or_none("cups")) scene.cups.push_back(cup_from_json(cup));
+  for (const JsonReader& object : json.items_or_none("objects")) scene.objects.push_back(object_from_json(object));
+  return scene;
+}
+
+}  // namespace fathom

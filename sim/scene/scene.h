@@ -1,0 +1,74 @@
+// What stands in front of the sensor, as plain data: desk, cups, liquids, objects. Lengths in metres, angles in radians.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "core/pose.h"
+#include "sim/optics/medium.h"
+
+namespace fathom {
+
+struct Desk {
+  double albedo = 0.55;
+  Eigen::Vector2d size{1.4, 1.0};    ///< along x and y
+  Eigen::Vector2d centre{0.0, 0.5};  ///< so that the near edge stands under the sensor
+};
+
+/// A handle: a tube of circular section, bent into half an ellipse in the vertical plane at the cup's yaw.
+struct Handle {
+  double low = 0.020;          ///< height above the desk where it leaves the wall
+  double high = 0.070;         ///< height where it joins the wall again
+  double reach = 0.030;        ///< how far its centre line stands out of the wall
+  double tube_radius = 0.005;
+};
+
+/// A body of revolution. Profiles run from the axis (radius 0) to the rim as (radius, height above the desk).
+struct CupShape {
+  std::string name;
+  std::vector<Eigen::Vector2d> inner;  ///< from the inner bottom's centre to the rim
+  std::vector<Eigen::Vector2d> outer;  ///< from the underside's centre to the rim
+  double albedo = 0.70;
+  std::optional<Handle> handle;
+  std::string source;
+
+  double height() const { return outer.back().y(); }
+  double bottom() const { return inner.front().y(); }
+  /// Inner radius at a height above the desk, by linear interpolation of the profile.
+  double inner_radius(double height_above_desk) const;
+};
+
+struct Filling {
+  Medium medium;
+  double depth = 0.0;  ///< of the liquid above the inner bottom's centre
+};
+
+struct Cup {
+  CupShape shape;
+  Eigen::Vector2d position{0.0, 0.4};  ///< of the axis on the desk
+  double yaw = 0.0;                    ///< direction of the handle, from +x towards +y
+  std::optional<Filling> filling;
+};
+
+struct Object {
+  std::filesystem::path gltf;
+  Pose world_from_object = Pose::Identity();  ///< after glTF's +Y up became z up
+};
+
+struct Scene {
+  std::optional<Desk> desk = Desk{};
+  std::vector<Cup> cups;
+  std::vector<Object> objects;
+};
+
+/// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes and media
+/// come from scenes/cups and scenes/media; relative glTF paths are relative to the scene file.
+Scene scene_from_json(const JsonReader& json);
+CupShape cup_shape_from_json(const JsonReader& json);
+Medium medium_from_json(const JsonReader& json);
+
+}  // namespace fathom

@@ -1,0 +1,77 @@
+#include "sim/sensor/capture.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "sim/render/intersect.h"
+#include "sim/sensor/depth.h"
+#include "sim/sensor/ir_camera.h"
+#include "sim/sensor/match.h"
+
+namespace fathom {
+namespace {
+
+/// Runs `work` and adds its wall-clock time.
+template <class Work>
+auto timed(double& seconds, Work work) {
+  const auto start = std::chrono::steady_clock::now();
+  auto result = work();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace
+
+Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed)
+    : rig_(setup.rig), mode_(mode), seed_(seed) {
+  const SensorModel& sensor = rig_.sensor;
+  geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
+  const Intersector world(geometry_);
+  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(world, rig_); });
+  statistics_.camera_rays = truth_.size();
+  if (mode == CaptureMode::geometric) return;
+
+  const int samples_across = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
+  Pattern pattern(sensor.pattern, sensor.ir_scale());
+  const int margin = reference_margin(sensor.matcher);
+  reference_ = timed(statistics_.reference_s,
+                     [&] { return memorise(sensor, reference_image(sensor, pattern, margin, samples_across), margin); });
+  pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
+  radiance_ = timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across); });
+  statistics_.camera_rays += radiance_.size() * samples_across * samples_across;
+}
+
+Frame Camera::shoot(std::uint64_t frame) {
+  return mode_ == CaptureMode::geometric ? shoot_geometric() : shoot_photometric(frame);
+}
+
+Frame Camera::shoot_geometric() {
+  Frame shot;
+  shot.disparity_px = Image<float>(truth_.width(), truth_.height());
+  Image<float> intensity(truth_.width(), truth_.height());
+  for (std::size_t i = 0; i < truth_.size(); ++i) {
+    const TruePixel& pixel = truth_.pixels()[i];
+    intensity.pixels()[i] = static_cast<float>(pixel.intensity);
+    if (pixel.apparent_depth)
+      shot.disparity_px.pixels()[i] = static_cast<float>(disparity_of_depth(rig_.sensor, *pixel.apparent_depth));
+  }
+  shot.depth = depth_image(rig_.sensor, shot.disparity_px);
+  shot.cloud = cloud_of_depth(rig_.sensor, shot.depth, intensity);
+  return shot;
+}
+
+Frame Camera::shoot_photometric(std::uint64_t frame) {
+  const SensorModel& sensor = rig_.sensor;
+  Frame shot;
+  shot.ir = expose(radiance_, sensor.noise, seed_, frame);
+  shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, reference_).disparity_px; });
+  shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
+  Image<float> intensity(sensor.width, sensor.height);
+  const Image<float> half = halved(shot.ir);
+  for (int y = 0; y < sensor.height; ++y)
+    for (int x = 0; x < sensor.width; ++x) intensity(x, y) = half(x, y + sensor.ir_first_row() / 2);
+  shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);
+  return shot;
+}
+
+}  // namespace fathom

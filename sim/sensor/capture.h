@@ -1,0 +1,60 @@
+// One shot of the simulated sensor, in ten lines.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/cloud_file.h"
+#include "core/image.h"
+#include "sim/render/truth.h"
+#include "sim/scene/setup.h"
+#include "sim/sensor/reference.h"
+
+namespace fathom {
+
+enum class CaptureMode {
+  geometric,   ///< every pixel's exact refracted triangulation, no images
+  photometric  ///< infrared image → matching → depth
+};
+
+struct Frame {
+  Image<float> ir;            ///< [DN] ir_width × ir_height; empty in geometric mode
+  Image<float> disparity_px;  ///< f b / Z, 0 = invalid
+  Image<float> depth;         ///< [m], 0 = invalid
+  Image<CloudPoint> cloud;    ///< camera frame [m]
+};
+
+/// Wall-clock times [s] and counts of what a capture did, for run.json.
+struct CaptureStatistics {
+  double build_s = 0, truth_s = 0, reference_s = 0, render_s = 0, match_s = 0, depth_s = 0;
+  std::uint64_t camera_rays = 0;  ///< traced from the camera, truth included
+};
+
+/// A scene that is ready to be shot several times: traced, rendered and memorised once.
+class Camera {
+ public:
+  Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed);
+
+  /// The frame of that number; only the noise differs from frame to frame.
+  Frame shoot(std::uint64_t frame);
+
+  const Geometry& geometry() const { return geometry_; }
+  const Image<TruePixel>& truth() const { return truth_; }
+  const CaptureStatistics& statistics() const { return statistics_; }
+
+ private:
+  Frame shoot_geometric();
+  Frame shoot_photometric(std::uint64_t frame);
+
+  Rig rig_;
+  CaptureMode mode_;
+  std::uint64_t seed_;
+  Geometry geometry_;
+  Image<TruePixel> truth_;
+  Image<float> radiance_;
+  Reference reference_;
+  CaptureStatistics statistics_;
+};
+
+}  // namespace fathom

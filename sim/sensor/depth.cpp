@@ -1,0 +1,57 @@
+#include "sim/sensor/depth.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+/// Steps of 1/8 px between a depth [mm] and the reference plane, growing with distance: 8 f b (1/z_ref − 1/z).
+double steps_per_inverse_mm(const SensorModel& sensor) { return 8.0 * sensor.focal_px * mm_from_metres(sensor.baseline); }
+
+}  // namespace
+
+std::optional<double> device_depth(const SensorModel& sensor, int code) {
+  const double inverse_mm = 1.0 / mm_from_metres(sensor.reference) - (code + 0.5) / steps_per_inverse_mm(sensor);
+  if (inverse_mm <= 0.0) return std::nullopt;
+  return metres_from_mm(std::floor(1.0 / inverse_mm));
+}
+
+int device_code(const SensorModel& sensor, double depth) {
+  const double inverse_mm = 1.0 / mm_from_metres(depth);
+  return static_cast<int>(std::lround(steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - 0.5));
+}
+
+double disparity_of_depth(const SensorModel& sensor, double depth) { return sensor.focal_px * sensor.baseline / depth; }
+
+Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px) {
+  Image<float> depth(disparity_px.width(), disparity_px.height());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double disparity = disparity_px.pixels()[i];
+    if (disparity <= 0.0) continue;
+    std::optional<double> z = sensor.focal_px * sensor.baseline / disparity;
+    if (sensor.quantized) z = device_depth(sensor, device_code(sensor, *z));
+    if (z && *z >= sensor.near && *z <= sensor.far) depth.pixels()[i] = static_cast<float>(*z);
+  }
+  return depth;
+}
+
+Image<CloudPoint> cloud_of_depth(const SensorModel& sensor, const Image<float>& depth, const Image<float>& intensity) {
+  constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+  Image<CloudPoint> cloud(depth.width(), depth.height());
+  for (int y = 0; y < depth.height(); ++y)
+    for (int x = 0; x < depth.width(); ++x) {
+      const double z = depth(x, y);
+      CloudPoint& point = cloud(x, y);
+      point = {kInvalid, kInvalid, kInvalid, intensity(x, y)};
+      if (z <= 0.0) continue;
+      point.x = static_cast<float>(z * (x + 0.5 - sensor.principal_px.x()) / sensor.focal_px);
+      point.y = static_cast<float>(z * (y + 0.5 - sensor.principal_px.y()) / sensor.focal_px);
+      point.z = static_cast<float>(z);
+    }
+  return cloud;
+}
+
+}  // namespace fathom

@@ -1,0 +1,180 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/parallel.h"
+#include "sim/sensor/match.h"
+
+namespace fathom {
+namespace {
+
+constexpr int kReach = 4;  ///< [depth px] a window of 9 whose centre lies this far away just covers the pixel
+constexpr int kOwn = 8;    ///< [infrared px] side of the square that counts as the pixel's own
+
+struct Step {
+  int dx, dy;
+};
+constexpr int kLookout = 4;  ///< [depth px] edges farther away than this do not touch the pixel's window
+constexpr std::array<Step, 4> kAcross{{{-kLookout, 0}, {kLookout, 0}, {0, -kLookout}, {0, kLookout}}};
+constexpr std::array<Step, 9> kAround{{{0, 0}, {-kReach, 0}, {kReach, 0}, {0, -kReach}, {0, kReach},
+                                       {-kReach, -kReach}, {kReach, -kReach}, {-kReach, kReach}, {kReach, kReach}}};
+
+/// How well a surface explains the dots seen at a pixel.
+struct Explanation {
+  float error;      ///< Σ (seen − predicted)² [DN²]
+  float seen;       ///< Σ (seen − bias)²
+  float predicted;  ///< Σ (predicted − bias)²
+};
+
+class EdgeSettler {
+ public:
+  EdgeSettler(const SensorModel& sensor, const Image<float>& ir, const Reference& reference, const Image<Estimate>& estimates)
+      : sensor_(sensor), ir_(ir), reference_(reference), estimates_(estimates), edges_(sensor.width, sensor.height),
+        noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kOwn * kOwn) {
+    parallel_ranges(edges_.height(), [&](int begin, int end) {
+      for (int y = begin; y < end; ++y)
+        for (int x = 0; x < edges_.width(); ++x) edges_(x, y) = near_edge(x, y);
+    });
+  }
+
+  /// Whether the windows around the pixel meet more than one surface.
+  bool is_edge(int x, int y) const { return edges_(x, y) != 0; }
+
+  Estimate settle(int x, int y) const {
+    Estimate best;
+    float least_error = std::numeric_limits<float>::infinity();
+    for (Estimate& surface : surfaces_around(x, y)) {
+      const bool own = surface.disparity == estimates_(x, y).disparity;
+      surface.disparity = from_clean_neighbours(x, y, surface);
+      const Explanation found = explain(x, y, surface);
+      if (found.error >= least_error || !holds(found, own)) continue;
+      least_error = found.error;
+      best = surface;
+    }
+    return best;
+  }
+
+ private:
+  bool inside(int x, int y) const { return x >= 0 && x < estimates_.width() && y >= 0 && y < estimates_.height(); }
+
+  static float extended(const Estimate& estimate, int dx, int dy) {
+    return estimate.disparity + estimate.slope_x * static_cast<float>(dx) + estimate.slope_y * static_cast<float>(dy);
+  }
+
+  bool near_edge(int x, int y) const {
+    constexpr float kStep = 0.4f;  // [px] of disparity beyond what the slope explains
+    constexpr float kDrop = 0.1f;  // of the correlation: foreign dots in this window
+    const Estimate& here = estimates_(x, y);
+    for (const auto& [dx, dy] : kAcross) {
+      if (!inside(x + dx, y + dy)) continue;
+      const Estimate& there = estimates_(x + dx, y + dy);
+      if (here.valid() != there.valid() || std::fabs(there.disparity - extended(here, dx, dy)) > kStep) return true;
+      if (here.correlation < there.correlation - kDrop) return true;
+    }
+    return false;
+  }
+
+  /// The different surfaces that the pixel's own and the neighbouring windows found, extended to the pixel, each from its
+  /// best correlated window.
+  std::vector<Estimate> surfaces_around(int x, int y) const {
+    constexpr float kDifferent = 0.6f;  // [px]
+    std::vector<Estimate> surfaces;
+    for (const auto& [dx, dy] : kAround) {
+      if (!inside(x + dx, y + dy) || !estimates_(x + dx, y + dy).valid()) continue;
+      Estimate found = estimates_(x + dx, y + dy);
+      found.disparity = extended(found, -dx, -dy);
+      const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const Estimate& other) {
+        return std::fabs(other.disparity - found.disparity) < kDifferent;
+      });
+      if (same == surfaces.end())
+        surfaces.push_back(found);
+      else if (found.correlation > same->correlation)
+        *same = found;
+    }
+    return surfaces;
+  }
+
+  /// A surface's disparity at the pixel from the plane through those neighbours whose windows meet only this surface:
+  /// windows that reach over the edge are pulled by the other surface's dots. Its own where too few are clean.
+  float from_clean_neighbours(int x, int y, Estimate surface) const {
+    for (const float same_surface : {0.6f, 0.15f, 0.05f}) {  // [px]; the later rounds leave out what lies beyond a crease
+      const std::optional<Eigen::Vector3f> plane = plane_of_neighbours(x, y, surface, same_surface);
+      if (!plane) break;
+      surface.disparity = (*plane)[0], surface.slope_x = (*plane)[1], surface.slope_y = (*plane)[2];
+    }
+    return surface.disparity;
+  }
+
+  std::optional<Eigen::Vector3f> plane_of_neighbours(int x, int y, const Estimate& surface, float same_surface) const {
+    constexpr int kFar = 8, kStride = 2, kEnough = 6;
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (int dy = -kFar; dy <= kFar; dy += kStride)
+      for (int dx = -kFar; dx <= kFar; dx += kStride) {
+        if (!inside(x + dx, y + dy) || is_edge(x + dx, y + dy)) continue;
+        const float there = estimates_(x + dx, y + dy).disparity;
+        if (!(std::fabs(there - extended(surface, dx, dy)) < same_surface)) continue;
+        const Eigen::Vector3d row(1.0, dx, dy);
+        normal += row * row.transpose();
+        right += row * there;
+      }
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+    if (normal(0, 0) < kEnough || solver.vectorD().minCoeff() < 1.0) return std::nullopt;
+    return solver.solve(right).cast<float>();
+  }
+
+  /// A pixel without dots, seen or predicted, keeps its own estimate but takes no other's.
+  bool holds(const Explanation& found, bool own) const {
+    constexpr float kUnexplained = 0.5f;
+    const float energy = std::max(found.seen, found.predicted);
+    return energy < noise_energy_ ? own : found.error < kUnexplained * energy;
+  }
+
+  Explanation explain(int x, int y, const Estimate& surface) const {
+    const ReferenceShift shift = reference_shift(surface.disparity);
+    const int column = std::clamp(2 * x + 1 - kOwn / 2, 0, ir_.width() - kOwn);
+    const int row = sensor_.ir_first_row() + 2 * y + 1 - kOwn / 2;
+    const int reference_column = column + 2 * reference_.margin_px + shift.whole;
+    if (reference_column < 0 || reference_column + kOwn > reference_.shifted[0].width()) return {1.0f, 0.0f, 1.0f};
+    Explanation result{0.0f, 0.0f, 0.0f};
+    for (int j = row; j < row + kOwn; ++j) {
+      const float* live = ir_.row(j) + column;
+      const float* shifted = reference_.shifted[shift.phase].row(j) + reference_column;
+      const float* gradient = reference_.gradient[shift.phase].row(j) + reference_column;
+      for (int i = 0; i < kOwn; ++i) {
+        const float seen = live[i] - surface.bias;
+        const float predicted = surface.gain * (shifted[i] + shift.rest_ir_px * gradient[i]);
+        result.error += (seen - predicted) * (seen - predicted);
+        result.seen += seen * seen;
+        result.predicted += predicted * predicted;
+      }
+    }
+    return result;
+  }
+
+  const SensorModel& sensor_;
+  const Image<float>& ir_;
+  const Reference& reference_;
+  const Image<Estimate>& estimates_;
+  Image<std::uint8_t> edges_;
+  float noise_energy_;
+};
+
+}  // namespace
+
+Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& ir, const Reference& reference, const Image<Estimate>& estimates) {
+  Image<Estimate> settled = estimates;
+  const EdgeSettler settler(sensor, ir, reference, estimates);
+  const int border = sensor.matcher.window_columns / 4;
+  parallel_ranges(sensor.height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = border; x < sensor.width - border; ++x)
+        if (settler.is_edge(x, y)) settled(x, y) = settler.settle(x, y);
+  });
+  return settled;
+}
+
+}  // namespace fathom

@@ -1,0 +1,79 @@
+#include "sim/sensor/ir_camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/rng.h"
+#include "sim/render/connection.h"
+#include "sim/render/radiance.h"
+#include "sim/render/truth.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
+constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
+
+/// Radiance [DN] along one camera ray.
+double sample_radiance(const Intersector& world, const Rig& rig, const Pattern& pattern, const Eigen::Vector3d& projector, const Ray& ray) {
+  const std::optional<SeenPoint> seen = see(world, ray);
+  const std::optional<Illumination> light = seen ? illuminate(world, projector, *seen) : std::nullopt;
+  if (!light) return 0.0;
+  const Eigen::Vector2d at = rectified(rig, light->direction);
+  return radiance_dn(rig.sensor, *seen, *light) * pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+}
+
+}  // namespace
+
+Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across) {
+  const SensorModel& sensor = rig.sensor;
+  const double px_per_ir_px = 1.0 / sensor.ir_scale();
+  const Eigen::Vector3d camera = rig.camera_in_world(), projector = rig.projector_in_world();
+  Image<float> image(sensor.ir_width, sensor.ir_height);
+  parallel_ranges(image.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < image.width(); ++x) {
+        double sum = 0.0;
+        for (int j = 0; j < samples_across; ++j)
+          for (int i = 0; i < samples_across; ++i) {
+            const double x_px = (x + (i + 0.5) / samples_across) * px_per_ir_px;
+            const double y_px = (y - sensor.ir_first_row() + (j + 0.5) / samples_across) * px_per_ir_px;
+            sum += sample_radiance(world, rig, pattern, projector, {camera, rig.direction_in_world(x_px, y_px)});
+          }
+        image(x, y) = static_cast<float>(sum / (samples_across * samples_across));
+      }
+  });
+  return image;
+}
+
+std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed) {
+  std::vector<float> gains;
+  if (noise.speckle_shape <= 0.0) return gains;
+  gains.resize(static_cast<std::size_t>(pattern.columns()) * pattern.rows());
+  for (std::size_t dot = 0; dot < gains.size(); ++dot)
+    gains[dot] = static_cast<float>(Rng(seed, kSpeckleStream, dot).gamma(noise.speckle_shape, 1.0 / noise.speckle_shape));
+  return gains;
+}
+
+Image<float> expose(const Image<float>& radiance, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame) {
+  Image<float> image(radiance.width(), radiance.height());
+  const double full_scale = noise.bits > 0 ? std::exp2(noise.bits) - 1.0 : 0.0;
+  const bool random = noise.electrons_per_dn > 0.0 || noise.read_dn > 0.0;
+  parallel_ranges(image.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < image.width(); ++x) {
+        double value = radiance(x, y);
+        if (random) {
+          Rng rng(seed, kDetectorStream, frame, static_cast<std::uint64_t>(y) * image.width() + x);
+          const double shot_variance = noise.electrons_per_dn > 0.0 ? value / noise.electrons_per_dn : 0.0;
+          value += std::sqrt(shot_variance + noise.read_dn * noise.read_dn) * rng.normal();
+        }
+        if (noise.bits > 0) value = std::clamp(std::round(value), 0.0, full_scale);
+        image(x, y) = static_cast<float>(value);
+      }
+  });
+  return image;
+}
+
+}  // namespace fathom

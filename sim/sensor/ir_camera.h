@@ -1,0 +1,23 @@
+// The infrared image: radiance sampled over each pixel, then the detector's noise.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.h"
+#include "sim/render/intersect.h"
+#include "sim/scene/rig.h"
+#include "sim/sensor/pattern.h"
+
+namespace fathom {
+
+/// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise. Each pixel is sampled on a grid of
+/// `samples_across`² points; the dots are smooth, so a grid converges faster than random points and adds no noise.
+Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across);
+
+/// Speckle of a static scene: one gain of unit mean for every dot, Gamma(shape, 1/shape).
+std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed);
+
+/// Adds the detector's noise of one frame: shot, read, rounding and saturation. Keyed by (seed, frame, pixel).
+Image<float> expose(const Image<float>& radiance, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame);
+
+}  // namespace fathom

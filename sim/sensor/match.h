@@ -1,0 +1,67 @@
+// Dots to disparity: correlation of the infrared image against the memorised reference.
+//
+//   search   whole depth pixels: zero-mean normalised cross-correlation over the matcher's window, on halved images
+//   refine   fractions of an infrared pixel: the shift that maximises the correlation with the reference and its
+//            derivative, in closed form, on full images
+//   carry    that shift belongs to the centroid of the window's gradient energy; the local slope carries it to the pixel
+//   settle   near edges: the surface whose prediction explains the few dots around the pixel itself
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "core/image.h"
+#include "sim/sensor/reference.h"
+
+namespace fathom {
+
+struct Match {
+  Image<float> disparity_px;  ///< f b / Z at depth scale, 0 = invalid
+  Image<float> correlation;   ///< of the refined window, −1 … 1; 0 where nothing was found
+};
+
+/// `ir` is the whole infrared image [DN], ir_width × ir_height.
+Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference);
+
+// The steps, each from one image to the next.
+
+/// What is known at a pixel about the surface there. Disparities are relative to the reference plane, in depth pixels.
+struct Estimate {
+  float disparity = std::numeric_limits<float>::quiet_NaN();  ///< NaN: no match
+  float correlation = 0.0f;
+  float gain = 0.0f, bias = 0.0f;          ///< image ≈ gain · reference + bias
+  float centre_x = 0.0f, centre_y = 0.0f;  ///< where `disparity` holds, from the pixel's centre [px]
+  float slope_x = 0.0f, slope_y = 0.0f;    ///< of the disparity [px/px]
+
+  bool valid() const { return disparity == disparity; }
+};
+
+/// Disparity of every pixel's best window, interpolated from the scores [px]; NaN without a peak inside the range.
+Image<float> search(const SensorModel& sensor, const Image<float>& ir, const Reference& reference);
+
+/// Sub-pixel disparity at the centroid of each window, with gain, bias and correlation.
+Image<Estimate> refine(const SensorModel& sensor, const Image<float>& ir, const Reference& reference,
+                       const Image<float>& coarse);
+
+/// Fills in the slopes and moves every disparity from its centroid to its pixel's centre.
+void carry_to_pixels(Image<Estimate>& estimates);
+
+/// Where windows reach over an edge, replaces each estimate by the neighbouring one that predicts the pixel's own dots
+/// best, or by none when none does.
+Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& ir, const Reference& reference,
+                             const Image<Estimate>& estimates);
+
+/// A disparity as a place in the reference: column shift in whole infrared pixels, phase, and what is left over.
+struct ReferenceShift {
+  int whole;
+  int phase;
+  float rest_ir_px;  ///< |rest| ≤ ½ / kPhases
+};
+inline ReferenceShift reference_shift(float disparity) {
+  const float shift_ir_px = -2.0f * disparity;
+  const float steps = std::floor(shift_ir_px * kPhases + 0.5f);
+  const int whole = static_cast<int>(std::floor(steps / kPhases));
+  return {whole, static_cast<int>(steps) - whole * kPhases, shift_ir_px - steps / kPhases};
+}
+
+}  // namespace fathom

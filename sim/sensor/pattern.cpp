@@ -1,0 +1,208 @@
+#include "sim/sensor/pattern.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/rng.h"
+
+namespace fathom {
+namespace {
+
+constexpr int kUniqueWindow = 9, kUniqueRange = 136, kUniqueCells = 5;
+
+/// Distance of two positions on a ring of `size` places.
+int ring_distance(int a, int b, int size) {
+  const int straight = std::abs(a - b);
+  return std::min(straight, size - straight);
+}
+
+/// A tile in the making, with the sums that tell how crowded each place is.
+class TileMaker {
+ public:
+  TileMaker(int columns, int rows, Rng rng) : tile_(columns, rows), crowding_(columns, rows), rng_(rng) {}
+
+  const Image<std::uint8_t>& tile() const { return tile_; }
+
+  int wrapped_x(int x) const { return (x % tile_.width() + tile_.width()) % tile_.width(); }
+  int wrapped_y(int y) const { return (y % tile_.height() + tile_.height()) % tile_.height(); }
+
+  bool is_free(int x, int y) const {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (tile_(wrapped_x(x + dx), wrapped_y(y + dy))) return false;
+    return true;
+  }
+
+  /// Whether a dot fits here and its image fits there.
+  bool can_take_pair(int x, int y) const {
+    const int mirror_x = tile_.width() - 1 - x, mirror_y = tile_.height() - 1 - y;
+    const bool near_mirror = ring_distance(x, mirror_x, tile_.width()) <= 1 && ring_distance(y, mirror_y, tile_.height()) <= 1;
+    return !near_mirror && is_free(x, y) && is_free(mirror_x, mirror_y);
+  }
+
+  /// Sets or clears a dot and its image under the tile's point symmetry.
+  void set_pair(int x, int y, bool on) {
+    set(x, y, on);
+    const int mirror_x = tile_.width() - 1 - x, mirror_y = tile_.height() - 1 - y;
+    if (mirror_x != x || mirror_y != y) set(mirror_x, mirror_y, on);
+  }
+
+  /// Adds a pair at the least crowded of a few random free places; false when no free place was found.
+  bool add_pair() {
+    constexpr int kCandidates = 4, kTries = 4000;
+    int best_x = -1, best_y = -1, found = 0;
+    for (int attempt = 0; attempt < kTries && found < kCandidates; ++attempt) {
+      const int x = static_cast<int>(rng_.below(static_cast<std::uint32_t>(tile_.width())));
+      const int y = static_cast<int>(rng_.below(static_cast<std::uint32_t>(tile_.height())));
+      if (!can_take_pair(x, y)) continue;
+      ++found;
+      if (best_x < 0 || crowding_(x, y) < crowding_(best_x, best_y)) best_x = x, best_y = y;
+    }
+    if (best_x < 0) return false;
+    set_pair(best_x, best_y, true);
+    return true;
+  }
+
+  /// Moves one random dot (and its image) of the window that starts at (x, y) to a free place nearby, so that the window
+  /// changes but does not get emptier.
+  void move_one(int x, int y) {
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+      const int from_x = wrapped_x(x + static_cast<int>(rng_.below(kUniqueWindow)));
+      const int from_y = wrapped_y(y + static_cast<int>(rng_.below(kUniqueWindow)));
+      const int to_x = wrapped_x(x + static_cast<int>(rng_.below(kUniqueWindow)));
+      const int to_y = wrapped_y(y + static_cast<int>(rng_.below(kUniqueWindow)));
+      const bool at_centre = from_x == tile_.width() - 1 - from_x && from_y == tile_.height() - 1 - from_y;
+      if (!tile_(from_x, from_y) || at_centre) continue;
+      set_pair(from_x, from_y, false);
+      const bool moved = (to_x != from_x || to_y != from_y) && can_take_pair(to_x, to_y);
+      set_pair(moved ? to_x : from_x, moved ? to_y : from_y, true);
+      if (moved) return;
+    }
+  }
+
+ private:
+  void set(int x, int y, bool on) {
+    constexpr int kReach = 4;
+    constexpr float kSpread2 = 2.0f * 2.2f * 2.2f;
+    tile_(x, y) = on;
+    for (int dy = -kReach; dy <= kReach; ++dy)
+      for (int dx = -kReach; dx <= kReach; ++dx) {
+        const float weight = std::exp(static_cast<float>(-dx * dx - dy * dy) / kSpread2);
+        crowding_(wrapped_x(x + dx), wrapped_y(y + dy)) += on ? weight : -weight;
+      }
+  }
+
+  Image<std::uint8_t> tile_;
+  Image<float> crowding_;
+  Rng rng_;
+};
+
+/// Every size×size window of the repeated tile as bits, by its first column and row; size ≤ 11.
+using WindowBits = std::array<std::uint64_t, 2>;
+Image<WindowBits> window_bits(const Image<std::uint8_t>& tile, int size) {
+  Image<WindowBits> windows(tile.width(), tile.height(), WindowBits{});
+  for (int y = 0; y < tile.height(); ++y)
+    for (int x = 0; x < tile.width(); ++x)
+      for (int cell = 0; cell < size * size; ++cell)
+        if (tile((x + cell % size) % tile.width(), (y + cell / size) % tile.height()))
+          windows(x, y)[cell / 64] |= std::uint64_t{1} << (cell % 64);
+  return windows;
+}
+
+/// Calls `visit(x, y, cells)` for every window and every other one to its right within `range`.
+template <class Visit>
+void compare_windows(const Image<WindowBits>& windows, int range, Visit visit) {
+  for (int y = 0; y < windows.height(); ++y)
+    for (int x = 0; x < windows.width(); ++x)
+      for (int shift = 1; shift <= std::min(range, windows.width() - 1); ++shift) {
+        const WindowBits &a = windows(x, y), &b = windows((x + shift) % windows.width(), y);
+        visit(x, y, std::popcount(a[0] ^ b[0]) + std::popcount(a[1] ^ b[1]));
+      }
+}
+
+}  // namespace
+
+Image<std::uint8_t> make_dot_tile(const PatternModel& model) {
+  TileMaker maker(model.tile_columns, model.tile_rows, Rng(model.seed, 0x7061747465726eULL));
+  int dots = 0;
+  if (model.dots_per_tile % 2 == 1 && model.tile_columns % 2 == 1 && model.tile_rows % 2 == 1) {
+    maker.set_pair(model.tile_columns / 2, model.tile_rows / 2, true);
+    ++dots;
+  }
+  for (; dots + 1 < model.dots_per_tile; dots += 2)
+    if (!maker.add_pair()) throw Error("pattern", "dots_per_tile", "leaves no room between the dots, lower it");
+  constexpr int kRepairs = 200;
+  for (int repair = 0; repair < kRepairs; ++repair) {
+    std::vector<std::pair<int, int>> alike;  // a few windows that do not overlap: one moved dot often mends several
+    compare_windows(window_bits(maker.tile(), kUniqueWindow), kUniqueRange, [&](int x, int y, int cells) {
+      if (cells >= kUniqueCells) return;
+      const bool apart = std::none_of(alike.begin(), alike.end(), [&](const auto& other) {
+        return ring_distance(x, other.first, model.tile_columns) < kUniqueWindow && ring_distance(y, other.second, model.tile_rows) < kUniqueWindow;
+      });
+      if (apart) alike.emplace_back(x, y);
+    });
+    if (alike.empty()) return maker.tile();
+    for (const auto& [x, y] : alike) maker.move_one(x, y);
+  }
+  throw Error("pattern", "dots_per_tile", "leaves no pattern with unique 9×9 windows, change it or the tile's size");
+}
+
+int least_window_difference(const Image<std::uint8_t>& tile, int size, int range) {
+  int least = size * size;
+  compare_windows(window_bits(tile, size), range, [&](int, int, int cells) { least = std::min(least, cells); });
+  return least;
+}
+
+Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px)
+    : dots_(make_dot_tile(model)),
+      near_(model.tile_columns, model.tile_rows),
+      tile_columns_(model.tile_columns),
+      tile_rows_(model.tile_rows),
+      columns_(model.tile_columns * model.tiles_across),
+      rows_(model.tile_rows * model.tiles_down),
+      step_px_(model.step_px),
+      sigma_steps_(model.dot_sigma_ir_px / (ir_px_per_depth_px * model.step_px)) {
+  for (int y = 0; y < tile_rows_; ++y)
+    for (int x = 0; x < tile_columns_; ++x)
+      for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c)
+          if (dots_((x - 1 + c + tile_columns_) % tile_columns_, (y - 1 + r + tile_rows_) % tile_rows_))
+            near_(x, y) |= static_cast<std::uint16_t>(1u << (4 * r + c));
+  for (int i = 0; i <= kTableSize; ++i)
+    for (int c = 0; c < 4; ++c) {
+      const double steps = (static_cast<double>(i) / kTableSize - (c - 1)) / sigma_steps_;
+      profile_[i][c] = static_cast<float>(std::exp(-0.5 * steps * steps));
+    }
+}
+
+double Pattern::intensity(double x, double y, double focal_px) const {
+  // Grid coordinates: dot (i, j) has its centre at (i, j), the grid's middle lies on the projector's axis.
+  const double column = x * focal_px / step_px_ + 0.5 * (columns_ - 1);
+  const double row = y * focal_px / step_px_ + 0.5 * (rows_ - 1);
+  const double left = std::floor(column), top = std::floor(row);
+  if (!(left >= 1.0 && top >= 1.0 && left < columns_ - 2 && top < rows_ - 2)) return 0.0;
+  const int i = static_cast<int>(left), j = static_cast<int>(top);
+  unsigned dots = near_(i % tile_columns_, j % tile_rows_);
+  const auto& across = profile_[static_cast<int>((column - left) * kTableSize + 0.5)];
+  const auto& down = profile_[static_cast<int>((row - top) * kTableSize + 0.5)];
+  float sum = 0.0f;
+  while (dots) {
+    const int bit = std::countr_zero(dots);
+    dots &= dots - 1;
+    float spot = across[bit & 3] * down[bit >> 2];
+    if (!gains_.empty()) spot *= gains_[static_cast<std::size_t>(j - 1 + (bit >> 2)) * columns_ + (i - 1 + (bit & 3))];
+    sum += spot;
+  }
+  return sum;
+}
+
+double Pattern::mean_intensity() const {
+  int dots = 0;
+  for (const std::uint8_t dot : dots_.pixels()) dots += dot;
+  return 2.0 * std::numbers::pi * sigma_steps_ * sigma_steps_ * dots / static_cast<double>(dots_.size());
+}
+
+}  // namespace fathom
