@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
+#include <stdexcept>
 #include <string_view>
 
 namespace CLI {
@@ -21,6 +21,17 @@ struct CommonOptions {
   bool quiet = false;
   bool json = false;
 };
+
+/// The command line asks for something that cannot be: exit code 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// For commands that write files. Throws UsageError when -o is missing.
+inline void require_output(const CommonOptions& common) {
+  if (common.output.empty()) throw UsageError("-o DIR is required");
+}
 
 struct Command {
   std::string_view name;

@@ -7,13 +7,21 @@
 
 namespace fathom {
 
+std::function<void()> define_capture(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 
 inline constexpr std::array kCommands{
+    Command{"capture", "One simulated shot of a scene (or several): infrared image, disparity, depth, cloud, truth",
+            "  fathom capture scenes/paper_water.json -o out/water\n"
+            "  fathom capture scenes/paper_water.json --mode geometric -o out/exact",
+            define_capture},
     Command{"theory", "The paper's Eq. 7 and the exact triangulation of the raised bottom, as CSV",
             "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50\n  fathom theory "
             "--max-skew",
             define_theory},
+    Command{"list", "The libraries of media, cups and sensors, with units and sources",
+            "  fathom list media\n  fathom list cups --json", define_list},
 };
 
 }  // namespace fathom

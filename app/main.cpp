@@ -49,6 +49,9 @@ int main(int argc, char** argv) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     run();
     return 0;
+  } catch (const fathom::UsageError& problem) {
+    fmt::print(stderr, "{}\nRun with --help for more information.\n", problem.what());
+    return kBadUsage;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n");
   } catch (const std::exception& problem) {

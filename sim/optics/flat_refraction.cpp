@@ -22,7 +22,8 @@ FlatCrossing cross_flat_interface(double height, double depth, double separation
     if (std::fabs(residual) < 1e-15) break;
     (residual > 0.0 ? high : low) = offset;
     const double cos_above = height * inverse_above, cos_below = depth * inverse_below;
-    const double slope = n_above * cos_above * cos_above * inverse_above + n_below * cos_below * cos_below * inverse_below;
+    const double slope =
+        n_above * cos_above * cos_above * inverse_above + n_below * cos_below * cos_below * inverse_below;
     double next = offset - residual / slope;
     if (next <= low || next >= high) next = 0.5 * (low + high);
     if (next == offset || high - low <= 0.0) break;

@@ -21,12 +21,12 @@ struct SellmeierIndex {
 struct Medium {
   std::string name;
   std::variant<ConstantIndex, SellmeierIndex> index = ConstantIndex{};
-  double wavelength_min_nm = 0.0;   ///< range of the cited numbers
+  double wavelength_min_nm = 0.0;  ///< range of the cited numbers
   double wavelength_max_nm = 1e9;
-  double absorption = 0.0;          ///< coefficient μa [1/m]
-  double scattering = 0.0;          ///< coefficient μs [1/m]
-  double anisotropy = 0.0;          ///< mean cosine g of the scattering angle
-  std::string source;               ///< where the numbers come from and how good they are
+  double absorption = 0.0;  ///< coefficient μa [1/m]
+  double scattering = 0.0;  ///< coefficient μs [1/m]
+  double anisotropy = 0.0;  ///< mean cosine g of the scattering angle
+  std::string source;       ///< where the numbers come from and how good they are
 
   /// Refractive index relative to vacuum. Throws Error outside the cited range.
   double n(double wavelength_nm) const;

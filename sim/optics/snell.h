@@ -7,9 +7,9 @@
 
 namespace fathom {
 
-/// Snell's law, n_from sin θ_from = n_to sin θ_to, as vectors: the refracted unit direction, or nothing on total internal
-/// reflection. `direction` [3] is a unit vector that meets the interface, `normal` [3] the unit normal on the side it
-/// comes from (direction·normal ≤ 0).
+/// Snell's law, n_from sin θ_from = n_to sin θ_to, as vectors: the refracted unit direction, or nothing on total
+/// internal reflection. `direction` [3] is a unit vector that meets the interface, `normal` [3] the unit normal on the
+/// side it comes from (direction·normal ≤ 0).
 inline std::optional<Eigen::Vector3d> refract(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal,
                                               double n_from, double n_to) {
   const double eta = n_from / n_to;

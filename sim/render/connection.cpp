@@ -12,7 +12,8 @@ namespace fathom {
 namespace {
 
 SeenPoint seen_at(const Hit& hit, const LiquidSurface* liquid, double transmittance_to_camera) {
-  return {hit.point, hit.normal, std::get<Diffuse>(hit.surface->optics).albedo, hit.surface->object, liquid, transmittance_to_camera};
+  return {hit.point,           hit.normal, std::get<Diffuse>(hit.surface->optics).albedo,
+          hit.surface->object, liquid,     transmittance_to_camera};
 }
 
 /// The path that bends once, at the liquid's level surface: exact root of Snell's law.
@@ -32,7 +33,8 @@ std::optional<Illumination> illuminate_through(const Intersector& world, const L
   if (world.occluded(seen.point, bend) || world.occluded(bend, projector)) return std::nullopt;
   const Eigen::Vector3d direction = (bend - projector).normalized();
   const double cos_above = std::min(-direction.z(), 1.0);
-  const double through = (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.n)) * transmittance(liquid.absorption, path_in_liquid);
+  const double through =
+      (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.n)) * transmittance(liquid.absorption, path_in_liquid);
   return Illumination{direction, flat_spreading(crossing, height, depth, 1.0, liquid.n) * through * cos_surface};
 }
 
@@ -53,7 +55,8 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray) {
   return seen_at(*below, liquid, through);
 }
 
-std::optional<Illumination> illuminate(const Intersector& world, const Eigen::Vector3d& projector, const SeenPoint& seen) {
+std::optional<Illumination> illuminate(const Intersector& world, const Eigen::Vector3d& projector,
+                                       const SeenPoint& seen) {
   if (seen.liquid) return illuminate_through(world, *seen.liquid, projector, seen);
   const Eigen::Vector3d from_projector = seen.point - projector;
   const double squared = from_projector.squaredNorm();

@@ -11,8 +11,8 @@ namespace fathom {
 
 /// The first diffuse point on a camera ray, through a liquid's surface where there is one.
 struct SeenPoint {
-  Eigen::Vector3d point;    ///< [m] world
-  Eigen::Vector3d normal;   ///< unit, towards the camera's side
+  Eigen::Vector3d point;   ///< [m] world
+  Eigen::Vector3d normal;  ///< unit, towards the camera's side
   double albedo;
   int object;
   const LiquidSurface* liquid;  ///< the liquid the point lies under, or nullptr
@@ -28,6 +28,7 @@ struct Illumination {
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray);
 
 /// Nothing when the projector does not reach the point.
-std::optional<Illumination> illuminate(const Intersector& world, const Eigen::Vector3d& projector, const SeenPoint& seen);
+std::optional<Illumination> illuminate(const Intersector& world, const Eigen::Vector3d& projector,
+                                       const SeenPoint& seen);
 
 }  // namespace fathom

@@ -17,10 +17,10 @@ struct Plane {
 
 struct Intersector::Impl {
   RTCDevice device = nullptr;
-  RTCScene all = nullptr;     ///< every surface
-  RTCScene opaque = nullptr;  ///< without the liquids' surfaces
-  std::vector<const Surface*> surfaces;      ///< by Embree's geometry id, the same in both scenes
-  std::vector<std::vector<Plane>> planes;    ///< by geometry id and primitive id
+  RTCScene all = nullptr;                  ///< every surface
+  RTCScene opaque = nullptr;               ///< without the liquids' surfaces
+  std::vector<const Surface*> surfaces;    ///< by Embree's geometry id, the same in both scenes
+  std::vector<std::vector<Plane>> planes;  ///< by geometry id and primitive id
 
   ~Impl() {
     rtcReleaseScene(all);

@@ -11,9 +11,9 @@
 namespace fathom {
 
 struct Hit {
-  double distance;          ///< [m] along the ray
-  Eigen::Vector3d point;    ///< [m] world
-  Eigen::Vector3d normal;   ///< unit, of the triangle's plane, on the side the ray came from
+  double distance;         ///< [m] along the ray
+  Eigen::Vector3d point;   ///< [m] world
+  Eigen::Vector3d normal;  ///< unit, of the triangle's plane, on the side the ray came from
   const Surface* surface;
 };
 

@@ -15,8 +15,9 @@ enum class PathKind { nothing = 0, direct = 1, refracted = 2, scattered = 3 };
 
 struct TruePixel {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] world, first diffuse point on the refracted chief ray
-  std::optional<double> apparent_depth;  ///< [m] camera frame, exact triangulation; nothing where the projector is hidden
-  double intensity = 0.0;                ///< [DN] of a dot's centre there
+  std::optional<double>
+      apparent_depth;      ///< [m] camera frame, exact triangulation; nothing where the projector is hidden
+  double intensity = 0.0;  ///< [DN] of a dot's centre there
   int object = 0;
   PathKind path = PathKind::nothing;
 };

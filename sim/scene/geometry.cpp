@@ -22,7 +22,8 @@ void add_desk(const Desk& desk, Geometry& geometry) {
   geometry.surfaces.push_back({add_object(geometry, "desk"), std::move(mesh), Diffuse{desk.albedo}});
 }
 
-void add_filling(const Cup& cup, const Pose& world_from_cup, const std::string& prefix, double wavelength_nm, Geometry& geometry) {
+void add_filling(const Cup& cup, const Pose& world_from_cup, const std::string& prefix, double wavelength_nm,
+                 Geometry& geometry) {
   const Medium& medium = cup.filling->medium;
   const double level = cup.shape.bottom() + cup.filling->depth;
   const double n = medium.n(wavelength_nm);
@@ -36,7 +37,8 @@ void add_filling(const Cup& cup, const Pose& world_from_cup, const std::string& 
   const double albedo = diffuse_reflectance(medium, n);
   geometry.surfaces.push_back({object, std::move(mesh), Diffuse{albedo}});
   geometry.approximations.push_back(
-      fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it", medium.name, albedo));
+      fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it",
+                  medium.name, albedo));
 }
 
 void add_cup(const Cup& cup, std::size_t index, double wavelength_nm, Geometry& geometry) {
@@ -45,7 +47,8 @@ void add_cup(const Cup& cup, std::size_t index, double wavelength_nm, Geometry& 
   const std::string prefix = fmt::format("cup {} ", index);
   Mesh mesh = cup_mesh(cup.shape);
   mesh.transform(world_from_cup);
-  geometry.surfaces.push_back({add_object(geometry, prefix + cup.shape.name), std::move(mesh), Diffuse{cup.shape.albedo}});
+  geometry.surfaces.push_back(
+      {add_object(geometry, prefix + cup.shape.name), std::move(mesh), Diffuse{cup.shape.albedo}});
   if (cup.filling) add_filling(cup, world_from_cup, prefix, wavelength_nm, geometry);
 }
 

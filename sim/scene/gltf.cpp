@@ -32,13 +32,16 @@ struct Reader {
     int component;
   };
   Bytes bytes(int index, int type, const std::string& where) const {
-    if (index < 0 || index >= static_cast<int>(model.accessors.size())) fail(where, "names an accessor that does not exist");
+    if (index < 0 || index >= static_cast<int>(model.accessors.size()))
+      fail(where, "names an accessor that does not exist");
     const tinygltf::Accessor& accessor = model.accessors[index];
-    if (accessor.type != type || accessor.sparse.isSparse) fail(where, "has an accessor of a kind that is not supported");
+    if (accessor.type != type || accessor.sparse.isSparse)
+      fail(where, "has an accessor of a kind that is not supported");
     if (accessor.bufferView < 0 || accessor.bufferView >= static_cast<int>(model.bufferViews.size()))
       fail(where, "has an accessor without a buffer view");
     const tinygltf::BufferView& view = model.bufferViews[accessor.bufferView];
-    if (view.buffer < 0 || view.buffer >= static_cast<int>(model.buffers.size())) fail(where, "names a buffer that does not exist");
+    if (view.buffer < 0 || view.buffer >= static_cast<int>(model.buffers.size()))
+      fail(where, "names a buffer that does not exist");
     const std::vector<unsigned char>& buffer = model.buffers[view.buffer].data;
     const int stride = accessor.ByteStride(view);
     const std::size_t element = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(accessor.componentType) *
@@ -60,10 +63,20 @@ struct Reader {
         const unsigned char* at = source.data + i * source.stride;
         std::uint32_t index = 0;
         switch (source.component) {
-          case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: index = *at; break;
-          case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: { std::uint16_t value; std::memcpy(&value, at, 2); index = value; break; }
-          case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: std::memcpy(&index, at, 4); break;
-          default: fail(where, "has indices that are not unsigned integers");
+          case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            index = *at;
+            break;
+          case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
+            std::uint16_t value;
+            std::memcpy(&value, at, 2);
+            index = value;
+            break;
+          }
+          case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            std::memcpy(&index, at, 4);
+            break;
+          default:
+            fail(where, "has indices that are not unsigned integers");
         }
         if (index >= vertices) fail(where, fmt::format("has the index {}, but only {} vertices", index, vertices));
         result.push_back(static_cast<int>(index));
@@ -73,8 +86,10 @@ struct Reader {
     return result;
   }
 
-  void add_primitive(const tinygltf::Primitive& primitive, const Eigen::Matrix4d& scene_from_node, const std::string& where) {
-    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) fail(where, "is no list of triangles, the only kind supported");
+  void add_primitive(const tinygltf::Primitive& primitive, const Eigen::Matrix4d& scene_from_node,
+                     const std::string& where) {
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1)
+      fail(where, "is no list of triangles, the only kind supported");
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) fail(where, "has no POSITION");
     const Bytes source = bytes(position->second, TINYGLTF_TYPE_VEC3, where);
@@ -88,16 +103,19 @@ struct Reader {
       part.add_vertex({in_scene.x(), -in_scene.z(), in_scene.y()});
     }
     const std::vector<int> corners = indices(primitive, source.count, where);
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) part.add_triangle(corners[i], corners[i + 1], corners[i + 2]);
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+      part.add_triangle(corners[i], corners[i + 1], corners[i + 2]);
     meshes_by_material[primitive.material].append(part);
   }
 
   static Eigen::Matrix4d local_transform(const tinygltf::Node& node) {
     if (node.matrix.size() == 16) return Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-    if (node.translation.size() == 3) transform.translate(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(node.translation.data())));
+    if (node.translation.size() == 3)
+      transform.translate(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(node.translation.data())));
     if (node.rotation.size() == 4)
-      transform.rotate(Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]).normalized());
+      transform.rotate(
+          Eigen::Quaterniond(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]).normalized());
     if (node.scale.size() == 3) transform.scale(Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(node.scale.data())));
     return transform.matrix();
   }
@@ -136,11 +154,13 @@ std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
   Reader reader{path.string(), {}, {}};
   if (!std::filesystem::is_regular_file(path)) throw Error(path.string(), "no such file");
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; },
+  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
+                           void*) { return true; },
                         nullptr);
   std::string problem, warning;
-  const bool loaded = path.extension() == ".glb" ? loader.LoadBinaryFromFile(&reader.model, &problem, &warning, path.string())
-                                                 : loader.LoadASCIIFromFile(&reader.model, &problem, &warning, path.string());
+  const bool loaded = path.extension() == ".glb"
+                          ? loader.LoadBinaryFromFile(&reader.model, &problem, &warning, path.string())
+                          : loader.LoadASCIIFromFile(&reader.model, &problem, &warning, path.string());
   if (!loaded) {
     while (!problem.empty() && (problem.back() == '\n' || problem.back() == ' ')) problem.pop_back();
     for (char& c : problem) c = c == '\n' ? ' ' : c;

@@ -14,8 +14,8 @@ struct GltfPart {
   double albedo;  ///< luminance (Rec. 709) of the material's base colour factor
 };
 
-/// Reads the default scene's triangle meshes with their node transformations. Throws Error on files that cannot be read,
-/// have no triangles, indices out of range, non-finite positions, or transmissive materials (not modelled yet).
+/// Reads the default scene's triangle meshes with their node transformations. Throws Error on files that cannot be
+/// read, have no triangles, indices out of range, non-finite positions, or transmissive materials (not modelled yet).
 std::vector<GltfPart> read_gltf(const std::filesystem::path& path);
 
 }  // namespace fathom

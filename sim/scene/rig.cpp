@@ -38,7 +38,8 @@ NoiseModel noise_from_json(const JsonReader& json) {
 }
 
 void read_pattern(const JsonReader& json, PatternModel& pattern) {
-  json.allow_only({"tile_columns", "tile_rows", "tiles_across", "tiles_down", "step_px", "dots_per_tile", "dot_sigma_ir_px", "seed"});
+  json.allow_only({"tile_columns", "tile_rows", "tiles_across", "tiles_down", "step_px", "dots_per_tile",
+                   "dot_sigma_ir_px", "seed"});
   pattern.tile_columns = json.integer_or("tile_columns", pattern.tile_columns, 16, 4096);
   pattern.tile_rows = json.integer_or("tile_rows", pattern.tile_rows, 16, 4096);
   pattern.tiles_across = json.integer_or("tiles_across", pattern.tiles_across, 1, 64);
@@ -52,14 +53,16 @@ void read_pattern(const JsonReader& json, PatternModel& pattern) {
 }
 
 void read_matcher(const JsonReader& json, MatcherModel& matcher) {
-  json.allow_only({"window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min", "contrast_min_dn"});
+  json.allow_only(
+      {"window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min", "contrast_min_dn"});
   matcher.window_columns = json.integer_or("window_columns", matcher.window_columns, 3, 31);
   matcher.window_rows = json.integer_or("window_rows", matcher.window_rows, 3, 31);
   if (matcher.window_columns % 2 == 0) json.fail_at("window_columns", "must be odd");
   if (matcher.window_rows % 2 == 0) json.fail_at("window_rows", "must be odd");
   matcher.disparity_min_px = json.integer_or("disparity_min_px", matcher.disparity_min_px, -256, 255);
   matcher.disparity_max_px = json.integer_or("disparity_max_px", matcher.disparity_max_px, -255, 256);
-  if (matcher.disparity_max_px <= matcher.disparity_min_px) json.fail_at("disparity_max_px", "must be above disparity_min_px");
+  if (matcher.disparity_max_px <= matcher.disparity_min_px)
+    json.fail_at("disparity_max_px", "must be above disparity_min_px");
   matcher.correlation_min = json.number_or("correlation_min", matcher.correlation_min, {0.0, 1.0});
   matcher.contrast_min = json.number_or("contrast_min_dn", matcher.contrast_min, kNonNegative);
 }
@@ -83,9 +86,12 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
     sensor.width = size.x(), sensor.height = size.y();
     sensor.principal_px = 0.5 * size.cast<double>();
   }
-  if (sensor.ir_width != 2 * sensor.width || sensor.ir_height < 2 * sensor.height || (sensor.ir_height - 2 * sensor.height) % 2)
-    json.fail(fmt::format("ir_size_px must be twice depth_size_px in width and at least twice, by an even number, in height; got {}×{} and {}×{}",
-                          sensor.ir_width, sensor.ir_height, sensor.width, sensor.height));
+  if (sensor.ir_width != 2 * sensor.width || sensor.ir_height < 2 * sensor.height ||
+      (sensor.ir_height - 2 * sensor.height) % 2)
+    json.fail(
+        fmt::format("ir_size_px must be twice depth_size_px in width and at least twice, by an even number, in height; "
+                    "got {}×{} and {}×{}",
+                    sensor.ir_width, sensor.ir_height, sensor.width, sensor.height));
   sensor.focal_px = json.number_or("focal_px", sensor.focal_px, kPositive);
   if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2();
   sensor.reference = metres_from_mm(json.number_or("reference_mm", mm_from_metres(sensor.reference), kPositive));
@@ -137,18 +143,20 @@ Pose camera_pose(const Eigen::Vector3d& midpoint_in_world, double pitch, double 
 }
 
 Rig rig_from_json(const JsonReader& json) {
-  json.allow_only({"model", "height_mm", "aim_mm", "pitch_deg", "roll_deg", "baseline_mm", "wavelength_nm", "ir_size_px",
-                   "depth_size_px", "focal_px", "principal_px", "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2",
-                   "noise", "quantization", "pattern", "matcher"});
+  json.allow_only({"model", "height_mm", "aim_mm", "pitch_deg", "roll_deg", "baseline_mm", "wavelength_nm",
+                   "ir_size_px", "depth_size_px", "focal_px", "principal_px", "reference_mm", "near_mm", "far_mm",
+                   "radiant_dn_mm2", "noise", "quantization", "pattern", "matcher"});
   Rig rig;
   rig.sensor.noise = kNoisePresets[1].second;
   if (json.has("model")) {
     const std::string name = json.text("model");
-    const std::filesystem::path file = library_file("sensors", "sensor model", name, json.file(), json.pointer() + "/model");
+    const std::filesystem::path file =
+        library_file("sensors", "sensor model", name, json.file(), json.pointer() + "/model");
     const Json text = read_json(file);
     const JsonReader model(text, file.string());
-    model.allow_only({"source", "baseline_mm", "wavelength_nm", "ir_size_px", "depth_size_px", "focal_px", "principal_px",
-                      "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2", "noise", "quantization", "pattern", "matcher"});
+    model.allow_only({"source", "baseline_mm", "wavelength_nm", "ir_size_px", "depth_size_px", "focal_px",
+                      "principal_px", "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2", "noise", "quantization",
+                      "pattern", "matcher"});
     read_model(model, rig.sensor);
     rig.sensor.name = name;
   }

@@ -16,25 +16,25 @@ struct PatternModel {
   int tile_columns = 211, tile_rows = 165;  ///< positions in a tile; the published drawing has the same
   int tiles_across = 4, tiles_down = 3;     ///< the drawing shows 3×3; a fourth keeps the view lit down to 0.45 m
   double step_px = 1.0;
-  int dots_per_tile = 3861;                 ///< 11.1 % of the positions
-  double dot_sigma_ir_px = 0.9;             ///< standard deviation of a dot's image, lens included
+  int dots_per_tile = 3861;      ///< 11.1 % of the positions
+  double dot_sigma_ir_px = 0.9;  ///< standard deviation of a dot's image, lens included
   std::uint64_t seed = 1;
 };
 
 /// What turns radiance into digital numbers. All zero: an ideal camera.
 struct NoiseModel {
-  double speckle_shape = 0.0;    ///< per-dot Gamma speckle of unit mean; 0 = none
-  double electrons_per_dn = 0.0; ///< shot noise: variance = signal / electrons_per_dn [DN²]; 0 = none
-  double read_dn = 0.0;          ///< standard deviation of the detector's own noise [DN]
-  int bits = 0;                  ///< rounding and saturation at 2^bits − 1; 0 = none
+  double speckle_shape = 0.0;     ///< per-dot Gamma speckle of unit mean; 0 = none
+  double electrons_per_dn = 0.0;  ///< shot noise: variance = signal / electrons_per_dn [DN²]; 0 = none
+  double read_dn = 0.0;           ///< standard deviation of the detector's own noise [DN]
+  int bits = 0;                   ///< rounding and saturation at 2^bits − 1; 0 = none
 };
 
 struct MatcherModel {
   int window_columns = 9, window_rows = 9;  ///< odd, depth pixels
   int disparity_min_px = -32;               ///< of the search, relative to the reference plane; positive = nearer
   int disparity_max_px = 63;
-  double correlation_min = 0.55;            ///< least zero-mean normalised cross-correlation of a match
-  double contrast_min = 4.0;                ///< least standard deviation of the window [DN]
+  double correlation_min = 0.55;  ///< least zero-mean normalised cross-correlation of a match
+  double contrast_min = 4.0;      ///< least standard deviation of the window [DN]
 };
 
 struct SensorModel {
@@ -42,13 +42,13 @@ struct SensorModel {
   double baseline = 0.075;
   double wavelength_nm = 830.0;
   int ir_width = 1280, ir_height = 1024;
-  int width = 640, height = 480;          ///< of the depth image: the middle of the infrared image, halved
-  double focal_px = 1200.0 / (2 * 1.052); ///< zero plane distance over twice the zero plane pixel size
+  int width = 640, height = 480;           ///< of the depth image: the middle of the infrared image, halved
+  double focal_px = 1200.0 / (2 * 1.052);  ///< zero plane distance over twice the zero plane pixel size
   Eigen::Vector2d principal_px{320.0, 240.0};
-  double reference = 1.2;                 ///< distance of the memorised reference plane
-  double near = 0.4, far = 10.0;          ///< depths outside are invalid
-  double radiant_dn_mm2 = 5.90e8;         ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
-  bool quantized = true;                  ///< depth on the device's law; false: float depth
+  double reference = 1.2;          ///< distance of the memorised reference plane
+  double near = 0.4, far = 10.0;   ///< depths outside are invalid
+  double radiant_dn_mm2 = 5.90e8;  ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
+  bool quantized = true;           ///< depth on the device's law; false: float depth
   PatternModel pattern;
   NoiseModel noise;
   MatcherModel matcher;
@@ -62,9 +62,7 @@ struct Rig {
   Pose world_from_camera = Pose::Identity();  ///< camera: x right, y down, z forward, origin at the infrared camera
 
   Eigen::Vector3d camera_in_world() const { return world_from_camera.translation(); }
-  Eigen::Vector3d projector_in_world() const {
-    return world_from_camera * Eigen::Vector3d(sensor.baseline, 0.0, 0.0);
-  }
+  Eigen::Vector3d projector_in_world() const { return world_from_camera * Eigen::Vector3d(sensor.baseline, 0.0, 0.0); }
   /// Unit direction in the world of a point of the depth image; (0.5, 0.5) is the first pixel's centre.
   Eigen::Vector3d direction_in_world(double x_px, double y_px) const;
 };

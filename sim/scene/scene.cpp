@@ -75,8 +75,10 @@ CupShape shape_from_object(const JsonReader& json) {
   shape.inner = profile_from_json(json.at("inner_profile_mm"));
   shape.outer = profile_from_json(json.at("outer_profile_mm"));
   if (shape.outer.front().y() != 0.0) json.fail_at("outer_profile_mm", "must start at height 0, on the desk");
-  if (shape.inner.back().y() != shape.outer.back().y()) json.fail_at("inner_profile_mm", "must end at the outer rim's height");
-  if (shape.inner.back().x() >= shape.outer.back().x()) json.fail_at("inner_profile_mm", "must end inside the outer rim");
+  if (shape.inner.back().y() != shape.outer.back().y())
+    json.fail_at("inner_profile_mm", "must end at the outer rim's height");
+  if (shape.inner.back().x() >= shape.outer.back().x())
+    json.fail_at("inner_profile_mm", "must end inside the outer rim");
   return shape;
 }
 
@@ -104,8 +106,9 @@ Object object_from_json(const JsonReader& json) {
   json.allow_only({"gltf", "position_mm", "rotation_deg"});
   Object object;
   object.gltf = std::filesystem::path(json.file()).parent_path() / json.text("gltf");
-  const Eigen::Vector3d position =
-      json.has("position_mm") ? Eigen::Vector3d(json.at("position_mm").vector3() * kMetresPerMm) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d position = json.has("position_mm")
+                                       ? Eigen::Vector3d(json.at("position_mm").vector3() * kMetresPerMm)
+                                       : Eigen::Vector3d::Zero();
   const Eigen::Vector3d angles = json.has("rotation_deg") ? json.at("rotation_deg").vector3() : Eigen::Vector3d::Zero();
   // About the fixed world axes x, then y, then z.
   object.world_from_object = Eigen::Translation3d(position) *

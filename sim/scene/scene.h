@@ -1,4 +1,5 @@
-// What stands in front of the sensor, as plain data: desk, cups, liquids, objects. Lengths in metres, angles in radians.
+// What stands in front of the sensor, as plain data: desk, cups, liquids, objects. Lengths in metres, angles in
+// radians.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +22,9 @@ struct Desk {
 
 /// A handle: a tube of circular section, bent into half an ellipse in the vertical plane at the cup's yaw.
 struct Handle {
-  double low = 0.020;          ///< height above the desk where it leaves the wall
-  double high = 0.070;         ///< height where it joins the wall again
-  double reach = 0.030;        ///< how far its centre line stands out of the wall
+  double low = 0.020;    ///< height above the desk where it leaves the wall
+  double high = 0.070;   ///< height where it joins the wall again
+  double reach = 0.030;  ///< how far its centre line stands out of the wall
   double tube_radius = 0.005;
 };
 

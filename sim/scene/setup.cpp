@@ -15,7 +15,8 @@ Setup setup_from_json(const Json& json, const std::string& file) {
 Setup read_setup(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".gltf" || extension == ".glb")
-    throw Error(path.string(), "glTF scenes cannot be read yet; write a scene file (*.json) that names it under \"objects\"");
+    throw Error(path.string(),
+                "glTF scenes cannot be read yet; write a scene file (*.json) that names it under \"objects\"");
   return setup_from_json(read_json(path), path.string());
 }
 

@@ -34,8 +34,9 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   const int samples_across = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale());
   const int margin = reference_margin(sensor.matcher);
-  reference_ = timed(statistics_.reference_s,
-                     [&] { return memorise(sensor, reference_image(sensor, pattern, margin, samples_across), margin); });
+  reference_ = timed(statistics_.reference_s, [&] {
+    return memorise(sensor, reference_image(sensor, pattern, margin, samples_across), margin);
+  });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ = timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across); });
   statistics_.camera_rays += radiance_.size() * samples_across * samples_across;
@@ -67,7 +68,7 @@ Frame Camera::shoot_photometric(std::uint64_t frame) {
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, reference_).disparity_px; });
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
   Image<float> intensity(sensor.width, sensor.height);
-  const Image<float> half = halved(shot.ir);
+  const Image<float> half = columns_in_pairs(rows_in_pairs(shot.ir));
   for (int y = 0; y < sensor.height; ++y)
     for (int x = 0; x < sensor.width; ++x) intensity(x, y) = half(x, y + sensor.ir_first_row() / 2);
   shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);

@@ -9,7 +9,9 @@ namespace fathom {
 namespace {
 
 /// Steps of 1/8 px between a depth [mm] and the reference plane, growing with distance: 8 f b (1/z_ref − 1/z).
-double steps_per_inverse_mm(const SensorModel& sensor) { return 8.0 * sensor.focal_px * mm_from_metres(sensor.baseline); }
+double steps_per_inverse_mm(const SensorModel& sensor) {
+  return 8.0 * sensor.focal_px * mm_from_metres(sensor.baseline);
+}
 
 }  // namespace
 
@@ -21,7 +23,8 @@ std::optional<double> device_depth(const SensorModel& sensor, int code) {
 
 int device_code(const SensorModel& sensor, double depth) {
   const double inverse_mm = 1.0 / mm_from_metres(depth);
-  return static_cast<int>(std::lround(steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - 0.5));
+  return static_cast<int>(
+      std::lround(steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - 0.5));
 }
 
 double disparity_of_depth(const SensorModel& sensor, double depth) { return sensor.focal_px * sensor.baseline / depth; }

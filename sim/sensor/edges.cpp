@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "core/parallel.h"
@@ -12,15 +11,22 @@ namespace fathom {
 namespace {
 
 constexpr int kReach = 4;  ///< [depth px] a window of 9 whose centre lies this far away just covers the pixel
-constexpr int kOwn = 8;    ///< [infrared px] side of the square that counts as the pixel's own
+constexpr int kOwnColumns = 8, kOwnRows = 3;  ///< [infrared px, row pairs] the square that counts as the pixel's own
 
 struct Step {
   int dx, dy;
 };
 constexpr int kLookout = 4;  ///< [depth px] edges farther away than this do not touch the pixel's window
 constexpr std::array<Step, 4> kAcross{{{-kLookout, 0}, {kLookout, 0}, {0, -kLookout}, {0, kLookout}}};
-constexpr std::array<Step, 9> kAround{{{0, 0}, {-kReach, 0}, {kReach, 0}, {0, -kReach}, {0, kReach},
-                                       {-kReach, -kReach}, {kReach, -kReach}, {-kReach, kReach}, {kReach, kReach}}};
+constexpr std::array<Step, 9> kAround{{{0, 0},
+                                       {-kReach, 0},
+                                       {kReach, 0},
+                                       {0, -kReach},
+                                       {0, kReach},
+                                       {-kReach, -kReach},
+                                       {kReach, -kReach},
+                                       {-kReach, kReach},
+                                       {kReach, kReach}}};
 
 /// How well a surface explains the dots seen at a pixel.
 struct Explanation {
@@ -31,9 +37,15 @@ struct Explanation {
 
 class EdgeSettler {
  public:
-  EdgeSettler(const SensorModel& sensor, const Image<float>& ir, const Reference& reference, const Image<Estimate>& estimates)
-      : sensor_(sensor), ir_(ir), reference_(reference), estimates_(estimates), edges_(sensor.width, sensor.height),
-        noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kOwn * kOwn) {
+  EdgeSettler(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+              const Image<Estimate>& estimates)
+      : sensor_(sensor),
+        paired_(paired),
+        reference_(reference),
+        estimates_(estimates),
+        edges_(sensor.width, sensor.height),
+        noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kOwnColumns *
+                      kOwnRows) {
     parallel_ranges(edges_.height(), [&](int begin, int end) {
       for (int y = begin; y < end; ++y)
         for (int x = 0; x < edges_.width(); ++x) edges_(x, y) = near_edge(x, y);
@@ -46,9 +58,10 @@ class EdgeSettler {
   Estimate settle(int x, int y) const {
     Estimate best;
     float least_error = std::numeric_limits<float>::infinity();
+    const std::vector<Neighbour> neighbours = clean_neighbours(x, y);
     for (Estimate& surface : surfaces_around(x, y)) {
       const bool own = surface.disparity == estimates_(x, y).disparity;
-      surface.disparity = from_clean_neighbours(x, y, surface);
+      surface.disparity = from_neighbours(neighbours, surface);
       const Explanation found = explain(x, y, surface);
       if (found.error >= least_error || !holds(found, own)) continue;
       least_error = found.error;
@@ -77,8 +90,8 @@ class EdgeSettler {
     return false;
   }
 
-  /// The different surfaces that the pixel's own and the neighbouring windows found, extended to the pixel, each from its
-  /// best correlated window.
+  /// The different surfaces that the pixel's own and the neighbouring windows found, extended to the pixel, each from
+  /// its best correlated window.
   std::vector<Estimate> surfaces_around(int x, int y) const {
     constexpr float kDifferent = 0.6f;  // [px]
     std::vector<Estimate> surfaces;
@@ -97,33 +110,44 @@ class EdgeSettler {
     return surfaces;
   }
 
-  /// A surface's disparity at the pixel from the plane through those neighbours whose windows meet only this surface:
-  /// windows that reach over the edge are pulled by the other surface's dots. Its own where too few are clean.
-  float from_clean_neighbours(int x, int y, Estimate surface) const {
-    for (const float same_surface : {0.6f, 0.15f, 0.05f}) {  // [px]; the later rounds leave out what lies beyond a crease
-      const std::optional<Eigen::Vector3f> plane = plane_of_neighbours(x, y, surface, same_surface);
-      if (!plane) break;
-      surface.disparity = (*plane)[0], surface.slope_x = (*plane)[1], surface.slope_y = (*plane)[2];
-    }
-    return surface.disparity;
+  struct Neighbour {
+    float dx, dy, disparity;
+  };
+
+  /// Those neighbours whose windows meet one surface only: windows that reach over an edge are pulled by the other
+  /// surface's dots.
+  std::vector<Neighbour> clean_neighbours(int x, int y) const {
+    constexpr int kFar = 8, kStride = 2;
+    std::vector<Neighbour> neighbours;
+    for (int dy = -kFar; dy <= kFar; dy += kStride)
+      for (int dx = -kFar; dx <= kFar; dx += kStride)
+        if (inside(x + dx, y + dy) && !is_edge(x + dx, y + dy) && estimates_(x + dx, y + dy).valid())
+          neighbours.push_back({static_cast<float>(dx), static_cast<float>(dy), estimates_(x + dx, y + dy).disparity});
+    return neighbours;
   }
 
-  std::optional<Eigen::Vector3f> plane_of_neighbours(int x, int y, const Estimate& surface, float same_surface) const {
-    constexpr int kFar = 8, kStride = 2, kEnough = 6;
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (int dy = -kFar; dy <= kFar; dy += kStride)
-      for (int dx = -kFar; dx <= kFar; dx += kStride) {
-        if (!inside(x + dx, y + dy) || is_edge(x + dx, y + dy)) continue;
-        const float there = estimates_(x + dx, y + dy).disparity;
-        if (!(std::fabs(there - extended(surface, dx, dy)) < same_surface)) continue;
-        const Eigen::Vector3d row(1.0, dx, dy);
+  /// A surface's disparity at the pixel from the plane through its clean neighbours; its own where they are too few.
+  static float from_neighbours(const std::vector<Neighbour>& neighbours, Estimate surface) {
+    for (const float same_surface :
+         {0.6f, 0.15f, 0.05f}) {  // [px]; the later rounds leave out what lies beyond a crease
+      constexpr int kEnough = 6;
+      Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
+      Eigen::Vector3f right = Eigen::Vector3f::Zero();
+      for (const Neighbour& there : neighbours) {
+        const float difference =
+            there.disparity - surface.disparity - surface.slope_x * there.dx - surface.slope_y * there.dy;
+        if (std::fabs(difference) > same_surface) continue;
+        const Eigen::Vector3f row(1.0f, there.dx, there.dy);
         normal += row * row.transpose();
-        right += row * there;
+        right += row * difference;
       }
-    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
-    if (normal(0, 0) < kEnough || solver.vectorD().minCoeff() < 1.0) return std::nullopt;
-    return solver.solve(right).cast<float>();
+      if (normal(0, 0) < kEnough) break;
+      const Eigen::LDLT<Eigen::Matrix3f> solver(normal);
+      if (solver.vectorD().minCoeff() < 1.0f) break;  // all on one line
+      const Eigen::Vector3f correction = solver.solve(right);
+      surface.disparity += correction[0], surface.slope_x += correction[1], surface.slope_y += correction[2];
+    }
+    return surface.disparity;
   }
 
   /// A pixel without dots, seen or predicted, keeps its own estimate but takes no other's.
@@ -135,16 +159,17 @@ class EdgeSettler {
 
   Explanation explain(int x, int y, const Estimate& surface) const {
     const ReferenceShift shift = reference_shift(surface.disparity);
-    const int column = std::clamp(2 * x + 1 - kOwn / 2, 0, ir_.width() - kOwn);
-    const int row = sensor_.ir_first_row() + 2 * y + 1 - kOwn / 2;
+    const int column = std::clamp(2 * x + 1 - kOwnColumns / 2, 0, paired_.width() - kOwnColumns);
+    const int row = std::clamp(sensor_.ir_first_row() / 2 + y - kOwnRows / 2, 0, paired_.height() - kOwnRows);
     const int reference_column = column + 2 * reference_.margin_px + shift.whole;
-    if (reference_column < 0 || reference_column + kOwn > reference_.shifted[0].width()) return {1.0f, 0.0f, 1.0f};
+    if (reference_column < 0 || reference_column + kOwnColumns > reference_.shifted[0].width())
+      return {1.0f, 0.0f, 1.0f};
     Explanation result{0.0f, 0.0f, 0.0f};
-    for (int j = row; j < row + kOwn; ++j) {
-      const float* live = ir_.row(j) + column;
+    for (int j = row; j < row + kOwnRows; ++j) {
+      const float* live = paired_.row(j) + column;
       const float* shifted = reference_.shifted[shift.phase].row(j) + reference_column;
       const float* gradient = reference_.gradient[shift.phase].row(j) + reference_column;
-      for (int i = 0; i < kOwn; ++i) {
+      for (int i = 0; i < kOwnColumns; ++i) {
         const float seen = live[i] - surface.bias;
         const float predicted = surface.gain * (shifted[i] + shift.rest_ir_px * gradient[i]);
         result.error += (seen - predicted) * (seen - predicted);
@@ -156,7 +181,7 @@ class EdgeSettler {
   }
 
   const SensorModel& sensor_;
-  const Image<float>& ir_;
+  const Image<float>& paired_;
   const Reference& reference_;
   const Image<Estimate>& estimates_;
   Image<std::uint8_t> edges_;
@@ -165,9 +190,10 @@ class EdgeSettler {
 
 }  // namespace
 
-Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& ir, const Reference& reference, const Image<Estimate>& estimates) {
+Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+                             const Image<Estimate>& estimates) {
   Image<Estimate> settled = estimates;
-  const EdgeSettler settler(sensor, ir, reference, estimates);
+  const EdgeSettler settler(sensor, paired, reference, estimates);
   const int border = sensor.matcher.window_columns / 4;
   parallel_ranges(sensor.height, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)

@@ -16,7 +16,8 @@ constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
 
 /// Radiance [DN] along one camera ray.
-double sample_radiance(const Intersector& world, const Rig& rig, const Pattern& pattern, const Eigen::Vector3d& projector, const Ray& ray) {
+double sample_radiance(const Intersector& world, const Rig& rig, const Pattern& pattern,
+                       const Eigen::Vector3d& projector, const Ray& ray) {
   const std::optional<SeenPoint> seen = see(world, ray);
   const std::optional<Illumination> light = seen ? illuminate(world, projector, *seen) : std::nullopt;
   if (!light) return 0.0;
@@ -52,7 +53,8 @@ std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern
   if (noise.speckle_shape <= 0.0) return gains;
   gains.resize(static_cast<std::size_t>(pattern.columns()) * pattern.rows());
   for (std::size_t dot = 0; dot < gains.size(); ++dot)
-    gains[dot] = static_cast<float>(Rng(seed, kSpeckleStream, dot).gamma(noise.speckle_shape, 1.0 / noise.speckle_shape));
+    gains[dot] =
+        static_cast<float>(Rng(seed, kSpeckleStream, dot).gamma(noise.speckle_shape, 1.0 / noise.speckle_shape));
   return gains;
 }
 

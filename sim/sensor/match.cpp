@@ -7,10 +7,11 @@
 namespace fathom {
 
 Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference) {
-  const Image<float> coarse = search(sensor, ir, reference);
-  Image<Estimate> estimates = refine(sensor, ir, reference, coarse);
+  const Image<float> paired = rows_in_pairs(ir);
+  const Image<float> coarse = search(sensor, paired, reference);
+  Image<Estimate> estimates = refine(sensor, paired, reference, coarse);
   carry_to_pixels(estimates);
-  estimates = settle_edges(sensor, ir, reference, estimates);
+  estimates = settle_edges(sensor, paired, reference, estimates);
 
   const float at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));
   Match result{Image<float>(sensor.width, sensor.height), Image<float>(sensor.width, sensor.height)};

@@ -2,9 +2,9 @@
 //
 //   search   whole depth pixels: zero-mean normalised cross-correlation over the matcher's window, on halved images
 //   refine   fractions of an infrared pixel: the shift that maximises the correlation with the reference and its
-//            derivative, in closed form, on full images
-//   carry    that shift belongs to the centroid of the window's gradient energy; the local slope carries it to the pixel
-//   settle   near edges: the surface whose prediction explains the few dots around the pixel itself
+//            derivative, in closed form, on images of full width
+//   carry    that shift belongs to the centroid of the window's gradient energy; the local slope carries it to the
+//   pixel settle   near edges: the surface whose prediction explains the few dots around the pixel itself
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Match {
 /// `ir` is the whole infrared image [DN], ir_width × ir_height.
 Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference);
 
-// The steps, each from one image to the next.
+// The steps, each from one image to the next. `paired` is the infrared image with its rows in pairs.
 
 /// What is known at a pixel about the surface there. Disparities are relative to the reference plane, in depth pixels.
 struct Estimate {
@@ -37,10 +37,10 @@ struct Estimate {
 };
 
 /// Disparity of every pixel's best window, interpolated from the scores [px]; NaN without a peak inside the range.
-Image<float> search(const SensorModel& sensor, const Image<float>& ir, const Reference& reference);
+Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference);
 
 /// Sub-pixel disparity at the centroid of each window, with gain, bias and correlation.
-Image<Estimate> refine(const SensorModel& sensor, const Image<float>& ir, const Reference& reference,
+Image<Estimate> refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
                        const Image<float>& coarse);
 
 /// Fills in the slopes and moves every disparity from its centroid to its pixel's centre.
@@ -48,7 +48,7 @@ void carry_to_pixels(Image<Estimate>& estimates);
 
 /// Where windows reach over an edge, replaces each estimate by the neighbouring one that predicts the pixel's own dots
 /// best, or by none when none does.
-Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& ir, const Reference& reference,
+Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
                              const Image<Estimate>& estimates);
 
 /// A disparity as a place in the reference: column shift in whole infrared pixels, phase, and what is left over.
@@ -58,10 +58,11 @@ struct ReferenceShift {
   float rest_ir_px;  ///< |rest| ≤ ½ / kPhases
 };
 inline ReferenceShift reference_shift(float disparity) {
+  constexpr int kOffset = 1 << 14;  // keeps the rounded number positive; integer conversion is cheaper than floor()
   const float shift_ir_px = -2.0f * disparity;
-  const float steps = std::floor(shift_ir_px * kPhases + 0.5f);
-  const int whole = static_cast<int>(std::floor(steps / kPhases));
-  return {whole, static_cast<int>(steps) - whole * kPhases, shift_ir_px - steps / kPhases};
+  const int steps = static_cast<int>(shift_ir_px * kPhases + 0.5f + kOffset);
+  return {steps / kPhases - kOffset / kPhases, steps % kPhases,
+          shift_ir_px - static_cast<float>(steps - kOffset) / kPhases};
 }
 
 }  // namespace fathom

@@ -39,7 +39,8 @@ class TileMaker {
   /// Whether a dot fits here and its image fits there.
   bool can_take_pair(int x, int y) const {
     const int mirror_x = tile_.width() - 1 - x, mirror_y = tile_.height() - 1 - y;
-    const bool near_mirror = ring_distance(x, mirror_x, tile_.width()) <= 1 && ring_distance(y, mirror_y, tile_.height()) <= 1;
+    const bool near_mirror =
+        ring_distance(x, mirror_x, tile_.width()) <= 1 && ring_distance(y, mirror_y, tile_.height()) <= 1;
     return !near_mirror && is_free(x, y) && is_free(mirror_x, mirror_y);
   }
 
@@ -66,8 +67,8 @@ class TileMaker {
     return true;
   }
 
-  /// Moves one random dot (and its image) of the window that starts at (x, y) to a free place nearby, so that the window
-  /// changes but does not get emptier.
+  /// Moves one random dot (and its image) of the window that starts at (x, y) to a free place nearby, so that the
+  /// window changes but does not get emptier.
   void move_one(int x, int y) {
     for (int attempt = 0; attempt < 1000; ++attempt) {
       const int from_x = wrapped_x(x + static_cast<int>(rng_.below(kUniqueWindow)));
@@ -140,7 +141,8 @@ Image<std::uint8_t> make_dot_tile(const PatternModel& model) {
     compare_windows(window_bits(maker.tile(), kUniqueWindow), kUniqueRange, [&](int x, int y, int cells) {
       if (cells >= kUniqueCells) return;
       const bool apart = std::none_of(alike.begin(), alike.end(), [&](const auto& other) {
-        return ring_distance(x, other.first, model.tile_columns) < kUniqueWindow && ring_distance(y, other.second, model.tile_rows) < kUniqueWindow;
+        return ring_distance(x, other.first, model.tile_columns) < kUniqueWindow &&
+               ring_distance(y, other.second, model.tile_rows) < kUniqueWindow;
       });
       if (apart) alike.emplace_back(x, y);
     });

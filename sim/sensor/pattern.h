@@ -10,9 +10,9 @@
 
 namespace fathom {
 
-/// One tile (tile_columns × tile_rows; 1 = dot). It can be laid side by side: no two dots are 8-adjacent across the seams
-/// either, it is point-symmetric, and every 9×9 window differs from every other within ±136 positions of its row by at
-/// least 5 cells. Same model and seed, same tile. Throws Error when the model's density leaves no such tile.
+/// One tile (tile_columns × tile_rows; 1 = dot). It can be laid side by side: no two dots are 8-adjacent across the
+/// seams either, it is point-symmetric, and every 9×9 window differs from every other within ±136 positions of its row
+/// by at least 5 cells. Same model and seed, same tile. Throws Error when the model's density leaves no such tile.
 Image<std::uint8_t> make_dot_tile(const PatternModel& model);
 
 /// The smallest number of cells in which two `size`×`size` windows of the repeated tile differ that lie in the same row
@@ -21,8 +21,8 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
 
 class Pattern {
  public:
-  /// `ir_px_per_depth_px` turns the model's dot size into grid steps. `dot_gain`, when not empty, holds a brightness for
-  /// every position of the whole grid, row by row (speckle).
+  /// `ir_px_per_depth_px` turns the model's dot size into grid steps. `dot_gain`, when not empty, holds a brightness
+  /// for every position of the whole grid, row by row (speckle).
   Pattern(const PatternModel& model, double ir_px_per_depth_px);
 
   int columns() const { return columns_; }
@@ -42,8 +42,8 @@ class Pattern {
  private:
   static constexpr int kTableSize = 512;
 
-  Image<std::uint8_t> dots_;             ///< one tile
-  Image<std::uint16_t> near_;            ///< bit 4 r + c: a dot at (column − 1 + c, row − 1 + r); one tile
+  Image<std::uint8_t> dots_;   ///< one tile
+  Image<std::uint16_t> near_;  ///< bit 4 r + c: a dot at (column − 1 + c, row − 1 + r); one tile
   std::array<std::array<float, 4>, kTableSize + 1> profile_{};  ///< Gaussian at −1 … 2 steps from a fraction of a step
   int tile_columns_, tile_rows_, columns_, rows_;
   double step_px_;

@@ -38,7 +38,8 @@ std::array<float, kTaps> kernel(int phase, double (*law)(double)) {
 }
 
 FATHOM_SIMD_CLONES
-void convolve_row(const float* __restrict source, const std::array<float, kTaps>& weights, float* __restrict target, int width) {
+void convolve_row(const float* __restrict source, const std::array<float, kTaps>& weights, float* __restrict target,
+                  int width) {
   for (int x = 3; x < width - 4; ++x) {
     float sum = 0.0f;
     for (int tap = 0; tap < kTaps; ++tap) sum += weights[tap] * source[x + tap - 3];
@@ -54,73 +55,49 @@ Image<float> convolved(const Image<float>& image, const std::array<float, kTaps>
   return result;
 }
 
-/// Sums over the rows of the window that starts at `first_row`: one value per column and moment.
-struct ColumnSums {
-  std::vector<double> r, g, rr, rg, gg, gg_y;
-};
-
-void sum_columns(const Image<float>& shifted, const Image<float>& gradient, int first_row, ColumnSums& sums) {
-  const int width = shifted.width();
-  for (auto* moment : {&sums.r, &sums.g, &sums.rr, &sums.rg, &sums.gg, &sums.gg_y}) moment->assign(width, 0.0);
-  for (int j = 0; j < kRefineWindow; ++j) {
-    const float *r = shifted.row(first_row + j), *g = gradient.row(first_row + j);
-    for (int x = 0; x < width; ++x) {
-      sums.r[x] += r[x];
-      sums.g[x] += g[x];
-      sums.rr[x] += r[x] * r[x];
-      sums.rg[x] += r[x] * g[x];
-      sums.gg[x] += g[x] * g[x];
-      sums.gg_y[x] += g[x] * g[x] * static_cast<float>(j);
-    }
+/// Adds a row to the sums of its columns and of their squares.
+FATHOM_SIMD_CLONES
+void add_rows(const float* __restrict row, float* __restrict sums, float* __restrict squares, int width) {
+  for (int x = 0; x < width; ++x) {
+    sums[x] += row[x];
+    squares[x] += row[x] * row[x];
   }
 }
 
-WindowMoments sum_window(const ColumnSums& sums, int first_column) {
-  double r = 0, g = 0, rr = 0, rg = 0, gg = 0, gg_x = 0, gg_y = 0;
-  for (int i = 0; i < kRefineWindow; ++i) {
-    const int x = first_column + i;
-    r += sums.r[x], g += sums.g[x], rr += sums.rr[x], rg += sums.rg[x], gg += sums.gg[x];
-    gg_x += sums.gg[x] * i, gg_y += sums.gg_y[x];
+FATHOM_SIMD_CLONES
+void slide_window(const float* __restrict padded_columns, float* __restrict sums, int window, int width) {
+  for (int x = 0; x < width; ++x) {
+    float sum = 0.0f;
+    for (int i = 0; i < window; ++i) sum += padded_columns[x + i];
+    sums[x] = sum;
   }
-  const double middle = 0.5 * (kRefineWindow - 1);
-  return {static_cast<float>(r),  static_cast<float>(g),  static_cast<float>(rr),
-          static_cast<float>(rg), static_cast<float>(gg), static_cast<float>(gg > 0 ? gg_x / gg : middle),
-          static_cast<float>(gg > 0 ? gg_y / gg : middle)};
 }
 
-/// Mean over a columns×rows window around every pixel, cut at the image's edge.
-Image<float> window_mean(const Image<float>& image, int columns, int rows) {
-  Image<float> across(image.width(), image.height()), result(image.width(), image.height());
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const float* source = image.row(y);
-      for (int x = 0; x < image.width(); ++x) {
-        const int first = std::max(x - columns / 2, 0), last = std::min(x + columns / 2, image.width() - 1);
-        float sum = 0.0f;
-        for (int i = first; i <= last; ++i) sum += source[i];
-        across(x, y) = sum / static_cast<float>(last - first + 1);
-      }
-    }
-  });
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const int first = std::max(y - rows / 2, 0), last = std::min(y + rows / 2, image.height() - 1);
-      float* target = result.row(y);
-      for (int j = first; j <= last; ++j) {
-        const float* source = across.row(j);
-        for (int x = 0; x < image.width(); ++x) target[x] += source[x];
-      }
-      for (int x = 0; x < image.width(); ++x) target[x] /= static_cast<float>(last - first + 1);
-    }
-  });
-  return result;
+FATHOM_SIMD_CLONES
+void normalise_row(const float* __restrict row, const float* __restrict sums, const float* __restrict squares,
+                   const float* __restrict one_over_count, float least, float scale, float limit,
+                   std::int16_t* __restrict result, int width) {
+  for (int x = 0; x < width; ++x) {
+    const float mean = sums[x] * one_over_count[x];
+    const float variance = squares[x] * one_over_count[x] - mean * mean;
+    const float deviation = std::sqrt(variance > least * least ? variance : least * least);
+    float value = scale * (row[x] - mean) / deviation;
+    value = value > limit ? limit : value;
+    value = value < -limit ? -limit : value;
+    result[x] = static_cast<std::int16_t>(static_cast<int>(value + 64.5f) - 64);
+  }
+}
+
+FATHOM_SIMD_CLONES
+void mean_of_rows(const float* __restrict a, const float* __restrict b, float* __restrict mean, int width) {
+  for (int x = 0; x < width; ++x) mean[x] = 0.5f * (a[x] + b[x]);
 }
 
 }  // namespace
 
 int reference_margin(const MatcherModel& matcher) {
   const int reach = std::max(matcher.disparity_max_px, -matcher.disparity_min_px);
-  return reach + std::max(matcher.window_columns / 2, kRefineWindow / 2) + 4;
+  return reach + matcher.window_columns + 8;
 }
 
 Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, int margin_px, int samples_across) {
@@ -145,57 +122,62 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
   return image;
 }
 
-Image<float> halved(const Image<float>& image) {
-  Image<float> half(image.width() / 2, image.height() / 2);
-  parallel_ranges(half.height(), [&](int begin, int end) {
+Image<float> rows_in_pairs(const Image<float>& image) {
+  Image<float> result(image.width(), image.height() / 2);
+  parallel_ranges(result.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      mean_of_rows(image.row(2 * y), image.row(2 * y + 1), result.row(y), image.width());
+  });
+  return result;
+}
+
+Image<float> columns_in_pairs(const Image<float>& image) {
+  Image<float> result(image.width() / 2, image.height());
+  parallel_ranges(result.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const float *a = image.row(2 * y), *b = image.row(2 * y + 1);
-      for (int x = 0; x < half.width(); ++x)
-        half(x, y) = 0.25f * (a[2 * x] + a[2 * x + 1] + b[2 * x] + b[2 * x + 1]);
+      const float* row = image.row(y);
+      for (int x = 0; x < result.width(); ++x) result(x, y) = 0.5f * (row[2 * x] + row[2 * x + 1]);
     }
   });
-  return half;
+  return result;
 }
 
 Image<std::int16_t> locally_normalised(const Image<float>& image, const MatcherModel& matcher) {
-  const int columns = matcher.window_columns, rows = matcher.window_rows;
+  const int width = image.width(), columns = matcher.window_columns, rows = matcher.window_rows, half = columns / 2;
   // Largest amplitude for which columns · rows products fit 16 bits; a dot's centre stands about 2.8 deviations out.
   const float limit = std::floor(std::sqrt(32767.0f / static_cast<float>(columns * rows)));
-  const float scale = limit / 2.8f;
-  const Image<float> mean = window_mean(image, columns, rows);
-  Image<float> squared(image.width(), image.height());
-  for (std::size_t i = 0; i < image.size(); ++i) squared.pixels()[i] = image.pixels()[i] * image.pixels()[i];
-  const Image<float> mean_square = window_mean(squared, columns, rows);
-  Image<std::int16_t> result(image.width(), image.height());
-  const float least = static_cast<float>(matcher.contrast_min);
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    const float m = mean.pixels()[i];
-    const float deviation = std::sqrt(std::max(mean_square.pixels()[i] - m * m, 0.0f));
-    const float value = scale * (image.pixels()[i] - m) / std::max(deviation, least);
-    result.pixels()[i] = static_cast<std::int16_t>(std::lrint(std::clamp(value, -limit, limit)));
-  }
+  Image<std::int16_t> result(width, image.height());
+  parallel_ranges(image.height(), [&](int begin, int end) {
+    std::vector<float> column(width + 2 * half), column_square(width + 2 * half), sum(width), square(width),
+        one_over_count(width);
+    for (int y = begin; y < end; ++y) {
+      const int first = std::max(y - rows / 2, 0), last = std::min(y + rows / 2, image.height() - 1);
+      std::fill(column.begin(), column.end(), 0.0f);
+      std::fill(column_square.begin(), column_square.end(), 0.0f);
+      for (int j = first; j <= last; ++j)
+        add_rows(image.row(j), column.data() + half, column_square.data() + half, width);
+      slide_window(column.data(), sum.data(), columns, width);
+      slide_window(column_square.data(), square.data(), columns, width);
+      for (int x = 0; x < width; ++x) {
+        const int inside = std::min(x + half, width - 1) - std::max(x - half, 0) + 1;
+        one_over_count[x] = 1.0f / static_cast<float>(inside * (last - first + 1));
+      }
+      normalise_row(image.row(y), sum.data(), square.data(), one_over_count.data(),
+                    static_cast<float>(matcher.contrast_min), limit / 2.8f, limit, result.row(y), width);
+    }
+  });
   return result;
 }
 
 Reference memorise(const SensorModel& sensor, const Image<float>& image, int margin_px) {
   Reference reference;
   reference.margin_px = margin_px;
-  reference.search = locally_normalised(halved(image), sensor.matcher);
+  const Image<float> paired = rows_in_pairs(image);
+  reference.search = locally_normalised(columns_in_pairs(paired), sensor.matcher);
   for (int phase = 0; phase < kPhases; ++phase) {
-    reference.shifted.push_back(convolved(image, kernel(phase, lanczos)));
-    reference.gradient.push_back(convolved(image, kernel(phase, lanczos_slope)));
+    reference.shifted.push_back(convolved(paired, kernel(phase, lanczos)));
+    reference.gradient.push_back(convolved(paired, kernel(phase, lanczos_slope)));
   }
-  reference.moment_columns = image.width() - kRefineWindow + 1;
-  reference.moments.resize(static_cast<std::size_t>(sensor.height) * reference.moment_columns * kPhases);
-  parallel_ranges(sensor.height, [&](int begin, int end) {
-    ColumnSums sums;
-    for (int row = begin; row < end; ++row)
-      for (int phase = 0; phase < kPhases; ++phase) {
-        sum_columns(reference.shifted[phase], reference.gradient[phase], window_first_row(sensor, row), sums);
-        for (int x = 0; x < reference.moment_columns; ++x)
-          reference.moments[(static_cast<std::size_t>(row) * reference.moment_columns + x) * kPhases + phase] = sum_window(sums, x);
-      }
-  });
   return reference;
 }
 

@@ -78,9 +78,18 @@ Image<std::int16_t> padded(const Image<std::int16_t>& image, int half) {
 class BandSearch {
  public:
   BandSearch(const SensorModel& sensor, const Image<std::int16_t>& live, const Reference& reference)
-      : sensor_(sensor), matcher_(sensor.matcher), live_(live), reference_(reference), half_(matcher_.window_columns / 2),
-        count_(live.width()), range_(matcher_.disparity_max_px - matcher_.disparity_min_px + 1), sums_(range_, Row(count_)),
-        scores_(range_, Row(count_)), zeros_(count_), best_(count_), best_index_(count_) {}
+      : sensor_(sensor),
+        matcher_(sensor.matcher),
+        live_(live),
+        reference_(reference),
+        half_(matcher_.window_columns / 2),
+        count_(live.width()),
+        range_(matcher_.disparity_max_px - matcher_.disparity_min_px + 1),
+        sums_(range_, Row(count_)),
+        scores_(range_, Row(count_)),
+        zeros_(count_),
+        best_(count_),
+        best_index_(count_) {}
 
   void run(int begin, int end, Image<float>& disparity) {
     const int half_rows = matcher_.window_rows / 2;
@@ -125,11 +134,13 @@ class BandSearch {
                 best_index_.data(), count_ - 2 * half_);
   }
 
-  /// The dots' correlation falls off like a Gaussian, so a parabola through the logarithms of three scores meets its peak.
+  /// The dots' correlation falls off like a Gaussian, so a parabola through the logarithms of three scores meets its
+  /// peak.
   float peak(int x) const {
     const int i = best_index_[x];
     if (i == 0 || i == range_ - 1 || best_[x] <= 0) return std::numeric_limits<float>::quiet_NaN();
-    const float left = logarithm_(scores_[i - 1][x]), middle = logarithm_(best_[x]), right = logarithm_(scores_[i + 1][x]);
+    const float left = logarithm_(scores_[i - 1][x]), middle = logarithm_(best_[x]),
+                right = logarithm_(scores_[i + 1][x]);
     const float curvature = left - 2.0f * middle + right;
     const float offset = curvature < 0.0f ? 0.5f * (left - right) / curvature : 0.0f;
     return static_cast<float>(matcher_.disparity_min_px + i) + offset;
@@ -148,8 +159,9 @@ class BandSearch {
 
 }  // namespace
 
-Image<float> search(const SensorModel& sensor, const Image<float>& ir, const Reference& reference) {
-  const Image<std::int16_t> live = padded(locally_normalised(halved(ir), sensor.matcher), sensor.matcher.window_columns / 2);
+Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference) {
+  const Image<std::int16_t> live =
+      padded(locally_normalised(columns_in_pairs(paired), sensor.matcher), sensor.matcher.window_columns / 2);
   Image<float> disparity(sensor.width, sensor.height);
   constexpr int kBandRows = 60;
   const int bands = (sensor.height + kBandRows - 1) / kBandRows;
