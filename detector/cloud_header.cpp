@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -36,10 +37,17 @@ struct HeaderLines {
   }
 };
 
+/// Damaged bytes must not reach a terminal.
+std::string printable(std::string word) {
+  word.resize(std::min<std::size_t>(word.size(), 40));
+  std::replace_if(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
+  return word;
+}
+
 std::uint64_t whole_number(const std::string& file, const std::string& where, const std::string& word) {
   const bool digits = !word.empty() && word.size() <= 12 && word.find_first_not_of("0123456789") == std::string::npos;
   if (!digits || std::stoull(word) > kMostPoints)
-    throw Error(file, where, fmt::format("must be a whole number up to {}, got '{}'", kMostPoints, word));
+    throw Error(file, where, fmt::format("must be a whole number up to {}, got '{}'", kMostPoints, printable(word)));
   return std::stoull(word);
 }
 
@@ -56,12 +64,16 @@ void need_body(const std::string& file, std::uint64_t found, std::uint64_t neede
 }
 
 void check_pcd(const std::string& file, HeaderLines lines) {
+  static constexpr std::string_view kKeys[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                               "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
   std::map<std::string, Words> entries;
   while (!entries.contains("DATA")) {
     std::optional<Words> words = lines.next();
     if (!words) throw Error(file, "header", "ends before its line DATA");
     if (words->empty() || words->front().starts_with('#')) continue;
     const std::string key = words->front();
+    if (std::find(std::begin(kKeys), std::end(kKeys), key) == std::end(kKeys) || entries.contains(key))
+      throw Error(file, "header", fmt::format("has an unknown or a second line '{}'", printable(key)));
     words->erase(words->begin());
     entries[key] = std::move(*words);
   }
@@ -83,7 +95,7 @@ void check_pcd(const std::string& file, HeaderLines lines) {
     const bool known = (type == "F" && (size == 4 || size == 8)) ||
                        ((type == "I" || type == "U") && (size == 1 || size == 2 || size == 4 || size == 8));
     if (!known || count > 4096)
-      throw Error(file, "header", fmt::format("has an unknown type {}{} for '{}'", type, size, fields[i]));
+      throw Error(file, "header", fmt::format("has an unknown type {}{} for '{}'", printable(type), size, printable(fields[i])));
     point_bytes += size * count;
     point_values += count;
   }
@@ -106,7 +118,7 @@ void check_pcd(const std::string& file, HeaderLines lines) {
     if (sizes[1] != points * point_bytes)
       throw Error(file, fmt::format("is damaged: {} bytes packed, the header promises {}", sizes[1], points * point_bytes));
   } else {
-    throw Error(file, "DATA", fmt::format("must be ascii, binary or binary_compressed, got '{}'", encoding));
+    throw Error(file, "DATA", fmt::format("must be ascii, binary or binary_compressed, got '{}'", printable(encoding)));
   }
 }
 
@@ -128,20 +140,20 @@ void check_ply(const std::string& file, HeaderLines lines) {
       encoding = (*words)[1];
     } else if (key == "element" && words->size() == 3) {
       element = (*words)[1];
-      const std::uint64_t count = whole_number(file, "element " + element, (*words)[2]);
+      const std::uint64_t count = whole_number(file, "element " + printable(element), (*words)[2]);
       if (element == "vertex") vertices = count;
       else others += count;
     } else if (key == "property" && words->size() == 3) {
       const auto size = kSizes.find((*words)[1]);
       if (size == kSizes.end())
-        throw Error(file, "header", fmt::format("has an unknown type '{}' for '{}'", (*words)[1], (*words)[2]));
+        throw Error(file, "header", fmt::format("has an unknown type '{}' for '{}'", printable((*words)[1]), printable((*words)[2])));
       if (element != "vertex") continue;
       names.push_back((*words)[2]);
       vertex_bytes += size->second;
     }
   }
   if (encoding != "ascii" && encoding != "binary_little_endian" && encoding != "binary_big_endian")
-    throw Error(file, "format", fmt::format("must be ascii, binary_little_endian or binary_big_endian, got '{}'", encoding));
+    throw Error(file, "format", fmt::format("must be ascii, binary_little_endian or binary_big_endian, got '{}'", printable(encoding)));
   if (!vertices) throw Error(file, "header", "has no element vertex");
   need_xyz(file, names);
   const bool ascii = encoding == "ascii";

@@ -12,6 +12,7 @@
 #include "core/json.h"
 #include "core/units.h"
 #include "detector/pcl_points.h"
+#include "detector/quiet_pcl.h"
 #include "detector/read_cloud.h"
 
 namespace fathom {
@@ -23,6 +24,7 @@ constexpr float kTemplateSpacing_m = 0.003f;       // about twice a pixel's foot
 constexpr double kThresholdAboveBottom_m = 0.002;  // the paper's 9 mm over a bottom at 7 mm
 
 Points thinned(const Points& points) {
+  const QuietPcl quiet;
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setInputCloud(pcl_cloud(points));
   grid.setLeafSize(kTemplateSpacing_m, kTemplateSpacing_m, kTemplateSpacing_m);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "detector/pcl_points.h"
+#include "detector/quiet_pcl.h"
 
 namespace fathom {
 namespace {
@@ -33,6 +34,7 @@ double mean_distance(const PclCloud& from, const PclCloud::ConstPtr& to) {
 std::optional<TemplateMatch> match_templates(const Candidate& candidate, const std::vector<CupTemplate>& templates,
                                              const IcpSettings& settings) {
   assert(candidate.circle);
+  const QuietPcl quiet;
   const PclCloud::ConstPtr segment = pcl_cloud(in_template_frame(candidate.points, *candidate.circle));
   std::optional<TemplateMatch> best;
   for (std::size_t i = 0; i < templates.size(); ++i) {

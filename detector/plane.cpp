@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "detector/pcl_points.h"
+#include "detector/quiet_pcl.h"
 
 namespace fathom {
 namespace {
@@ -86,6 +87,7 @@ Eigen::Isometry3d desk_from_camera(const Plane& desk) {
 }
 
 std::vector<PlaneFit> find_planes(const Points& points, const PlaneSearch& search) {
+  const QuietPcl quiet;
   const auto cloud = pcl_cloud(points);
   pcl::Indices left(points.size());
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<int>(i);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <pcl/PCLPointCloud2.h>
-#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
@@ -13,21 +12,10 @@
 
 #include "core/error.h"
 #include "detector/cloud_header.h"
+#include "detector/quiet_pcl.h"
 
 namespace fathom {
 namespace {
-
-/// Silences PCL's own words on stderr while one file is read: what went wrong is said by the Error.
-class QuietPcl {
- public:
-  QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
-  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl& operator=(const QuietPcl&) = delete;
-
- private:
-  pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
-};
 
 template <class T>
 float value_as(const std::uint8_t* bytes) {

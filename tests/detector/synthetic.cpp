@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/cloud_file.h"
 #include "core/pose.h"
 #include "core/rng.h"
 
@@ -85,6 +86,17 @@ Cloud cast(const Scene& scene) {
     }
   }
   return cloud;
+}
+
+void write_cup(const std::filesystem::path& path, double floor_m) {
+  Scene scene;
+  scene.cups = {OpenCup{}};
+  scene.cups[0].floor_m = floor_m;
+  const Cloud cloud = cast(scene);
+  Image<CloudPoint> image(cloud.width, cloud.height);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    image.pixels()[i] = {cloud.points[i].x(), cloud.points[i].y(), cloud.points[i].z(), 0.0f};
+  write_pcd(path, image);
 }
 
 DeskPrior looking_at(double height_m, double distance_m) { return {height_m, std::atan2(height_m, distance_m), 0.0}; }

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "detector/cloud.h"
 #include "detector/plane.h"
 
 namespace fathom::synthetic {
+
+/// The pose of a sensor that looks at a point of the desk straight ahead.
+DeskPrior looking_at(double height_m, double distance_m);
 
 /// An upright open cylinder, as the paper's cup. World frame: z up, desk top z = 0, y away from the sensor.
 struct OpenCup {
@@ -28,7 +32,7 @@ struct Scene {
   std::vector<OpenCup> cups;
   std::vector<Box> boxes;
   bool desk = true;                             ///< 1.4 m × 1.0 m, its near edge 0.05 m from the sensor's foot
-  DeskPrior sensor{0.650, 1.0189, 0.0};         ///< looks at (0, 400 mm): pitch atan(650 / 400)
+  DeskPrior sensor = looking_at(0.650, 0.400);
   double yaw_rad = 0.0;                         ///< turns the camera about the vertical through it
   int width = 320, height = 240;
   double focal_px = 285.171;                    ///< the Xtion's at half its resolution
@@ -38,7 +42,7 @@ struct Scene {
 
 Cloud cast(const Scene& scene);
 
-/// The sensor pose that looks at a point of the desk straight ahead.
-DeskPrior looking_at(double height_m, double distance_m);
+/// A PCD of one paper cup straight ahead at 400 mm; `floor_m` as in OpenCup.
+void write_cup(const std::filesystem::path& path, double floor_m);
 
 }  // namespace fathom::synthetic
