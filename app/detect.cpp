@@ -81,13 +81,13 @@ std::string for_people(const std::filesystem::path& cloud, const Detection& dete
   text += fmt::format("  {} segments, {} cups\n", detection.segments, detection.cups.size());
   for (const Cup& cup : detection.cups) {
     const Eigen::Vector3d& at = cup.center_in_camera;
-    const std::string surface = cup.interior ? fmt::format("surface {:.1f} mm (sd {:.1f}, {} points)",
-                                                           mm_from_metres(cup.interior->mean_m),
-                                                           mm_from_metres(cup.interior->sd_m), cup.interior->points)
-                                             : "surface not seen";
-    text += fmt::format("  cup   at {:.3f} {:.3f} {:.3f} m, radius {:.1f} mm, score {:.1f} mm, liquid {}, {}: {}\n", at.x(),
-                        at.y(), at.z(), mm_from_metres(cup.candidate.circle->radius_m), mm_from_metres(cup.match.score_m),
-                        name_of(cup.liquid), surface, cup.why);
+    const std::string surface =
+        cup.interior ? fmt::format("surface {:.1f} mm (sd {:.1f}, {} points)", mm_from_metres(cup.interior->mean_m),
+                                   mm_from_metres(cup.interior->sd_m), cup.interior->points)
+                     : "surface not seen";
+    text += fmt::format("  cup   at {:.3f} {:.3f} {:.3f} m, radius {:.1f} mm, score {:.1f} mm, liquid {}, {}: {}\n",
+                        at.x(), at.y(), at.z(), mm_from_metres(cup.candidate.circle->radius_m),
+                        mm_from_metres(cup.match.score_m), name_of(cup.liquid), surface, cup.why);
   }
   for (const RejectedSegment& segment : detection.rejected)
     text += fmt::format("  other {} points: {}\n", segment.candidate.points.size(), segment.candidate.rejected);
@@ -128,12 +128,10 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) 
     help += fmt::format(" {} ({})", method.name, method.summary);
   }
   app.add_option("clouds", options->clouds, "PCD or PLY clouds, metres, camera frame")->required()->type_name("CLOUD");
-  app.add_option("--method", options->method, help)
-      ->capture_default_str()
-      ->check([names](const std::string& name) {
-        const bool known = std::find(names.begin(), names.end(), name) != names.end();
-        return known ? std::string() : unknown_name("method", name, names);
-      });
+  app.add_option("--method", options->method, help)->capture_default_str()->check([names](const std::string& name) {
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    return known ? std::string() : unknown_name("method", name, names);
+  });
   add_desk_options(app, options->desk);
   app.add_option("--config", options->config, "Parameters of the method and its templates")->type_name("JSON");
   return [options, &common] { run_detect(*options, common); };

@@ -57,10 +57,11 @@ void add_desk_options(CLI::App& app, DeskOptions& options) {
   CLI::Option* height = app.add_option("--height-mm", options.height_mm, "Height of the sensor above the desk")
                             ->check(CLI::Range(1.0, 1e5))
                             ->type_name("MM");
-  CLI::Option* pitch = app.add_option("--pitch-deg", options.pitch_deg, "0: the sensor looks horizontally, 90: straight down")
-                           ->check(CLI::Range(-90.0, 90.0))
-                           ->type_name("DEG")
-                           ->each([&options](const std::string&) { options.given = true; });
+  CLI::Option* pitch =
+      app.add_option("--pitch-deg", options.pitch_deg, "0: the sensor looks horizontally, 90: straight down")
+          ->check(CLI::Range(-90.0, 90.0))
+          ->type_name("DEG")
+          ->each([&options](const std::string&) { options.given = true; });
   height->needs(pitch);
   pitch->needs(height);
 }

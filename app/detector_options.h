@@ -23,8 +23,8 @@ struct DeskOptions {
 
 void add_desk_options(CLI::App& app, DeskOptions& options);
 
-/// Reads the keys of config.json over the defaults; the templates are those it names (beside the file), else those that come
-/// with the program. An empty path gives the defaults. Throws Error on anything unknown or out of range.
+/// Reads the keys of config.json over the defaults; the templates are those it names (beside the file), else those that
+/// come with the program. An empty path gives the defaults. Throws Error on anything unknown or out of range.
 DetectorSettings detector_settings(const std::filesystem::path& config);
 
 }  // namespace fathom

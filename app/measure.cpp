@@ -51,7 +51,8 @@ std::optional<Candidate> candidate_at(const DeskView& view, const Eigen::Vector2
   return nearest;
 }
 
-std::optional<InteriorHeight> measure_frame(const Cloud& cloud, const LaboratoryRig& rig, const Eigen::Vector2d& cup_in_world) {
+std::optional<InteriorHeight> measure_frame(const Cloud& cloud, const LaboratoryRig& rig,
+                                            const Eigen::Vector2d& cup_in_world) {
   const auto found = view_of_desk(cloud, DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}, PlaneSearch{});
   const DeskView* view = std::get_if<DeskView>(&found);
   if (!view) return std::nullopt;
@@ -102,7 +103,9 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
 
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common) {
   const auto folder = std::make_shared<std::filesystem::path>();
-  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")->required()->type_name("DIR");
+  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")
+      ->required()
+      ->type_name("DIR");
   return [folder, &common] { run_measure(*folder, common); };
 }
 

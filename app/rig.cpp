@@ -13,7 +13,8 @@ double read_deg(const JsonReader& json, std::string_view key, Range range) {
   return radians_from_deg(json.number_or(key, 0.0, range));
 }
 
-void read_sigma(const JsonReader& owner, std::initializer_list<std::string_view> keys, std::map<std::string, double>& sigma) {
+void read_sigma(const JsonReader& owner, std::initializer_list<std::string_view> keys,
+                std::map<std::string, double>& sigma) {
   if (!owner.has("sigma")) return;
   const JsonReader json = owner.at("sigma");
   json.allow_only(keys);
@@ -22,7 +23,8 @@ void read_sigma(const JsonReader& owner, std::initializer_list<std::string_view>
 }
 
 void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
-  json.allow_only({"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "sigma"});
+  json.allow_only(
+      {"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "sigma"});
   rig.sensor_model = json.text("model");
   rig.height_m = metres_from_mm(json.number("height_mm", kPositive));
   rig.pitch_rad = radians_from_deg(json.number("pitch_deg", {-90.0, 90.0}));

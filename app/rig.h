@@ -31,8 +31,8 @@ struct LaboratoryRig {
   std::map<std::string, double> sigma;  ///< 1 σ of the value of that key, in the key's unit, e.g. "height_mm" → 0.5
 };
 
-/// Throws Error on unknown, missing or impossible values. Only sensor.model, sensor.height_mm, sensor.pitch_deg, cup and
-/// liquids must be there.
+/// Throws Error on unknown, missing or impossible values. Only sensor.model, sensor.height_mm, sensor.pitch_deg, cup
+/// and liquids must be there.
 LaboratoryRig read_rig(const std::filesystem::path& path);
 
 }  // namespace fathom

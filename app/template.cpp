@@ -41,7 +41,8 @@ void run_template(const TemplateOptions& options, const CommonOptions& common) {
 
   std::optional<double> threshold_m;
   if (options.liquid_threshold_mm) threshold_m = metres_from_mm(*options.liquid_threshold_mm);
-  const CupTemplate cup = make_template(options.name, view.points, only_candidate(view, file), InteriorSettings{}, threshold_m);
+  const CupTemplate cup =
+      make_template(options.name, view.points, only_candidate(view, file), InteriorSettings{}, threshold_m);
   make_directory(common.output);
   save_template(common.output, cup);
   fmt::print("{}", format_rows({{"radius", mm_from_metres(cup.radius_m), "mm"},
@@ -55,12 +56,15 @@ void run_template(const TemplateOptions& options, const CommonOptions& common) {
 
 std::function<void()> define_template(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<TemplateOptions>();
-  app.add_option("cloud", options->cloud, "PCD or PLY cloud with one empty cup on the desk")->required()->type_name("CLOUD");
+  app.add_option("cloud", options->cloud, "PCD or PLY cloud with one empty cup on the desk")
+      ->required()
+      ->type_name("CLOUD");
   app.add_option("--name", options->name, "Name of the template and its files")
       ->required()
       ->check([](const std::string& name) {
-        const bool plain = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz"
-                                                                   "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+        const bool plain = !name.empty() && name.find_first_not_of(
+                                                "abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
         return plain ? std::string() : "a name is made of letters, digits, _ and -";
       });
   add_desk_options(app, options->desk);

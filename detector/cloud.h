@@ -9,7 +9,7 @@ namespace fathom {
 using Points = std::vector<Eigen::Vector3f>;
 
 struct Cloud {
-  Points points;                 ///< [m] camera frame: x right, y down, z forward; row-major; NaN where nothing was measured
+  Points points;  ///< [m] camera frame: x right, y down, z forward; row-major; NaN where nothing was measured
   std::vector<float> intensity;  ///< as many as points, or empty when the file has none
   int width = 0;
   int height = 0;  ///< 1: not organised

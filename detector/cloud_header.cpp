@@ -40,7 +40,8 @@ struct HeaderLines {
 /// Damaged bytes must not reach a terminal.
 std::string printable(std::string word) {
   word.resize(std::min<std::size_t>(word.size(), 40));
-  std::replace_if(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
+  std::replace_if(
+      word.begin(), word.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
   return word;
 }
 
@@ -95,7 +96,8 @@ void check_pcd(const std::string& file, HeaderLines lines) {
     const bool known = (type == "F" && (size == 4 || size == 8)) ||
                        ((type == "I" || type == "U") && (size == 1 || size == 2 || size == 4 || size == 8));
     if (!known || count > 4096)
-      throw Error(file, "header", fmt::format("has an unknown type {}{} for '{}'", printable(type), size, printable(fields[i])));
+      throw Error(file, "header",
+                  fmt::format("has an unknown type {}{} for '{}'", printable(type), size, printable(fields[i])));
     point_bytes += size * count;
     point_values += count;
   }
@@ -116,16 +118,18 @@ void check_pcd(const std::string& file, HeaderLines lines) {
     std::memcpy(sizes, lines.rest.data(), sizeof sizes);
     need_body(file, lines.rest.size() - sizeof sizes, sizes[0]);
     if (sizes[1] != points * point_bytes)
-      throw Error(file, fmt::format("is damaged: {} bytes packed, the header promises {}", sizes[1], points * point_bytes));
+      throw Error(file,
+                  fmt::format("is damaged: {} bytes packed, the header promises {}", sizes[1], points * point_bytes));
   } else {
     throw Error(file, "DATA", fmt::format("must be ascii, binary or binary_compressed, got '{}'", printable(encoding)));
   }
 }
 
 void check_ply(const std::string& file, HeaderLines lines) {
-  static const std::map<std::string, std::uint64_t> kSizes{
-      {"char", 1},  {"uchar", 1},  {"short", 2},  {"ushort", 2}, {"int", 4},   {"uint", 4},    {"float", 4},   {"double", 8},
-      {"int8", 1},  {"uint8", 1},  {"int16", 2},  {"uint16", 2}, {"int32", 4}, {"uint32", 4},  {"float32", 4}, {"float64", 8}};
+  static const std::map<std::string, std::uint64_t> kSizes{{"char", 1},  {"uchar", 1},  {"short", 2},   {"ushort", 2},
+                                                           {"int", 4},   {"uint", 4},   {"float", 4},   {"double", 8},
+                                                           {"int8", 1},  {"uint8", 1},  {"int16", 2},   {"uint16", 2},
+                                                           {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
   std::string encoding, element;
   std::optional<std::uint64_t> vertices;
   std::uint64_t others = 0, vertex_bytes = 0;
@@ -141,19 +145,23 @@ void check_ply(const std::string& file, HeaderLines lines) {
     } else if (key == "element" && words->size() == 3) {
       element = (*words)[1];
       const std::uint64_t count = whole_number(file, "element " + printable(element), (*words)[2]);
-      if (element == "vertex") vertices = count;
-      else others += count;
+      if (element == "vertex")
+        vertices = count;
+      else
+        others += count;
     } else if (key == "property" && words->size() == 3) {
       const auto size = kSizes.find((*words)[1]);
       if (size == kSizes.end())
-        throw Error(file, "header", fmt::format("has an unknown type '{}' for '{}'", printable((*words)[1]), printable((*words)[2])));
+        throw Error(file, "header",
+                    fmt::format("has an unknown type '{}' for '{}'", printable((*words)[1]), printable((*words)[2])));
       if (element != "vertex") continue;
       names.push_back((*words)[2]);
       vertex_bytes += size->second;
     }
   }
   if (encoding != "ascii" && encoding != "binary_little_endian" && encoding != "binary_big_endian")
-    throw Error(file, "format", fmt::format("must be ascii, binary_little_endian or binary_big_endian, got '{}'", printable(encoding)));
+    throw Error(file, "format",
+                fmt::format("must be ascii, binary_little_endian or binary_big_endian, got '{}'", printable(encoding)));
   if (!vertices) throw Error(file, "header", "has no element vertex");
   need_xyz(file, names);
   const bool ascii = encoding == "ascii";

@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-/// Groups of points connected by steps of at most `distance_m`, each of at least `points_min` points, the largest first.
+/// Groups of points connected by steps of at most `distance_m`, each of at least `points_min` points, the largest
+/// first.
 std::vector<Points> euclidean_clusters(const Points& points, double distance_m, int points_min);
 
 }  // namespace fathom

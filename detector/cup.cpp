@@ -53,8 +53,8 @@ Candidate examine_segment(Points segment, const CupGates& gates) {
     return result;
   }
   if (result.top_m < gates.top_min_m) {
-    result.rejected = fmt::format("height {:.1f} mm is below {:g} mm", mm_from_metres(result.top_m),
-                                  mm_from_metres(gates.top_min_m));
+    result.rejected =
+        fmt::format("height {:.1f} mm is below {:g} mm", mm_from_metres(result.top_m), mm_from_metres(gates.top_min_m));
     return result;
   }
 

@@ -11,13 +11,14 @@
 namespace fathom {
 
 struct CupGates {
-  double width_min_m = 0.030;  ///< end to end along the desk; the paper gives no numbers: a bit less than 2 × radius_min …
+  double width_min_m =
+      0.030;  ///< end to end along the desk; the paper gives no numbers: a bit less than 2 × radius_min …
   double width_max_m = 0.170;  ///< … and 2 × radius_max with 50 mm for a handle
   double top_min_m = 0.040;    ///< the segment must reach into the band
   double band_low_m = 0.040;   ///< points between these heights are projected onto the desk
   double band_high_m = 0.050;
-  /// As printed. It rejects nothing: no circle of 60 mm radius has points 40 mm off on the average. Mugs show 1.4–2.0 mm, or
-  /// 7–9 mm with the handle in the band; other things 9–58 mm.
+  /// As printed. It rejects nothing: no circle of 60 mm radius has points 40 mm off on the average. Mugs show 1.4–2.0
+  /// mm, or 7–9 mm with the handle in the band; other things 9–58 mm.
   double circle_rms_max_m = 0.040;
   double radius_min_m = 0.020;
   double radius_max_m = 0.060;

@@ -44,8 +44,8 @@ Points in_template_frame(const Points& in_desk, const Circle& circle) {
   result.reserve(in_desk.size());
   for (const Eigen::Vector3f& point : in_desk) {
     const double x = point.x() - circle.center.x(), y = point.y() - circle.center.y();
-    result.emplace_back(static_cast<float>(away.y() * x - away.x() * y), static_cast<float>(away.x() * x + away.y() * y),
-                        point.z());
+    result.emplace_back(static_cast<float>(away.y() * x - away.x() * y),
+                        static_cast<float>(away.x() * x + away.y() * y), point.z());
   }
   return result;
 }
@@ -60,9 +60,8 @@ CupTemplate make_template(std::string name, const Points& scene, const Candidate
     liquid_threshold_m = bottom->mean_m + kThresholdAboveBottom_m;
   }
   Points points = candidate.points;
-  const double segment_low = std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
-                               return a.z() < b.z();
-                             })->z();
+  const double segment_low =
+      std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); })->z();
   const double radius = circle.radius_m - interior.margin_m;
   for (const Eigen::Vector3f& point : scene)
     if (point.z() >= interior.low_m && point.z() < segment_low &&

@@ -19,13 +19,13 @@ struct CupTemplate {
   double radius_m;
 };
 
-/// Points of the desk frame in the frame of a template: `circle`'s centre becomes the origin, its direction from the camera's
-/// foot point the y axis.
+/// Points of the desk frame in the frame of a template: `circle`'s centre becomes the origin, its direction from the
+/// camera's foot point the y axis.
 Points in_template_frame(const Points& in_desk, const Circle& circle);
 
-/// Makes a template of an empty cup from a captured scene. `scene` [m, desk frame] gives the points of the bottom, which the
-/// segment has not; `candidate` must have a circle. `liquid_threshold_m`: nothing = 2 mm above the bottom that is seen (the
-/// paper's 9 mm for its cup); throws Error when none is seen.
+/// Makes a template of an empty cup from a captured scene. `scene` [m, desk frame] gives the points of the bottom,
+/// which the segment has not; `candidate` must have a circle. `liquid_threshold_m`: nothing = 2 mm above the bottom
+/// that is seen (the paper's 9 mm for its cup); throws Error when none is seen.
 CupTemplate make_template(std::string name, const Points& scene, const Candidate& candidate,
                           const InteriorSettings& interior, std::optional<double> liquid_threshold_m);
 

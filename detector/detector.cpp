@@ -14,18 +14,24 @@ constexpr std::array kMethods{
 
 std::string_view name_of(Liquid liquid) {
   switch (liquid) {
-    case Liquid::kYes: return "yes";
-    case Liquid::kNo: return "no";
-    case Liquid::kUnknown: break;
+    case Liquid::kYes:
+      return "yes";
+    case Liquid::kNo:
+      return "no";
+    case Liquid::kUnknown:
+      break;
   }
   return "unknown";
 }
 
 std::string_view name_of(LiquidKind kind) {
   switch (kind) {
-    case LiquidKind::kTransparent: return "transparent";
-    case LiquidKind::kOpaque: return "opaque";
-    case LiquidKind::kUnknown: break;
+    case LiquidKind::kTransparent:
+      return "transparent";
+    case LiquidKind::kOpaque:
+      return "opaque";
+    case LiquidKind::kUnknown:
+      break;
   }
   return "unknown";
 }

@@ -22,7 +22,7 @@ std::string_view name_of(Liquid liquid);    ///< "yes", "no", "unknown"
 std::string_view name_of(LiquidKind kind);  ///< "transparent", "opaque", "unknown"
 
 struct Cup {
-  Candidate candidate;            ///< the segment and its circle; desk frame
+  Candidate candidate;               ///< the segment and its circle; desk frame
   Eigen::Vector3d center_in_camera;  ///< [m] the circle's centre 45 mm above the desk
   TemplateMatch match;
   Liquid liquid = Liquid::kUnknown;
@@ -43,7 +43,7 @@ struct Detection {
   int segments = 0;
   std::vector<Cup> cups;
   std::vector<RejectedSegment> rejected;
-  std::string why;                  ///< why there is no desk; empty when there is one
+  std::string why;  ///< why there is no desk; empty when there is one
 };
 
 struct DetectorSettings {

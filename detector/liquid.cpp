@@ -8,7 +8,8 @@ namespace fathom {
 
 double InteriorHeight::standard_error_m() const { return sd_m / std::sqrt(static_cast<double>(points)); }
 
-std::optional<InteriorHeight> interior_height(const Points& points, const Circle& circle, const InteriorSettings& settings) {
+std::optional<InteriorHeight> interior_height(const Points& points, const Circle& circle,
+                                              const InteriorSettings& settings) {
   const double radius = circle.radius_m - settings.margin_m;
   if (radius <= 0.0) return std::nullopt;
   std::vector<double> heights;

@@ -10,9 +10,9 @@ namespace fathom {
 
 struct PaperConfig {
   PlaneSearch plane;
-  double height_max_m = 0.100;       ///< points higher above the desk belong to no cup (the paper's are at most 87 mm high)
+  double height_max_m = 0.100;  ///< points higher above the desk belong to no cup (the paper's are at most 87 mm high)
   double cluster_distance_m = 0.040;
-  int cluster_points_min = 100;      ///< smaller segments are noise; a cup at 1 m has some 2000 points
+  int cluster_points_min = 100;  ///< smaller segments are noise; a cup at 1 m has some 2000 points
   CupGates cup;
   IcpSettings icp;
   InteriorSettings interior;

@@ -21,9 +21,9 @@ struct Plane {
 
 /// How the sensor is mounted over the desk.
 struct DeskPrior {
-  double height_m;       ///< of the camera above the desk
-  double pitch_rad;      ///< 0: looking horizontally, π/2: straight down
-  double roll_rad = 0.0; ///< about the line of sight, positive when the camera's right side is lowered
+  double height_m;        ///< of the camera above the desk
+  double pitch_rad;       ///< 0: looking horizontally, π/2: straight down
+  double roll_rad = 0.0;  ///< about the line of sight, positive when the camera's right side is lowered
 };
 
 Plane plane_from(const DeskPrior& prior);
@@ -43,19 +43,19 @@ struct PlaneFit {
 
 struct PlaneSearch {
   double threshold_m = 0.010;  ///< the paper's outlier rejection
-  int planes_max = 6;          ///< RANSAC is repeated on what is left over, so often at most (the paper gives no number) …
-  double share_min = 0.03;     ///< … and while a plane holds at least this share of the measured points
+  int planes_max = 6;  ///< RANSAC is repeated on what is left over, so often at most (the paper gives no number) …
+  double share_min = 0.03;  ///< … and while a plane holds at least this share of the measured points
   int iterations_max = 1000;
-  double prior_angle_max_rad = 0.35;   ///< planes tilted more than this (20°) against the prior are no desk
-  double prior_height_max_m = 0.15;    ///< nor are planes that put the camera higher or lower by more than this
+  double prior_angle_max_rad = 0.35;  ///< planes tilted more than this (20°) against the prior are no desk
+  double prior_height_max_m = 0.15;   ///< nor are planes that put the camera higher or lower by more than this
 };
 
 /// Largest first, about: in the order RANSAC finds them. The seed is fixed: equal points give equal planes.
 std::vector<PlaneFit> find_planes(const Points& points, const PlaneSearch& search);
 
-/// The plane closest to the prior, by the distance between the feet of the camera's perpendiculars. Without a prior: the one
-/// with the most inliers among those that a camera pitched between level and straight down can stand above (its normal
-/// within 60° of the camera's up-and-backward diagonal (0, −1, −1)). Nothing when there is no such plane.
+/// The plane closest to the prior, by the distance between the feet of the camera's perpendiculars. Without a prior:
+/// the one with the most inliers among those that a camera pitched between level and straight down can stand above (its
+/// normal within 60° of the camera's up-and-backward diagonal (0, −1, −1)). Nothing when there is no such plane.
 std::optional<PlaneFit> choose_desk(const std::vector<PlaneFit>& planes, const std::optional<DeskPrior>& prior,
                                     const PlaneSearch& search);
 

@@ -26,15 +26,24 @@ float value_as(const std::uint8_t* bytes) {
 
 float number_at(const std::uint8_t* bytes, std::uint8_t type) {
   switch (type) {
-    case pcl::PCLPointField::INT8: return value_as<std::int8_t>(bytes);
-    case pcl::PCLPointField::UINT8: return value_as<std::uint8_t>(bytes);
-    case pcl::PCLPointField::INT16: return value_as<std::int16_t>(bytes);
-    case pcl::PCLPointField::UINT16: return value_as<std::uint16_t>(bytes);
-    case pcl::PCLPointField::INT32: return value_as<std::int32_t>(bytes);
-    case pcl::PCLPointField::UINT32: return value_as<std::uint32_t>(bytes);
-    case pcl::PCLPointField::FLOAT32: return value_as<float>(bytes);
-    case pcl::PCLPointField::FLOAT64: return value_as<double>(bytes);
-    default: return std::numeric_limits<float>::quiet_NaN();
+    case pcl::PCLPointField::INT8:
+      return value_as<std::int8_t>(bytes);
+    case pcl::PCLPointField::UINT8:
+      return value_as<std::uint8_t>(bytes);
+    case pcl::PCLPointField::INT16:
+      return value_as<std::int16_t>(bytes);
+    case pcl::PCLPointField::UINT16:
+      return value_as<std::uint16_t>(bytes);
+    case pcl::PCLPointField::INT32:
+      return value_as<std::int32_t>(bytes);
+    case pcl::PCLPointField::UINT32:
+      return value_as<std::uint32_t>(bytes);
+    case pcl::PCLPointField::FLOAT32:
+      return value_as<float>(bytes);
+    case pcl::PCLPointField::FLOAT64:
+      return value_as<double>(bytes);
+    default:
+      return std::numeric_limits<float>::quiet_NaN();
   }
 }
 
@@ -83,7 +92,9 @@ Cloud read_cloud(const std::filesystem::path& path) {
   if (intensity) cloud.intensity.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* bytes = raw.data.data() + i * raw.point_step;
-    const auto number = [&](const pcl::PCLPointField& field) { return number_at(bytes + field.offset, field.datatype); };
+    const auto number = [&](const pcl::PCLPointField& field) {
+      return number_at(bytes + field.offset, field.datatype);
+    };
     Eigen::Vector3f point(number(*x), number(*y), number(*z));
     if (!point.allFinite() || point.isZero(0.0f)) point.setConstant(std::numeric_limits<float>::quiet_NaN());
     cloud.points.push_back(point);

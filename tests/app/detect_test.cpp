@@ -32,7 +32,8 @@ struct DetectCommand : testing::Test {
 };
 
 TEST_F(DetectCommand, JsonHasTheKeysThatOthersRelyOn) {
-  const ProgramRun run = run_fathom("detect " + filled + " --json --config " + config + " --height-mm 650 --pitch-deg 58.4");
+  const ProgramRun run =
+      run_fathom("detect " + filled + " --json --config " + config + " --height-mm 650 --pitch-deg 58.4");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json.at("segments"), 1);
@@ -66,14 +67,16 @@ TEST_F(DetectCommand, SeveralCloudsGiveAListInTheirOrder) {
 TEST_F(DetectCommand, TheTemplateThatComesWithTheProgramIsThePaperCup) {
   const ProgramRun run = run_fathom("detect " + empty);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NE(run.out.find("matches paper_cup; mean height inside 7.0 mm is not above its threshold of 9 mm"), std::string::npos)
+  EXPECT_NE(run.out.find("matches paper_cup; mean height inside 7.0 mm is not above its threshold of 9 mm"),
+            std::string::npos)
       << run.out;
 }
 
 TEST_F(DetectCommand, AGapInTheRulesOfUseIsBadUsage) {
   const ProgramRun method = run_fathom("detect " + empty + " --method papre");
   EXPECT_EQ(method.exit_code, 2);
-  EXPECT_NE((method.out + method.err).find("unknown method 'papre', choose from paper"), std::string::npos) << method.err;
+  EXPECT_NE((method.out + method.err).find("unknown method 'papre', choose from paper"), std::string::npos)
+      << method.err;
   EXPECT_EQ(run_fathom("detect").exit_code, 2);
   EXPECT_EQ(run_fathom("detect " + empty + " --height-mm 650").exit_code, 2);
   EXPECT_EQ(run_fathom("template " + empty + " -o " + folder.string() + " --name a/b").exit_code, 2);
@@ -88,17 +91,21 @@ TEST_F(DetectCommand, MistakesAreOneLineThatNamesTheFile) {
   };
   write_text(folder / "bad.pcd", "hello\n");
   const std::string bad = (folder / "bad.pcd").string();
-  EXPECT_EQ(error("detect " + empty + " " + bad + " --config " + config), "error: " + bad + ": is neither PCD nor PLY\n");
+  EXPECT_EQ(error("detect " + empty + " " + bad + " --config " + config),
+            "error: " + bad + ": is neither PCD nor PLY\n");
   write_text(config, R"({"band_mm": [50, 40]})");
   EXPECT_EQ(error("detect " + empty + " --config " + config),
             "error: " + config + ": /band_mm: must be two rising lengths [low, high]\n");
   write_text(config, R"({"band": [40, 50]})");
-  EXPECT_EQ(error("detect " + empty + " --config " + config).find("error: " + config + ": /band: unknown key 'band', choose from"), 0u);
+  EXPECT_EQ(error("detect " + empty + " --config " + config)
+                .find("error: " + config + ": /band: unknown key 'band', choose from"),
+            0u);
   EXPECT_EQ(error("template " + empty + " --name cup"), "error: --output: is needed: the folder for the template\n");
 }
 
 TEST_F(DetectCommand, EveryKeyOfTheConfigurationReachesTheMethod) {
-  write_text(config, R"({"plane_threshold_mm": 10, "planes_max": 6, "plane_share_min": 0.03, "plane_iterations_max": 1000,
+  write_text(config,
+             R"({"plane_threshold_mm": 10, "planes_max": 6, "plane_share_min": 0.03, "plane_iterations_max": 1000,
     "prior_angle_max_deg": 20, "prior_height_max_mm": 150, "height_max_mm": 100, "cluster_distance_mm": 40,
     "cluster_points_min": 100, "width_mm": [30, 170], "top_min_mm": 40, "band_mm": [40, 50], "circle_rms_max_mm": 40,
     "radius_mm": [20, 60], "icp_score_max_mm": 10, "icp_iterations_max": 30, "interior_margin_mm": 10,
@@ -106,9 +113,11 @@ TEST_F(DetectCommand, EveryKeyOfTheConfigurationReachesTheMethod) {
   EXPECT_EQ(run_fathom("detect " + filled + " --json --config " + config).out,
             (write_text(folder / "defaults.json", R"({"templates": ["paper_cup.json"]})"),
              run_fathom("detect " + filled + " --json --config " + (folder / "defaults.json").string()).out));
-  for (const auto& [change, reason] : std::initializer_list<std::pair<const char*, const char*>>{
-           {R"({"radius_mm": [20, 30]})", "radius"}, {R"({"width_mm": [30, 60]})", "width"},
-           {R"({"icp_score_max_mm": 0.01})", "mean distance"}, {R"({"band_mm": [90, 95]})", "no circle"}}) {
+  for (const auto& [change, reason] :
+       std::initializer_list<std::pair<const char*, const char*>>{{R"({"radius_mm": [20, 30]})", "radius"},
+                                                                  {R"({"width_mm": [30, 60]})", "width"},
+                                                                  {R"({"icp_score_max_mm": 0.01})", "mean distance"},
+                                                                  {R"({"band_mm": [90, 95]})", "no circle"}}) {
     write_text(config, change);
     const ProgramRun run = run_fathom("detect " + filled + " --json --config " + config);
     EXPECT_EQ(Json::parse(run.out).at("candidates").at(0).at("reason").get<std::string>().find(reason), 0u) << run.out;

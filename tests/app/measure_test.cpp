@@ -61,7 +61,8 @@ TEST_F(MeasureCommand, FillsTheHeightsOfEveryFrameWithACup) {
 }
 
 TEST_F(MeasureCommand, AHeightWithoutACloudStaysAsItIs) {
-  const ProgramRun run = measure("0,0,0,0,0,0,empty,0,400,0,,7.2,0.5,300\n", kHeader + std::string(",height_mm,height_sd_mm,points"));
+  const ProgramRun run =
+      measure("0,0,0,0,0,0,empty,0,400,0,,7.2,0.5,300\n", kHeader + std::string(",height_mm,height_sd_mm,points"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(read_table(folder / "heights.csv").text(0, "height_mm"), "7.2");
 }
@@ -73,7 +74,8 @@ TEST_F(MeasureCommand, MistakesNameTheLineAndTheColumn) {
             "line 2, column 'fill_mm': must be a finite number, got 'deep'\n");
   EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,clouds/empty.pcd\n1,0,0,0,0,0,empty,0,400,0,clouds/no.pcd\n"),
             "line 3, column 'cloud': there is no file " + (folder / "clouds/no.pcd").string() + "\n");
-  EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,\n"), "line 2, column 'cloud': is empty, and there is no height_mm in its place\n");
+  EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,\n"),
+            "line 2, column 'cloud': is empty, and there is no height_mm in its place\n");
   EXPECT_EQ(error_of("0,0\n", "frame,liquid"), "line 1: has no column 'session'\n");
   write_text(folder / "clouds/bad.pcd", "hello\n");
   EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,clouds/bad.pcd\n"),

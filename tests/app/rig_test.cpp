@@ -47,22 +47,26 @@ TEST(Rig, EveryKeyIsReadInSi) {
 }
 
 TEST(Rig, OnlyModelPoseCupAndLiquidsMustBeThere) {
-  const LaboratoryRig rig = read(R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "cup": {}, "liquids": {}})");
+  const LaboratoryRig rig =
+      read(R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "cup": {}, "liquids": {}})");
   EXPECT_DOUBLE_EQ(rig.inner_radius_m, 0.040);
   EXPECT_DOUBLE_EQ(rig.baseline_m, 0.075);
   const std::string sensor = R"("sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45})";
   EXPECT_EQ(error_of("{" + sensor + R"(, "cup": {}})"), "/liquids: is missing");
   EXPECT_EQ(error_of("{" + sensor + R"(, "liquids": {}})"), "/cup: is missing");
-  EXPECT_EQ(error_of(R"({"sensor": {"model": "kinect_v1", "height_mm": 600}, "cup": {}, "liquids": {}})"), "/sensor/pitch_deg: is missing");
+  EXPECT_EQ(error_of(R"({"sensor": {"model": "kinect_v1", "height_mm": 600}, "cup": {}, "liquids": {}})"),
+            "/sensor/pitch_deg: is missing");
 }
 
 TEST(Rig, WhatCannotBeIsRefused) {
   const auto with = [](const std::string& cup, const std::string& liquids) {
-    return R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "cup": {)" + cup + R"(}, "liquids": {)" + liquids + "}}";
+    return R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "cup": {)" + cup +
+           R"(}, "liquids": {)" + liquids + "}}";
   };
   EXPECT_EQ(error_of(with(R"("inner_radius_mm": 50)", "")), "/cup/inner_radius_mm: must not be above outer_radius_mm");
   EXPECT_EQ(error_of(with(R"("bottom_mm": 87)", "")), "/cup/bottom_mm: must be below height_mm");
-  EXPECT_EQ(error_of(with(R"("radius_mm": 40)", "")).find("/cup/radius_mm: unknown key 'radius_mm', choose from shape"), 0u);
+  EXPECT_EQ(error_of(with(R"("radius_mm": 40)", "")).find("/cup/radius_mm: unknown key 'radius_mm', choose from shape"),
+            0u);
   EXPECT_EQ(error_of(with("", R"("none": "water")")), "/liquids/none: is a reserved name and no liquid");
   EXPECT_EQ(error_of(with("", R"("water": 1.33)")), "/liquids/water: must be a medium's name or an inline medium");
 }

@@ -11,7 +11,8 @@
 namespace fathom {
 namespace {
 
-std::vector<Eigen::Vector2d> arc(const Eigen::Vector2d& center, double radius, double from_rad, double to_rad, int count) {
+std::vector<Eigen::Vector2d> arc(const Eigen::Vector2d& center, double radius, double from_rad, double to_rad,
+                                 int count) {
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < count; ++i) {
     const double angle = from_rad + (to_rad - from_rad) * i / (count - 1);
@@ -41,13 +42,14 @@ TEST(Circle, RmsIsTheRadialScatter) {
   }
   const auto circle = fit_circle(points);
   ASSERT_TRUE(circle);
-  EXPECT_NEAR(circle->rms_m, 0.001, 5e-5);  // 4.5 standard errors, σ/√(2n) = 1.1e-5
+  EXPECT_NEAR(circle->rms_m, 0.001, 5e-5);    // 4.5 standard errors, σ/√(2n) = 1.1e-5
   EXPECT_NEAR(circle->radius_m, 0.04, 1e-4);  // 6 standard errors of 1.6e-5 and Kåsa's bias of σ²/r = 2.5e-5
 }
 
 TEST(Circle, TurningAndShiftingThePointsTurnsAndShiftsTheCircle) {
   std::vector<Eigen::Vector2d> points = arc({0.01, 0.02}, 0.05, 0.0, 2.0, 40);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].x() += 0.001 * static_cast<double>(i % 3);  // no exact circle
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].x() += 0.001 * static_cast<double>(i % 3);  // no exact circle
   const auto before = fit_circle(points);
   const Eigen::Rotation2Dd turn(1.234);
   const Eigen::Vector2d shift(0.7, -0.4);

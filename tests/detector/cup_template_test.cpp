@@ -82,10 +82,12 @@ TEST_F(TemplateFiles, MistakesNameFileAndKey) {
   save_template(folder, captured(0.0, 0.009));
   EXPECT_EQ(error_of(R"({"name": "cup", "cloud": "cup.pcd", "height_mm": 87, "radius_mm": 43})"),
             file + ": /liquid_threshold_mm: is missing");
-  EXPECT_EQ(error_of(R"({"name": "cup", "cloud": "cup.pcd", "liquid_threshold_mm": -1, "height_mm": 87, "radius_mm": 43})"),
-            file + ": /liquid_threshold_mm: must be a number above 0, got -1");
-  EXPECT_EQ(error_of(R"({"name": "cup", "cloud": "no.pcd", "liquid_threshold_mm": 9, "height_mm": 87, "radius_mm": 43})"),
-            (folder / "no.pcd").string() + ": no such file");
+  EXPECT_EQ(
+      error_of(R"({"name": "cup", "cloud": "cup.pcd", "liquid_threshold_mm": -1, "height_mm": 87, "radius_mm": 43})"),
+      file + ": /liquid_threshold_mm: must be a number above 0, got -1");
+  EXPECT_EQ(
+      error_of(R"({"name": "cup", "cloud": "no.pcd", "liquid_threshold_mm": 9, "height_mm": 87, "radius_mm": 43})"),
+      (folder / "no.pcd").string() + ": no such file");
   EXPECT_THROW(load_templates(folder / "nowhere"), Error);
 }
 

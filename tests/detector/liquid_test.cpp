@@ -32,8 +32,9 @@ TEST(Interior, TheWallDoesNotCount) {
   const auto before = interior_height(scene, kCircle, {});
   for (int degree = 0; degree < 360; ++degree)
     for (int mm = 0; mm < 80; ++mm)
-      scene.push_back(Eigen::Vector3d(0.0305 * std::cos(degree * M_PI / 180), 0.4 + 0.0305 * std::sin(degree * M_PI / 180),
-                                      0.001 * mm).cast<float>());
+      scene.push_back(Eigen::Vector3d(0.0305 * std::cos(degree * M_PI / 180),
+                                      0.4 + 0.0305 * std::sin(degree * M_PI / 180), 0.001 * mm)
+                          .cast<float>());
   const auto after = interior_height(scene, kCircle, {});
   ASSERT_TRUE(before && after);
   EXPECT_EQ(after->points, before->points);
@@ -59,7 +60,9 @@ TEST(Interior, NothingIsSeenWhereThereAreTooFewPoints) {
 }
 
 TEST(Liquid, IsWhatStandsAboveTheThreshold) {
-  const auto decided = [](double height) { return decide_liquid(interior_height(disc(0.04, height), kCircle, {}), 0.009); };
+  const auto decided = [](double height) {
+    return decide_liquid(interior_height(disc(0.04, height), kCircle, {}), 0.009);
+  };
   EXPECT_EQ(decided(0.0070), Liquid::kNo);
   EXPECT_EQ(decided(0.0089), Liquid::kNo);
   EXPECT_EQ(decided(0.0091), Liquid::kYes);

@@ -50,7 +50,8 @@ TEST(PaperMethod, FindsTheCupWhereItStands) {
   // The near half shows the outer wall, the far half the inner one: the circle lies between the two and a bit nearer.
   EXPECT_GT(cup.candidate.circle->radius_m, 0.040);
   EXPECT_LT(cup.candidate.circle->radius_m, 0.043);
-  const Eigen::Vector3d truth = desk_from_camera(plane_from(scene.sensor)).inverse() * Eigen::Vector3d(0.0, 0.40, 0.045);
+  const Eigen::Vector3d truth =
+      desk_from_camera(plane_from(scene.sensor)).inverse() * Eigen::Vector3d(0.0, 0.40, 0.045);
   EXPECT_LT((cup.center_in_camera - truth).norm(), 0.002);  // half of the wall's 3 mm, and the pixels
   EXPECT_LT(cup.match.score_m, 0.002);                      // the template's spacing is 3 mm
 }
@@ -179,7 +180,8 @@ TEST(PaperMethod, CloudsWithoutADeskSaySo) {
   EXPECT_EQ(why({Points(64, nothing), {}, 8, 8}), "no desk: the cloud has 0 measured points");
   EXPECT_EQ(why({{{0.0f, 0.0f, 1.0f}}, {}, 1, 1}), "no desk: the cloud has 1 measured points");
   EXPECT_EQ(why({Points(64, {0.0f, 0.0f, 1.0f}), {}, 64, 1}), "no desk: none of 0 planes lies below the camera");
-  EXPECT_EQ(why(noisy_cup(), DeskPrior{0.65, -1.0}), "no desk: none of 1 planes lies where the sensor's height and pitch put it");
+  EXPECT_EQ(why(noisy_cup(), DeskPrior{0.65, -1.0}),
+            "no desk: none of 1 planes lies where the sensor's height and pitch put it");
 }
 
 TEST(Methods, AnUnknownNameListsTheChoices) {

@@ -34,7 +34,8 @@ TEST(DeskFrame, IsRightHandedWithTheCameraAboveItsOrigin) {
     EXPECT_NEAR(to_desk.linear().determinant(), 1.0, 1e-12) << pitch_deg;  // rounding
     EXPECT_LT((to_desk * Eigen::Vector3d::Zero() - Eigen::Vector3d(0.0, 0.0, 0.65)).norm(), 1e-12) << pitch_deg;
     EXPECT_GT((to_desk.linear() * Eigen::Vector3d::UnitX()).x(), 0.99) << pitch_deg;  // cos 2° and a bit
-    EXPECT_NEAR(pitch_above(desk), radians_from_deg(pitch_deg), 0.002) << pitch_deg;  // at 90° roll and pitch are one: asin(1 − ε)
+    EXPECT_NEAR(pitch_above(desk), radians_from_deg(pitch_deg), 0.002)
+        << pitch_deg;  // at 90° roll and pitch are one: asin(1 − ε)
   }
 }
 
@@ -55,7 +56,8 @@ TEST(Planes, NoiseOfAMillimetreLeavesTheHeightRightToAHundredth) {
   scene.noise_m = 0.001;
   const auto desk = choose_desk(find_planes(seen(scene), {}), std::nullopt, {});
   ASSERT_TRUE(desk);
-  EXPECT_NEAR(desk->plane.offset, 0.65, 1e-5 * 5);  // the camera's foot is extrapolated 0.4 m: 5 σ of 1 mm / √70000 × 2.4
+  EXPECT_NEAR(desk->plane.offset, 0.65,
+              1e-5 * 5);  // the camera's foot is extrapolated 0.4 m: 5 σ of 1 mm / √70000 × 2.4
   EXPECT_NEAR(desk->rms_m, 0.001 * std::sin(scene.sensor.pitch_rad), 1e-4);  // σ across the plane varies over the view
 }
 
@@ -65,7 +67,8 @@ TEST(Planes, TheOneClosestToThePriorIsTheDesk) {
   const std::vector<PlaneFit> planes = find_planes(seen(scene), {});
   const auto desk = choose_desk(planes, DeskPrior{0.655, scene.sensor.pitch_rad}, {});
   ASSERT_TRUE(desk);
-  EXPECT_NEAR(desk->plane.offset, 0.65, 0.005);  // the lowest 10 mm of the box's sides pull; the two planes are 80 mm apart
+  EXPECT_NEAR(desk->plane.offset, 0.65,
+              0.005);  // the lowest 10 mm of the box's sides pull; the two planes are 80 mm apart
   const auto largest = choose_desk(planes, std::nullopt, {});
   ASSERT_TRUE(largest);
   EXPECT_NEAR(largest->plane.offset, 0.57, 0.005);

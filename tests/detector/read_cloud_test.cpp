@@ -96,15 +96,20 @@ TEST_F(CloudFiles, OtherFieldsAndTypesDoNotMatter) {
       "WIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0 0 0 1 0 0\nPOINTS 1\nDATA ascii\n7 0.25 255 -0.5 0 0 1 1.5\n";
   EXPECT_EQ(read_cloud(written("a.pcd", pcd)).points.at(0), Eigen::Vector3f(-0.5f, 0.25f, 1.5f));
   const std::string ply =
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty double x\nproperty double y\n"
-      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n7 8 9 -0.5 0.25 1.5\n3 0 0 0\n";
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar red\nproperty uchar green\nproperty uchar "
+      "blue\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n7 8 9 -0.5 0.25 1.5\n3 0 "
+      "0 0\n";
   EXPECT_EQ(read_cloud(written("a.ply", ply)).points.at(0), Eigen::Vector3f(-0.5f, 0.25f, 1.5f));
 }
 
 TEST_F(CloudFiles, ACloudBehindTheCameraIsTurnedToLookAhead) {
-  const std::string head = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
-  EXPECT_EQ(read_cloud(written("a.pcd", head + "0.1 0.2 -1\nnan nan nan\n")).points[0], Eigen::Vector3f(0.1f, -0.2f, 1.0f));
-  EXPECT_EQ(read_cloud(written("b.pcd", head + "0.1 0.2 -1\n0.1 0.2 1\n")).points[0], Eigen::Vector3f(0.1f, 0.2f, -1.0f));
+  const std::string head =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  EXPECT_EQ(read_cloud(written("a.pcd", head + "0.1 0.2 -1\nnan nan nan\n")).points[0],
+            Eigen::Vector3f(0.1f, -0.2f, 1.0f));
+  EXPECT_EQ(read_cloud(written("b.pcd", head + "0.1 0.2 -1\n0.1 0.2 1\n")).points[0],
+            Eigen::Vector3f(0.1f, 0.2f, -1.0f));
 }
 
 TEST_F(CloudFiles, WhatIsNoCloudSaysSo) {
@@ -115,15 +120,18 @@ TEST_F(CloudFiles, WhatIsNoCloudSaysSo) {
 }
 
 TEST_F(CloudFiles, PcdHeadersAreChecked) {
-  const auto pcd = [](const std::string& fields, const std::string& size, const std::string& type, const std::string& width,
-                      const std::string& points, const std::string& data) {
-    return fmt::format("# .PCD v0.7\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT 1 1 1\nWIDTH {}\nHEIGHT 1\nPOINTS {}\nDATA {}\n",
-                       fields, size, type, width, points, data);
+  const auto pcd = [](const std::string& fields, const std::string& size, const std::string& type,
+                      const std::string& width, const std::string& points, const std::string& data) {
+    return fmt::format(
+        "# .PCD v0.7\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT 1 1 1\nWIDTH {}\nHEIGHT 1\nPOINTS {}\nDATA {}\n",
+        fields, size, type, width, points, data);
   };
   const std::string row = "1 2 3\n";
   EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "1", "1", "ascii") + row), "");
-  EXPECT_EQ(error_of(pcd("x y w", "4 4 4", "F F F", "1", "1", "ascii") + row), "header: has no field 'z'; a cloud needs x, y and z");
-  EXPECT_EQ(error_of(pcd("x y z", "4 4 5", "F F F", "1", "1", "ascii") + row), "header: has an unknown type F5 for 'z'");
+  EXPECT_EQ(error_of(pcd("x y w", "4 4 4", "F F F", "1", "1", "ascii") + row),
+            "header: has no field 'z'; a cloud needs x, y and z");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 5", "F F F", "1", "1", "ascii") + row),
+            "header: has an unknown type F5 for 'z'");
   EXPECT_EQ(error_of(pcd("x y z", "4 4", "F F F", "1", "1", "ascii") + row),
             "header: must have as many values of SIZE, TYPE and COUNT as FIELDS");
   EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "-1", "1", "ascii") + row),
@@ -141,8 +149,9 @@ TEST_F(CloudFiles, PcdHeadersAreChecked) {
 
 TEST_F(CloudFiles, PlyHeadersAreChecked) {
   const auto ply = [](const std::string& format, const std::string& vertices, const std::string& z) {
-    return fmt::format("ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty {}\nend_header\n",
-                       format, vertices, z);
+    return fmt::format(
+        "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty {}\nend_header\n", format,
+        vertices, z);
   };
   EXPECT_EQ(error_of(ply("ascii", "1", "float z") + "1 2 3\n"), "");
   EXPECT_EQ(error_of(ply("ascii", "1", "float w") + "1 2 3\n"), "header: has no field 'z'; a cloud needs x, y and z");
@@ -170,8 +179,11 @@ TEST_F(CloudFiles, DamageNeverCrashes) {
     const std::string whole = read_text(folder / std::to_string(kind));
     for (int trial = 0; trial < 60; ++trial) {
       std::string damaged = whole;
-      if (trial % 2 == 0) damaged.resize(rng.below(static_cast<std::uint32_t>(whole.size())));
-      else damaged[rng.below(static_cast<std::uint32_t>(std::min<std::size_t>(whole.size(), 600)))] ^= static_cast<char>(1 + rng.below(255));
+      if (trial % 2 == 0)
+        damaged.resize(rng.below(static_cast<std::uint32_t>(whole.size())));
+      else
+        damaged[rng.below(static_cast<std::uint32_t>(std::min<std::size_t>(whole.size(), 600)))] ^=
+            static_cast<char>(1 + rng.below(255));
       error_of(damaged);
     }
   }

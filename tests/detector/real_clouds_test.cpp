@@ -24,7 +24,8 @@ fs::path real_data() {
 
 struct RealClouds : testing::Test {
   void SetUp() override {
-    if (!fs::exists(real_data() / "mOSD")) GTEST_SKIP() << "no measured clouds in " << real_data() << "; set FATHOM_REAL_DATA";
+    if (!fs::exists(real_data() / "mOSD"))
+      GTEST_SKIP() << "no measured clouds in " << real_data() << "; set FATHOM_REAL_DATA";
   }
   static Table containers() { return read_table(real_data() / "mOSD" / "cups_groundtruth.csv"); }
   static Cloud scene(const std::string& name) { return read_cloud(real_data() / "mOSD" / (name + ".pcd")); }
@@ -48,8 +49,9 @@ TEST_F(RealClouds, TheDeskIsFoundInEverySceneWithAndWithoutPrior) {
     for (const auto& prior : {std::optional<DeskPrior>(kKinectPrior), std::optional<DeskPrior>()}) {
       const auto desk = choose_desk(planes, prior, {});
       ASSERT_TRUE(desk) << name;
-      EXPECT_NEAR(desk->plane.offset, table.number(row, "sensor_height_m"), 0.005) << name;  // asked for; 0.4 mm is seen
-      EXPECT_GT(pitch_above(desk->plane), radians_from_deg(33.0)) << name;                    // tilt 34–37°
+      EXPECT_NEAR(desk->plane.offset, table.number(row, "sensor_height_m"), 0.005)
+          << name;                                                          // asked for; 0.4 mm is seen
+      EXPECT_GT(pitch_above(desk->plane), radians_from_deg(33.0)) << name;  // tilt 34–37°
       EXPECT_LT(pitch_above(desk->plane), radians_from_deg(38.0)) << name;
     }
   }
@@ -66,10 +68,12 @@ TEST_F(RealClouds, EveryStandingMugAndCanIsACandidateWithItsRadiusAndDistance) {
     const double radius = metres_from_mm(table.number(row, "naive_r_mm")), distance = table.number(row, "horiz_dist_m");
     const Candidate* found = nullptr;
     for (const Candidate& candidate : candidates_of(name, scene(name)))
-      if (candidate.rejected.empty() && std::abs(candidate.circle->center.norm() - distance) < 0.010) found = &candidate;
+      if (candidate.rejected.empty() && std::abs(candidate.circle->center.norm() - distance) < 0.010)
+        found = &candidate;
     ASSERT_TRUE(found) << name << " labels " << table.text(row, "labels");
-    EXPECT_NEAR(found->circle->radius_m, radius, 0.001) << name;  // both are plain fits; the labels cut the band otherwise
-    EXPECT_LT(found->circle->rms_m, 0.010) << name;               // with the handle in the band up to 9 mm
+    EXPECT_NEAR(found->circle->radius_m, radius, 0.001)
+        << name;                                     // both are plain fits; the labels cut the band otherwise
+    EXPECT_LT(found->circle->rms_m, 0.010) << name;  // with the handle in the band up to 9 mm
   }
   EXPECT_EQ(looked_for, 8);
 }
@@ -80,7 +84,8 @@ TEST_F(RealClouds, MugsMatchThePaperCupAndSoDoCansAndInvertedMugs) {
   empty.cups = {synthetic::OpenCup{}};
   const DeskView view = std::get<DeskView>(view_of_desk(synthetic::cast(empty), empty.sensor, {}));
   const CupTemplate cup = make_template("paper_cup", view.points, cup_candidates(view, {}).at(0), {}, 0.009);
-  for (const auto& [name, cups] : std::map<std::string, std::size_t>{{"learn33", 2}, {"learn34", 0}, {"learn38", 2}, {"learn40", 1}})
+  for (const auto& [name, cups] :
+       std::map<std::string, std::size_t>{{"learn33", 2}, {"learn34", 0}, {"learn38", 2}, {"learn40", 1}})
     EXPECT_EQ(detect_paper(scene(name), {kKinectPrior, {cup}, {}}).cups.size(), cups) << name;
 }
 

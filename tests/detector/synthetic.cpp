@@ -21,7 +21,8 @@ double hit_level(const Ray& ray, double height, Inside inside) {
 
 /// Distances to both walls of a vertical cylinder, where they are between the two heights.
 double hit_cylinder(const Ray& ray, const OpenCup& cup, double radius, double low, double high) {
-  const Eigen::Vector2d from = ray.origin.head<2>() - Eigen::Vector2d(cup.x_m, cup.y_m), along = ray.direction.head<2>();
+  const Eigen::Vector2d from = ray.origin.head<2>() - Eigen::Vector2d(cup.x_m, cup.y_m),
+                        along = ray.direction.head<2>();
   const double a = along.squaredNorm(), b = from.dot(along), c = from.squaredNorm() - radius * radius;
   if (b * b - a * c <= 0.0) return kNothing;
   double nearest = kNothing;
@@ -38,7 +39,8 @@ double hit_cup(const Ray& ray, const OpenCup& cup) {
   const double rim = hit_level(ray, cup.height_m, [&](const Eigen::Vector3d& p) {
     return distance(p) >= cup.inner_radius_m && distance(p) <= cup.outer_radius_m;
   });
-  const double floor = hit_level(ray, cup.floor_m, [&](const Eigen::Vector3d& p) { return distance(p) < cup.inner_radius_m; });
+  const double floor =
+      hit_level(ray, cup.floor_m, [&](const Eigen::Vector3d& p) { return distance(p) < cup.inner_radius_m; });
   const double outside = hit_cylinder(ray, cup, cup.outer_radius_m, 0.0, cup.height_m);
   const double inside = hit_cylinder(ray, cup, cup.inner_radius_m, cup.floor_m, cup.height_m);
   return std::min(std::min(rim, floor), std::min(outside, inside));
@@ -55,7 +57,8 @@ double hit_box(const Ray& ray, const Box& box) {
 double nearest_hit(const Scene& scene, const Ray& ray) {
   double nearest = kNothing;
   if (scene.desk)
-    nearest = hit_level(ray, 0.0, [](const Eigen::Vector3d& p) { return std::abs(p.x()) < 0.7 && p.y() > 0.05 && p.y() < 1.05; });
+    nearest = hit_level(ray, 0.0,
+                        [](const Eigen::Vector3d& p) { return std::abs(p.x()) < 0.7 && p.y() > 0.05 && p.y() < 1.05; });
   for (const OpenCup& cup : scene.cups) nearest = std::min(nearest, hit_cup(ray, cup));
   for (const Box& box : scene.boxes) nearest = std::min(nearest, hit_box(ray, box));
   return nearest;
@@ -77,12 +80,15 @@ Cloud cast(const Scene& scene) {
   Rng rng(scene.seed);
   for (int row = 0; row < scene.height; ++row) {
     for (int column = 0; column < scene.width; ++column) {
-      const Eigen::Vector3d sight = Eigen::Vector3d(column + 0.5 - 0.5 * scene.width, row + 0.5 - 0.5 * scene.height,
-                                                    scene.focal_px).normalized();
+      const Eigen::Vector3d sight =
+          Eigen::Vector3d(column + 0.5 - 0.5 * scene.width, row + 0.5 - 0.5 * scene.height, scene.focal_px)
+              .normalized();
       const double hit = nearest_hit(scene, {from_camera.translation(), from_camera.linear() * sight});
       const double noisy = hit + (scene.noise_m > 0.0 ? scene.noise_m * rng.normal() : 0.0);
-      if (hit < kNothing) cloud.points.push_back((noisy * sight).cast<float>());
-      else cloud.points.push_back(Eigen::Vector3f::Constant(kNaN));
+      if (hit < kNothing)
+        cloud.points.push_back((noisy * sight).cast<float>());
+      else
+        cloud.points.push_back(Eigen::Vector3f::Constant(kNaN));
     }
   }
   return cloud;

@@ -31,12 +31,12 @@ struct Box {
 struct Scene {
   std::vector<OpenCup> cups;
   std::vector<Box> boxes;
-  bool desk = true;                             ///< 1.4 m × 1.0 m, its near edge 0.05 m from the sensor's foot
+  bool desk = true;  ///< 1.4 m × 1.0 m, its near edge 0.05 m from the sensor's foot
   DeskPrior sensor = looking_at(0.650, 0.400);
-  double yaw_rad = 0.0;                         ///< turns the camera about the vertical through it
+  double yaw_rad = 0.0;  ///< turns the camera about the vertical through it
   int width = 320, height = 240;
-  double focal_px = 285.171;                    ///< the Xtion's at half its resolution
-  double noise_m = 0.0;                         ///< standard deviation along the line of sight
+  double focal_px = 285.171;  ///< the Xtion's at half its resolution
+  double noise_m = 0.0;       ///< standard deviation along the line of sight
   std::uint64_t seed = 1;
 };
 
