@@ -126,10 +126,10 @@ void check_pcd(const std::string& file, HeaderLines lines) {
 }
 
 void check_ply(const std::string& file, HeaderLines lines) {
-  static const std::map<std::string, std::uint64_t> kSizes{{"char", 1},  {"uchar", 1},  {"short", 2},   {"ushort", 2},
-                                                           {"int", 4},   {"uint", 4},   {"float", 4},   {"double", 8},
-                                                           {"int8", 1},  {"uint8", 1},  {"int16", 2},   {"uint16", 2},
-                                                           {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
+  static const std::map<std::string, std::uint64_t> sizes{{"char", 1},  {"uchar", 1},  {"short", 2},   {"ushort", 2},
+                                                          {"int", 4},   {"uint", 4},   {"float", 4},   {"double", 8},
+                                                          {"int8", 1},  {"uint8", 1},  {"int16", 2},   {"uint16", 2},
+                                                          {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
   std::string encoding, element;
   std::optional<std::uint64_t> vertices;
   std::uint64_t others = 0, vertex_bytes = 0;
@@ -150,8 +150,8 @@ void check_ply(const std::string& file, HeaderLines lines) {
       else
         others += count;
     } else if (key == "property" && words->size() == 3) {
-      const auto size = kSizes.find((*words)[1]);
-      if (size == kSizes.end())
+      const auto size = sizes.find((*words)[1]);
+      if (size == sizes.end())
         throw Error(file, "header",
                     fmt::format("has an unknown type '{}' for '{}'", printable((*words)[1]), printable((*words)[2])));
       if (element != "vertex") continue;

@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kTemplateSpacing_m = 0.003f;       // about twice a pixel's footprint at 1 m: finer says nothing new
-constexpr double kThresholdAboveBottom_m = 0.002;  // the paper's 9 mm over a bottom at 7 mm
+constexpr float kTemplateSpacingMetres = 0.003f;       // about twice a pixel's footprint at 1 m: finer says nothing new
+constexpr double kThresholdAboveBottomMetres = 0.002;  // the paper's 9 mm over a bottom at 7 mm
 
 Points thinned(const Points& points) {
   const QuietPcl quiet;
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setInputCloud(pcl_cloud(points));
-  grid.setLeafSize(kTemplateSpacing_m, kTemplateSpacing_m, kTemplateSpacing_m);
+  grid.setLeafSize(kTemplateSpacingMetres, kTemplateSpacingMetres, kTemplateSpacingMetres);
   PclCloud result;
   grid.filter(result);
   return points_from(result);
@@ -57,7 +57,7 @@ CupTemplate make_template(std::string name, const Points& scene, const Candidate
   if (!liquid_threshold_m) {
     const std::optional<InteriorHeight> bottom = interior_height(scene, circle, interior);
     if (!bottom) throw Error(name, "no bottom is seen inside the cup; give the liquid threshold");
-    liquid_threshold_m = bottom->mean_m + kThresholdAboveBottom_m;
+    liquid_threshold_m = bottom->mean_m + kThresholdAboveBottomMetres;
   }
   Points points = candidate.points;
   const double segment_low =

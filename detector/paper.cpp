@@ -8,7 +8,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kCenterHeight_m = 0.045;  // where the middle of the paper's band lies
+constexpr double kCenterHeightMetres = 0.045;  // where the middle of the paper's band lies
 
 Points between_heights(const Points& points, double low_m, double high_m) {
   Points result;
@@ -30,7 +30,7 @@ std::string far_from_template(const TemplateMatch& match, const CupTemplate& kno
 }
 
 Eigen::Vector3d center_in_camera(const DeskView& view, const Circle& circle) {
-  return view.desk_from_camera.inverse() * Eigen::Vector3d(circle.center.x(), circle.center.y(), kCenterHeight_m);
+  return view.desk_from_camera.inverse() * Eigen::Vector3d(circle.center.x(), circle.center.y(), kCenterHeightMetres);
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ void expect_same(const Detection& a, const Detection& b, double tolerance_m) {
 }
 
 // RANSAC draws other samples, so the 10 mm slice of noisy desk points changes a little: far below the noise of 1 mm.
-constexpr double kOtherSamples_m = 1e-4;
+constexpr double kOtherSamplesMetres = 1e-4;
 
 TEST(PaperMethod, EqualCloudsGiveEqualResults) {
   const Cloud cloud = noisy_cup();
@@ -149,7 +149,7 @@ TEST(PaperMethod, TheOrderOfThePointsDoesNotMatter) {
   const Cloud cloud = noisy_cup();
   Cloud reversed = cloud;
   std::reverse(reversed.points.begin(), reversed.points.end());
-  expect_same(detect(cloud), detect(reversed), kOtherSamples_m);
+  expect_same(detect(cloud), detect(reversed), kOtherSamplesMetres);
 }
 
 TEST(PaperMethod, PointsGivenTwiceDoNotMatter) {
@@ -157,7 +157,7 @@ TEST(PaperMethod, PointsGivenTwiceDoNotMatter) {
   Cloud twice = cloud;
   twice.points.insert(twice.points.end(), cloud.points.begin(), cloud.points.end());
   twice.height *= 2;
-  expect_same(detect(cloud), detect(twice), kOtherSamples_m);
+  expect_same(detect(cloud), detect(twice), kOtherSamplesMetres);
 }
 
 TEST(PaperMethod, TurningTheSceneAboutTheVerticalThroughTheCameraDoesNotMatter) {
@@ -165,7 +165,7 @@ TEST(PaperMethod, TurningTheSceneAboutTheVerticalThroughTheCameraDoesNotMatter) 
   Cloud turned = cloud;
   const Eigen::AngleAxisf turn(0.4f, plane_from(Scene{}.sensor).normal.cast<float>());
   for (Eigen::Vector3f& point : turned.points) point = turn * point;
-  expect_same(detect(cloud), detect(turned), kOtherSamples_m);
+  expect_same(detect(cloud), detect(turned), kOtherSamplesMetres);
 }
 
 TEST(PaperMethod, CloudsWithoutADeskSaySo) {
