@@ -32,7 +32,8 @@ double width_along_desk(const Points& points) {
 std::vector<Eigen::Vector2d> band_on_desk(const Points& points, const CupGates& gates) {
   std::vector<Eigen::Vector2d> band;
   for (const Eigen::Vector3f& point : points)
-    if (point.z() >= gates.band_low_m && point.z() <= gates.band_high_m) band.push_back(point.head<2>().cast<double>());
+    if (point.z() >= gates.band_low_m && point.z() <= gates.band_high_m)
+      band.emplace_back(point.head<2>().cast<double>());
   return band;
 }
 

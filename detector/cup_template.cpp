@@ -93,6 +93,7 @@ std::vector<CupTemplate> load_templates(const fs::path& folder) {
   if (files.empty()) throw Error(folder.string(), "holds no cup template (*.json)");
   std::sort(files.begin(), files.end());
   std::vector<CupTemplate> cups;
+  cups.reserve(files.size());
   for (const fs::path& file : files) cups.push_back(load_template(file));
   return cups;
 }
