@@ -10,6 +10,9 @@ namespace fathom {
 std::function<void()> define_capture(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_template(CLI::App& app, const CommonOptions& common);
 
 inline constexpr std::array kCommands{
     Command{"capture", "One simulated shot of a scene (or several): infrared image, disparity, depth, cloud, truth",
@@ -20,6 +23,16 @@ inline constexpr std::array kCommands{
             "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50\n  fathom theory "
             "--max-skew",
             define_theory},
+    Command{"detect", "Finds cups on a desk and the liquids in them, in measured or simulated clouds",
+            "  fathom detect cloud.pcd\n  fathom detect cloud.pcd --height-mm 650 --pitch-deg 58.4 --json\n"
+            "  fathom detect shot1.pcd shot2.ply --config detector.json",
+            define_detect},
+    Command{"measure", "Fills the height columns of a measurement directory: writes DIR/heights.csv",
+            "  fathom measure campaign", define_measure},
+    Command{"template", "Makes a cup template for detect from a cloud of one empty cup",
+            "  fathom template cloud.pcd -o templates --name my_mug\n"
+            "  fathom template cloud.pcd -o templates --name tall_mug --liquid-threshold-mm 6",
+            define_template},
     Command{"list", "The libraries of media, cups and sensors, with units and sources",
             "  fathom list media\n  fathom list cups --json", define_list},
 };

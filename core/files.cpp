@@ -77,11 +77,11 @@ void make_directory(const fs::path& path) {
 
 fs::path data_directory() {
   if (const char* named = std::getenv("FATHOM_DATA")) {
-    if (fs::is_directory(fs::path(named) / "cups")) return named;
-    throw Error(named, "FATHOM_DATA: holds no cups/, expected the folder scenes/ of Fathom");
+    if (fs::is_directory(fs::path(named) / "templates")) return named;
+    throw Error(named, "FATHOM_DATA: holds no templates/, expected the folder scenes/ of Fathom");
   }
   for (const char* candidate : {FATHOM_INSTALLED_DATA, FATHOM_SOURCE_DATA})
-    if (fs::is_directory(fs::path(candidate) / "cups")) return candidate;
+    if (fs::is_directory(fs::path(candidate) / "templates")) return candidate;
   throw Error(FATHOM_INSTALLED_DATA, "the libraries of cups, media and sensors are missing; set FATHOM_DATA");
 }
 

@@ -1,12 +1,10 @@
 // `fathom theory` as users run it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include "core/json.h"
+#include "tests/app/run_fathom.h"
 
 namespace fathom {
 namespace {
@@ -17,12 +15,8 @@ struct Outcome {
 };
 
 Outcome run_program(const std::string& arguments) {
-  std::FILE* pipe = ::popen((FATHOM_PROGRAM " " + arguments + " 2>&1").c_str(), "r");
-  Outcome result{-1, ""};
-  std::array<char, 4096> part;
-  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) result.text.append(part.data(), n);
-  result.exit_code = WEXITSTATUS(::pclose(pipe));
-  return result;
+  const ProgramRun run = run_fathom(arguments);
+  return {run.exit_code, run.out + run.err};
 }
 
 TEST(TheoryCommand, PrintsTheAgreedColumns) {

@@ -1,0 +1,87 @@
+#include "app/detector_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+void read_mm(const JsonReader& json, std::string_view key, double& metres, Range range = kPositive) {
+  metres = metres_from_mm(json.number_or(key, mm_from_metres(metres), range));
+}
+
+void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m) {
+  if (!json.has(key)) return;
+  const Eigen::Vector2d range = json.at(key).vector2();
+  if (range[0] < 0.0 || range[1] <= range[0]) json.fail_at(key, "must be two rising lengths [low, high]");
+  low_m = metres_from_mm(range[0]);
+  high_m = metres_from_mm(range[1]);
+}
+
+PaperConfig read_paper_config(const JsonReader& json) {
+  constexpr int kMany = 1'000'000;
+  PaperConfig config;
+  read_mm(json, "plane_threshold_mm", config.plane.threshold_m);
+  config.plane.planes_max = json.integer_or("planes_max", config.plane.planes_max, 1, 100);
+  config.plane.share_min = json.number_or("plane_share_min", config.plane.share_min, {0.0, 1.0, true});
+  config.plane.iterations_max = json.integer_or("plane_iterations_max", config.plane.iterations_max, 1, kMany);
+  config.plane.prior_angle_max_rad = radians_from_deg(
+      json.number_or("prior_angle_max_deg", deg_from_radians(config.plane.prior_angle_max_rad), {0.0, 180.0, true}));
+  read_mm(json, "prior_height_max_mm", config.plane.prior_height_max_m);
+  read_mm(json, "height_max_mm", config.height_max_m);
+  read_mm(json, "cluster_distance_mm", config.cluster_distance_m);
+  config.cluster_points_min = json.integer_or("cluster_points_min", config.cluster_points_min, 1, kMany);
+  read_mm_range(json, "width_mm", config.cup.width_min_m, config.cup.width_max_m);
+  read_mm(json, "top_min_mm", config.cup.top_min_m, kNonNegative);
+  read_mm_range(json, "band_mm", config.cup.band_low_m, config.cup.band_high_m);
+  read_mm(json, "circle_rms_max_mm", config.cup.circle_rms_max_m);
+  read_mm_range(json, "radius_mm", config.cup.radius_min_m, config.cup.radius_max_m);
+  read_mm(json, "icp_score_max_mm", config.icp.score_max_m);
+  config.icp.iterations_max = json.integer_or("icp_iterations_max", config.icp.iterations_max, 1, kMany);
+  read_mm(json, "interior_margin_mm", config.interior.margin_m, kNonNegative);
+  config.interior.points_min = json.integer_or("interior_points_min", config.interior.points_min, 2, kMany);
+  return config;
+}
+
+}  // namespace
+
+std::optional<DeskPrior> DeskOptions::prior() const {
+  if (!given) return std::nullopt;
+  return DeskPrior{metres_from_mm(height_mm), radians_from_deg(pitch_deg)};
+}
+
+void add_desk_options(CLI::App& app, DeskOptions& options) {
+  CLI::Option* height = app.add_option("--height-mm", options.height_mm, "Height of the sensor above the desk")
+                            ->check(CLI::Range(1.0, 1e5))
+                            ->type_name("MM");
+  CLI::Option* pitch =
+      app.add_option("--pitch-deg", options.pitch_deg, "0: the sensor looks horizontally, 90: straight down")
+          ->check(CLI::Range(-90.0, 90.0))
+          ->type_name("DEG")
+          ->each([&options](const std::string&) { options.given = true; });
+  height->needs(pitch);
+  pitch->needs(height);
+}
+
+DetectorSettings detector_settings(const std::filesystem::path& config) {
+  DetectorSettings settings;
+  if (!config.empty()) {
+    const Json json = read_json(config);
+    const JsonReader reader(json, config.string());
+    reader.allow_only({"plane_threshold_mm", "planes_max", "plane_share_min", "plane_iterations_max",
+                       "prior_angle_max_deg", "prior_height_max_mm", "height_max_mm", "cluster_distance_mm",
+                       "cluster_points_min", "width_mm", "top_min_mm", "band_mm", "circle_rms_max_mm", "radius_mm",
+                       "icp_score_max_mm", "icp_iterations_max", "interior_margin_mm", "interior_points_min",
+                       "templates"});
+    settings.paper = read_paper_config(reader);
+    for (const JsonReader& item : reader.items_or_none("templates"))
+      settings.templates.push_back(load_template(config.parent_path() / item.text()));
+  }
+  if (settings.templates.empty()) settings.templates = load_templates(data_directory() / "templates");
+  return settings;
+}
+
+}  // namespace fathom

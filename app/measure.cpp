@@ -1,0 +1,112 @@
+// fathom measure: fills the height columns of a measurement directory from its clouds.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/rig.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/rows.h"
+#include "core/table.h"
+#include "core/units.h"
+#include "detector/paper.h"
+#include "detector/read_cloud.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::array kHeightColumns{"height_mm", "height_sd_mm", "points"};
+
+/// The whole table is checked before the first cloud is read: a mistake in the last line shows at once.
+void check_frames(const Table& frames, const LaboratoryRig& rig, const std::filesystem::path& folder) {
+  for (const char* column : {"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm",
+                             "distance_mm", "lateral_mm", "cloud"})
+    if (!frames.has(column)) throw Error(frames.file(), "line 1", fmt::format("has no column '{}'", column));
+  std::vector<std::string> liquids{"empty", "none"};
+  for (const auto& [name, medium] : rig.liquids) liquids.push_back(name);
+  for (std::size_t row = 0; row < frames.rows(); ++row) {
+    const std::string& liquid = frames.text(row, "liquid");
+    if (std::find(liquids.begin(), liquids.end(), liquid) == liquids.end())
+      frames.fail(row, "liquid", unknown_name("liquid", liquid, liquids));
+    for (const char* column : {"fill_mm", "distance_mm", "lateral_mm"}) frames.number(row, column);
+    const std::string& cloud = frames.text(row, "cloud");
+    if (!cloud.empty() && !std::filesystem::is_regular_file(folder / cloud))
+      frames.fail(row, "cloud", fmt::format("there is no file {}", (folder / cloud).string()));
+    if (cloud.empty() && liquid != "none" && (!frames.has("height_mm") || frames.text(row, "height_mm").empty()))
+      frames.fail(row, "cloud", "is empty, and there is no height_mm in its place");
+  }
+}
+
+/// The candidate nearest to where the cup stands, if it is nearer than the cup's outer radius.
+std::optional<Candidate> candidate_at(const DeskView& view, const Eigen::Vector2d& place, double within_m) {
+  std::optional<Candidate> nearest;
+  const auto distance = [&](const Candidate& candidate) { return (candidate.circle->center - place).norm(); };
+  for (Candidate& candidate : cup_candidates(view, PaperConfig{})) {
+    if (!candidate.rejected.empty() || distance(candidate) > within_m) continue;
+    if (!nearest || distance(candidate) < distance(*nearest)) nearest = std::move(candidate);
+  }
+  return nearest;
+}
+
+std::optional<InteriorHeight> measure_frame(const Cloud& cloud, const LaboratoryRig& rig,
+                                            const Eigen::Vector2d& cup_in_world) {
+  const auto found = view_of_desk(cloud, DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}, PlaneSearch{});
+  const DeskView* view = std::get_if<DeskView>(&found);
+  if (!view) return std::nullopt;
+  // The world's origin is below the middle of the baseline, the desk frame's below the camera at its left end.
+  const Eigen::Vector2d cup_in_desk = cup_in_world + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
+  const std::optional<Candidate> cup = candidate_at(*view, cup_in_desk, rig.outer_radius_m);
+  return cup ? interior_height(view->points, *cup->circle, InteriorSettings{}) : std::nullopt;
+}
+
+Cloud read_cloud_of(const Table& frames, std::size_t row, const std::filesystem::path& folder) {
+  try {
+    return read_cloud(folder / frames.text(row, "cloud"));
+  } catch (const Error& problem) {
+    frames.fail(row, "cloud", problem.what());
+  }
+}
+
+void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
+  const LaboratoryRig rig = read_rig(folder / "rig.json");
+  Table frames = read_table(folder / "frames.csv");
+  check_frames(frames, rig, folder);
+  for (const char* column : kHeightColumns)
+    if (!frames.has(column)) frames.add_column(column);
+
+  int clouds = 0, measured = 0;
+  Progress progress("measure", frames.rows(), common.quiet);
+  for (std::size_t row = 0; row < frames.rows(); ++row, progress.step()) {
+    if (frames.text(row, "cloud").empty()) continue;
+    for (const char* column : kHeightColumns) frames.set(row, column, "");
+    if (frames.text(row, "liquid") == "none") continue;
+    ++clouds;
+    const Eigen::Vector2d place(metres_from_mm(frames.number(row, "lateral_mm")),
+                                metres_from_mm(frames.number(row, "distance_mm")));
+    const std::optional<InteriorHeight> height = measure_frame(read_cloud_of(frames, row, folder), rig, place);
+    if (!height) continue;
+    ++measured;
+    frames.set(row, "height_mm", fmt::format("{:.4f}", mm_from_metres(height->mean_m)));
+    frames.set(row, "height_sd_mm", fmt::format("{:.4f}", mm_from_metres(height->sd_m)));
+    frames.set(row, "points", fmt::format("{}", height->points));
+  }
+  write_table(folder / "heights.csv", frames);
+  fmt::print("{}", format_rows({{"clouds_with_cup", static_cast<double>(clouds), ""},
+                                {"heights_measured", static_cast<double>(measured), ""}},
+                               common.json));
+}
+
+}  // namespace
+
+std::function<void()> define_measure(CLI::App& app, const CommonOptions& common) {
+  const auto folder = std::make_shared<std::filesystem::path>();
+  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")
+      ->required()
+      ->type_name("DIR");
+  return [folder, &common] { run_measure(*folder, common); };
+}
+
+}  // namespace fathom

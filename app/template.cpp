@@ -1,0 +1,81 @@
+// fathom template: makes a cup template from a captured cloud with one empty cup in it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/detector_options.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/rows.h"
+#include "core/units.h"
+#include "detector/paper.h"
+#include "detector/read_cloud.h"
+
+namespace fathom {
+namespace {
+
+struct TemplateOptions {
+  std::filesystem::path cloud;
+  std::string name;
+  DeskOptions desk;
+  std::optional<double> liquid_threshold_mm;
+};
+
+/// The one segment that may be a cup.
+Candidate only_candidate(const DeskView& view, const std::string& file) {
+  std::vector<Candidate> cups;
+  for (Candidate& candidate : cup_candidates(view, PaperConfig{}))
+    if (candidate.rejected.empty()) cups.push_back(std::move(candidate));
+  if (cups.size() != 1)
+    throw Error(file, fmt::format("shows {} segments that may be cups, a template needs exactly one", cups.size()));
+  return std::move(cups.front());
+}
+
+void run_template(const TemplateOptions& options, const CommonOptions& common) {
+  const std::string file = options.cloud.string();
+  const auto found = view_of_desk(read_cloud(options.cloud), options.desk.prior(), PlaneSearch{});
+  if (const NoDesk* none = std::get_if<NoDesk>(&found)) throw Error(file, none->why);
+  const DeskView& view = std::get<DeskView>(found);
+
+  std::optional<double> threshold_m;
+  if (options.liquid_threshold_mm) threshold_m = metres_from_mm(*options.liquid_threshold_mm);
+  const CupTemplate cup =
+      make_template(options.name, view.points, only_candidate(view, file), InteriorSettings{}, threshold_m);
+  make_directory(common.output);
+  save_template(common.output, cup);
+  fmt::print("{}", format_rows({{"radius", mm_from_metres(cup.radius_m), "mm"},
+                                {"height", mm_from_metres(cup.height_m), "mm"},
+                                {"liquid_threshold", mm_from_metres(cup.liquid_threshold_m), "mm"},
+                                {"points", static_cast<double>(cup.points.size()), ""}},
+                               common.json));
+}
+
+}  // namespace
+
+std::function<void()> define_template(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<TemplateOptions>();
+  app.add_option("cloud", options->cloud, "PCD or PLY cloud with one empty cup on the desk")
+      ->required()
+      ->type_name("CLOUD");
+  app.add_option("--name", options->name, "Name of the template and its files")
+      ->required()
+      ->check([](const std::string& name) {
+        const bool plain = !name.empty() && name.find_first_not_of(
+                                                "abcdefghijklmnopqrstuvwxyz"
+                                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+        return plain ? std::string() : "a name is made of letters, digits, _ and -";
+      });
+  add_desk_options(app, options->desk);
+  app.add_option("--liquid-threshold-mm", options->liquid_threshold_mm,
+                 "A mean height inside above this is a liquid; default: 2 mm above the bottom that is seen")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  return [options, &common] {
+    if (common.output.empty()) throw Error("--output", "is needed: the folder for the template");
+    run_template(*options, common);
+  };
+}
+
+}  // namespace fathom

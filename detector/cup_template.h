@@ -1,0 +1,41 @@
+// A known cup: its points as a camera saw them, and from which height on its content is a liquid.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "detector/cup.h"
+#include "detector/liquid.h"
+
+namespace fathom {
+
+struct CupTemplate {
+  std::string name;
+  Points points;  ///< [m] origin on the desk below the cup's axis, z up, y away from the camera that saw it
+  double liquid_threshold_m;
+  double height_m;
+  double radius_m;
+};
+
+/// Points of the desk frame in the frame of a template: `circle`'s centre becomes the origin, its direction from the
+/// camera's foot point the y axis.
+Points in_template_frame(const Points& in_desk, const Circle& circle);
+
+/// Makes a template of an empty cup from a captured scene. `scene` [m, desk frame] gives the points of the bottom,
+/// which the segment has not; `candidate` must have a circle. `liquid_threshold_m`: nothing = 2 mm above the bottom
+/// that is seen (the paper's 9 mm for its cup); throws Error when none is seen.
+CupTemplate make_template(std::string name, const Points& scene, const Candidate& candidate,
+                          const InteriorSettings& interior, std::optional<double> liquid_threshold_m);
+
+/// Reads NAME.json {"name", "cloud" (beside it), "liquid_threshold_mm", "height_mm", "radius_mm"} and its cloud.
+CupTemplate load_template(const std::filesystem::path& json);
+
+/// Every *.json of the folder, by name. Throws Error when there is none.
+std::vector<CupTemplate> load_templates(const std::filesystem::path& folder);
+
+/// Writes NAME.pcd, then NAME.json, into the folder.
+void save_template(const std::filesystem::path& folder, const CupTemplate& cup);
+
+}  // namespace fathom

@@ -1,0 +1,50 @@
+#include "detector/detector.h"
+
+#include "core/error.h"
+#include "detector/paper.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::array kMethods{
+    Method{"paper", "circle in the band, ICP to templates, mean height inside against a threshold", detect_paper},
+};
+
+}  // namespace
+
+std::string_view name_of(Liquid liquid) {
+  switch (liquid) {
+    case Liquid::kYes:
+      return "yes";
+    case Liquid::kNo:
+      return "no";
+    case Liquid::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::string_view name_of(LiquidKind kind) {
+  switch (kind) {
+    case LiquidKind::kTransparent:
+      return "transparent";
+    case LiquidKind::kOpaque:
+      return "opaque";
+    case LiquidKind::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::span<const Method> methods() { return kMethods; }
+
+const Method& method_named(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) {
+    if (method.name == name) return method;
+    names.emplace_back(method.name);
+  }
+  throw Error(unknown_name("method", name, names));
+}
+
+}  // namespace fathom

@@ -1,0 +1,128 @@
+// What `fathom detect` and `fathom template` promise on the command line.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/cloud_file.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "tests/app/run_fathom.h"
+#include "tests/detector/synthetic.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with the clouds of an empty and a filled cup, a template of the first and a configuration that names it.
+struct DetectCommand : testing::Test {
+  fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::string empty = (folder / "empty.pcd").string(), filled = (folder / "filled.pcd").string();
+  std::string config = (folder / "config.json").string();
+
+  void SetUp() override {
+    make_directory(folder);
+    synthetic::write_cup(empty, 0.007);
+    synthetic::write_cup(filled, 0.027);
+    const ProgramRun made = run_fathom("template " + empty + " -o " + folder.string() + " --name paper_cup");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    write_text(config, R"({"templates": ["paper_cup.json"]})");
+  }
+  void TearDown() override { fs::remove_all(folder); }
+};
+
+TEST_F(DetectCommand, JsonHasTheKeysThatOthersRelyOn) {
+  const ProgramRun run =
+      run_fathom("detect " + filled + " --json --config " + config + " --height-mm 650 --pitch-deg 58.4");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json.at("segments"), 1);
+  EXPECT_NEAR(json.at("plane").at("height_mm").get<double>(), 650.0, 0.1);
+  EXPECT_NEAR(json.at("plane").at("pitch_deg").get<double>(), 58.392, 0.01);  // atan(650 / 400)
+  EXPECT_EQ(json.at("plane").at("normal").size(), 3u);
+  for (const char* key : {"inliers", "rms_mm", "offset_m"}) EXPECT_TRUE(json.at("plane").contains(key)) << key;
+  ASSERT_EQ(json.at("cups").size(), 1u);
+  const Json& cup = json.at("cups")[0];
+  EXPECT_EQ(cup.at("center_camera_m").size(), 3u);
+  EXPECT_NEAR(cup.at("radius_mm").get<double>(), 41.5, 0.5);
+  EXPECT_EQ(cup.at("liquid"), "yes");
+  EXPECT_NEAR(cup.at("surface_mm").get<double>(), 27.0, 0.1);
+  EXPECT_EQ(cup.at("kind"), "unknown");
+  EXPECT_TRUE(cup.at("fill_mm").is_null());
+  EXPECT_TRUE(cup.at("fill_sigma_mm").is_null());
+  for (const char* key : {"score", "sigma_mm", "why"}) EXPECT_TRUE(cup.contains(key)) << key;
+}
+
+TEST_F(DetectCommand, SeveralCloudsGiveAListInTheirOrder) {
+  const ProgramRun run = run_fathom("detect " + empty + " " + filled + " --json --config " + config);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0].at("cloud"), empty);
+  EXPECT_EQ(json[0].at("cups").at(0).at("liquid"), "no");
+  EXPECT_EQ(json[1].at("cloud"), filled);
+  EXPECT_EQ(json[1].at("cups").at(0).at("liquid"), "yes");
+}
+
+TEST_F(DetectCommand, TheTemplateThatComesWithTheProgramIsThePaperCup) {
+  const ProgramRun run = run_fathom("detect " + empty);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("matches paper_cup; mean height inside 7.0 mm is not above its threshold of 9 mm"),
+            std::string::npos)
+      << run.out;
+}
+
+TEST_F(DetectCommand, AGapInTheRulesOfUseIsBadUsage) {
+  const ProgramRun method = run_fathom("detect " + empty + " --method papre");
+  EXPECT_EQ(method.exit_code, 2);
+  EXPECT_NE((method.out + method.err).find("unknown method 'papre', choose from paper"), std::string::npos)
+      << method.err;
+  EXPECT_EQ(run_fathom("detect").exit_code, 2);
+  EXPECT_EQ(run_fathom("detect " + empty + " --height-mm 650").exit_code, 2);
+  EXPECT_EQ(run_fathom("template " + empty + " -o " + folder.string() + " --name a/b").exit_code, 2);
+}
+
+TEST_F(DetectCommand, MistakesAreOneLineThatNamesTheFile) {
+  const auto error = [&](const std::string& arguments) {
+    const ProgramRun run = run_fathom(arguments);
+    EXPECT_EQ(run.exit_code, 1) << arguments;
+    EXPECT_EQ(run.out, "") << arguments;
+    return run.err;
+  };
+  write_text(folder / "bad.pcd", "hello\n");
+  const std::string bad = (folder / "bad.pcd").string();
+  EXPECT_EQ(error("detect " + empty + " " + bad + " --config " + config),
+            "error: " + bad + ": is neither PCD nor PLY\n");
+  write_text(config, R"({"band_mm": [50, 40]})");
+  EXPECT_EQ(error("detect " + empty + " --config " + config),
+            "error: " + config + ": /band_mm: must be two rising lengths [low, high]\n");
+  write_text(config, R"({"band": [40, 50]})");
+  EXPECT_EQ(error("detect " + empty + " --config " + config)
+                .find("error: " + config + ": /band: unknown key 'band', choose from"),
+            0u);
+  EXPECT_EQ(error("template " + empty + " --name cup"), "error: --output: is needed: the folder for the template\n");
+}
+
+TEST_F(DetectCommand, EveryKeyOfTheConfigurationReachesTheMethod) {
+  write_text(config,
+             R"({"plane_threshold_mm": 10, "planes_max": 6, "plane_share_min": 0.03, "plane_iterations_max": 1000,
+    "prior_angle_max_deg": 20, "prior_height_max_mm": 150, "height_max_mm": 100, "cluster_distance_mm": 40,
+    "cluster_points_min": 100, "width_mm": [30, 170], "top_min_mm": 40, "band_mm": [40, 50], "circle_rms_max_mm": 40,
+    "radius_mm": [20, 60], "icp_score_max_mm": 10, "icp_iterations_max": 30, "interior_margin_mm": 10,
+    "interior_points_min": 10, "templates": ["paper_cup.json"]})");
+  EXPECT_EQ(run_fathom("detect " + filled + " --json --config " + config).out,
+            (write_text(folder / "defaults.json", R"({"templates": ["paper_cup.json"]})"),
+             run_fathom("detect " + filled + " --json --config " + (folder / "defaults.json").string()).out));
+  for (const auto& [change, reason] :
+       std::initializer_list<std::pair<const char*, const char*>>{{R"({"radius_mm": [20, 30]})", "radius"},
+                                                                  {R"({"width_mm": [30, 60]})", "width"},
+                                                                  {R"({"icp_score_max_mm": 0.01})", "mean distance"},
+                                                                  {R"({"band_mm": [90, 95]})", "no circle"}}) {
+    write_text(config, change);
+    const ProgramRun run = run_fathom("detect " + filled + " --json --config " + config);
+    EXPECT_EQ(Json::parse(run.out).at("candidates").at(0).at("reason").get<std::string>().find(reason), 0u) << run.out;
+  }
+}
+
+}  // namespace
+}  // namespace fathom

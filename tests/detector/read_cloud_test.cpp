@@ -1,0 +1,193 @@
+#include "detector/read_cloud.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+#include <pcl/point_types.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/rng.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+struct CloudFiles : testing::Test {
+  fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  void SetUp() override { make_directory(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  fs::path written(const std::string& name, const std::string& content) {
+    write_text(folder / name, content);
+    return folder / name;
+  }
+  /// What follows the file's name in the error, or "" when the file is read.
+  std::string error_of(const std::string& content) {
+    const fs::path path = written("cloud.pcd", content);
+    try {
+      read_cloud(path);
+    } catch (const Error& problem) {
+      const std::string text = problem.what();
+      EXPECT_TRUE(text.starts_with(path.string() + ": ")) << text;
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+      return text.substr(path.string().size() + 2);
+    }
+    return "";
+  }
+};
+
+pcl::PointCloud<pcl::PointXYZI> four_points() {
+  pcl::PointCloud<pcl::PointXYZI> cloud(2, 2);
+  for (int i = 0; i < 4; ++i) {
+    const float f = static_cast<float>(i);
+    cloud[static_cast<std::size_t>(i)].getVector3fMap() = Eigen::Vector3f(f, 0.5f * f, 1.0f + f);
+    cloud[static_cast<std::size_t>(i)].intensity = 10.0f * f;
+  }
+  cloud[2].x = kNaN;
+  cloud[3].getVector3fMap().setZero();
+  return cloud;
+}
+
+void expect_four_points(const Cloud& cloud) {
+  ASSERT_EQ(cloud.points.size(), 4u);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(cloud.points[1], Eigen::Vector3f(1.0f, 0.5f, 2.0f));
+  EXPECT_TRUE(cloud.points[2].array().isNaN().all());
+  EXPECT_TRUE(cloud.points[3].array().isNaN().all()) << "(0, 0, 0) is no measurement";
+  EXPECT_EQ(finite_points(cloud).size(), 2u);
+  ASSERT_EQ(cloud.intensity.size(), 4u);
+  EXPECT_EQ(cloud.intensity[1], 10.0f);
+  EXPECT_EQ(cloud.intensity[3], 30.0f);
+}
+
+TEST_F(CloudFiles, EveryEncodingOfPcdGivesTheSameOrganisedPoints) {
+  const std::string path = (folder / "cloud.pcd").string();
+  pcl::PCDWriter writer;
+  const auto cloud = four_points();
+  for (int encoding = 0; encoding < 3; ++encoding) {
+    if (encoding == 0) writer.writeASCII(path, cloud);
+    if (encoding == 1) writer.writeBinary(path, cloud);
+    if (encoding == 2) writer.writeBinaryCompressed(path, cloud);
+    const Cloud read = read_cloud(path);
+    EXPECT_EQ(read.width, 2);
+    EXPECT_EQ(read.height, 2);
+    expect_four_points(read);
+  }
+}
+
+TEST_F(CloudFiles, BothEncodingsOfPlyGiveTheSamePoints) {
+  const std::string path = (folder / "cloud.ply").string();
+  for (const bool binary : {false, true}) {
+    pcl::PLYWriter().write(path, four_points(), binary, false);
+    expect_four_points(read_cloud(path));
+  }
+}
+
+TEST_F(CloudFiles, OtherFieldsAndTypesDoNotMatter) {
+  const std::string pcd =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS label y rgb x normal z\nSIZE 2 8 4 8 4 8\nTYPE U F U F F F\nCOUNT 1 1 1 1 3 1\n"
+      "WIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0 0 0 1 0 0\nPOINTS 1\nDATA ascii\n7 0.25 255 -0.5 0 0 1 1.5\n";
+  EXPECT_EQ(read_cloud(written("a.pcd", pcd)).points.at(0), Eigen::Vector3f(-0.5f, 0.25f, 1.5f));
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar red\nproperty uchar green\nproperty uchar "
+      "blue\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n7 8 9 -0.5 0.25 1.5\n3 0 "
+      "0 0\n";
+  EXPECT_EQ(read_cloud(written("a.ply", ply)).points.at(0), Eigen::Vector3f(-0.5f, 0.25f, 1.5f));
+}
+
+TEST_F(CloudFiles, ACloudBehindTheCameraIsTurnedToLookAhead) {
+  const std::string head =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  EXPECT_EQ(read_cloud(written("a.pcd", head + "0.1 0.2 -1\nnan nan nan\n")).points[0],
+            Eigen::Vector3f(0.1f, -0.2f, 1.0f));
+  EXPECT_EQ(read_cloud(written("b.pcd", head + "0.1 0.2 -1\n0.1 0.2 1\n")).points[0],
+            Eigen::Vector3f(0.1f, 0.2f, -1.0f));
+}
+
+TEST_F(CloudFiles, WhatIsNoCloudSaysSo) {
+  EXPECT_EQ(error_of(""), "is empty, expected a PCD or PLY cloud");
+  EXPECT_EQ(error_of("hello\n"), "is neither PCD nor PLY");
+  EXPECT_THROW(read_cloud(folder / "missing.pcd"), Error);
+  EXPECT_THROW(read_cloud(folder), Error);
+}
+
+TEST_F(CloudFiles, PcdHeadersAreChecked) {
+  const auto pcd = [](const std::string& fields, const std::string& size, const std::string& type,
+                      const std::string& width, const std::string& points, const std::string& data) {
+    return fmt::format(
+        "# .PCD v0.7\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT 1 1 1\nWIDTH {}\nHEIGHT 1\nPOINTS {}\nDATA {}\n",
+        fields, size, type, width, points, data);
+  };
+  const std::string row = "1 2 3\n";
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "1", "1", "ascii") + row), "");
+  EXPECT_EQ(error_of(pcd("x y w", "4 4 4", "F F F", "1", "1", "ascii") + row),
+            "header: has no field 'z'; a cloud needs x, y and z");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 5", "F F F", "1", "1", "ascii") + row),
+            "header: has an unknown type F5 for 'z'");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4", "F F F", "1", "1", "ascii") + row),
+            "header: must have as many values of SIZE, TYPE and COUNT as FIELDS");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "-1", "1", "ascii") + row),
+            "WIDTH: must be a whole number up to 200000000, got '-1'");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "2", "1", "ascii") + row), "header: says 2 x 1 but 1 points");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "1", "1", "zip") + row),
+            "DATA: must be ascii, binary or binary_compressed, got 'zip'");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "9", "9", "ascii") + row),
+            "is truncated: the header promises at least 54 bytes of points, the file has 7");
+  EXPECT_EQ(error_of(pcd("x y z", "4 4 4", "F F F", "2", "2", "binary") + std::string(23, 'a')),
+            "is truncated: the header promises at least 24 bytes of points, the file has 23");
+  EXPECT_EQ(error_of("# .PCD v0.7\nBERSION 0.7\nFIELDS x y z\n"), "header: has an unknown or a second line 'BERSION'");
+  EXPECT_EQ(error_of("# .PCD v0.7\nFIELDS x y z\n"), "header: ends before its line DATA");
+}
+
+TEST_F(CloudFiles, PlyHeadersAreChecked) {
+  const auto ply = [](const std::string& format, const std::string& vertices, const std::string& z) {
+    return fmt::format(
+        "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty {}\nend_header\n", format,
+        vertices, z);
+  };
+  EXPECT_EQ(error_of(ply("ascii", "1", "float z") + "1 2 3\n"), "");
+  EXPECT_EQ(error_of(ply("ascii", "1", "float w") + "1 2 3\n"), "header: has no field 'z'; a cloud needs x, y and z");
+  EXPECT_EQ(error_of(ply("ascii", "1", "real z") + "1 2 3\n"), "header: has an unknown type 'real' for 'z'");
+  EXPECT_EQ(error_of(ply("ascii", "many", "float z") + "1 2 3\n"),
+            "element vertex: must be a whole number up to 200000000, got 'many'");
+  EXPECT_EQ(error_of(ply("text", "1", "float z") + "1 2 3\n"),
+            "format: must be ascii, binary_little_endian or binary_big_endian, got 'text'");
+  EXPECT_EQ(error_of(ply("binary_little_endian", "2", "float z") + std::string(23, 'a')),
+            "is truncated: the header promises at least 24 bytes of points, the file has 23");
+  EXPECT_EQ(error_of("ply\nformat ascii 1.0\n"), "header: ends before its line end_header");
+}
+
+/// Files cut off anywhere and files with flipped bytes: an Error or a cloud, nothing else.
+TEST_F(CloudFiles, DamageNeverCrashes) {
+  pcl::PointCloud<pcl::PointXYZI> cloud(20, 10);
+  Rng rng(3);
+  for (auto& point : cloud) point.getVector3fMap() = Eigen::Vector3f::Constant(static_cast<float>(1.0 + rng.uniform()));
+  pcl::PCDWriter().writeASCII((folder / "0").string(), cloud);
+  pcl::PCDWriter().writeBinary((folder / "1").string(), cloud);
+  pcl::PCDWriter().writeBinaryCompressed((folder / "2").string(), cloud);
+  pcl::PLYWriter().write((folder / "3").string(), cloud, false, true);
+  pcl::PLYWriter().write((folder / "4").string(), cloud, true, true);
+  for (int kind = 0; kind < 5; ++kind) {
+    const std::string whole = read_text(folder / std::to_string(kind));
+    for (int trial = 0; trial < 60; ++trial) {
+      std::string damaged = whole;
+      if (trial % 2 == 0)
+        damaged.resize(rng.below(static_cast<std::uint32_t>(whole.size())));
+      else
+        damaged[rng.below(static_cast<std::uint32_t>(std::min<std::size_t>(whole.size(), 600)))] ^=
+            static_cast<char>(1 + rng.below(255));
+      error_of(damaged);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom
