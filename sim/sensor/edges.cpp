@@ -28,11 +28,14 @@ constexpr std::array<Step, 9> kAround{{{0, 0},
                                        {-kReach, kReach},
                                        {kReach, kReach}}};
 
-/// How well a surface explains the dots seen at a pixel.
-struct Explanation {
-  float error;      ///< Σ (seen − predicted)² [DN²]
-  float seen;       ///< Σ (seen − bias)²
-  float predicted;  ///< Σ (predicted − bias)²
+/// How alike the dots seen at a pixel and those a surface predicts there are.
+struct Likeness {
+  float both = 0.0f;       ///< Σ seen · predicted, both without the bias [DN²]
+  float seen = 0.0f;       ///< Σ seen²
+  float predicted = 0.0f;  ///< Σ predicted²
+
+  float energy() const { return std::max(seen, predicted); }
+  float correlation() const { return both / std::sqrt(seen * predicted + 1e-6f); }
 };
 
 class EdgeSettler {
@@ -56,15 +59,18 @@ class EdgeSettler {
   bool is_edge(int x, int y) const { return edges_(x, y) != 0; }
 
   Estimate settle(int x, int y) const {
+    constexpr float kExplained = 0.5f;
     Estimate best;
-    float least_error = std::numeric_limits<float>::infinity();
+    float best_correlation = kExplained;
     const std::vector<Neighbour> neighbours = clean_neighbours(x, y);
     for (Estimate& surface : surfaces_around(x, y)) {
       const bool own = surface.disparity == estimates_(x, y).disparity;
       surface.disparity = from_neighbours(neighbours, surface);
-      const Explanation found = explain(x, y, surface);
-      if (found.error >= least_error || !holds(found, own)) continue;
-      least_error = found.error;
+      const Likeness found = likeness(x, y, surface);
+      // A pixel without dots, seen or predicted, keeps its own surface but takes no other's.
+      if (found.energy() < noise_energy_ && own) return surface;
+      if (found.energy() < noise_energy_ || found.correlation() < best_correlation) continue;
+      best_correlation = found.correlation();
       best = surface;
     }
     return best;
@@ -150,21 +156,13 @@ class EdgeSettler {
     return surface.disparity;
   }
 
-  /// A pixel without dots, seen or predicted, keeps its own estimate but takes no other's.
-  bool holds(const Explanation& found, bool own) const {
-    constexpr float kUnexplained = 0.5f;
-    const float energy = std::max(found.seen, found.predicted);
-    return energy < noise_energy_ ? own : found.error < kUnexplained * energy;
-  }
-
-  Explanation explain(int x, int y, const Estimate& surface) const {
+  Likeness likeness(int x, int y, const Estimate& surface) const {
     const ReferenceShift shift = reference_shift(surface.disparity);
     const int column = std::clamp(2 * x + 1 - kOwnColumns / 2, 0, paired_.width() - kOwnColumns);
     const int row = std::clamp(sensor_.ir_first_row() / 2 + y - kOwnRows / 2, 0, paired_.height() - kOwnRows);
     const int reference_column = column + 2 * reference_.margin_px + shift.whole;
-    if (reference_column < 0 || reference_column + kOwnColumns > reference_.shifted[0].width())
-      return {1.0f, 0.0f, 1.0f};
-    Explanation result{0.0f, 0.0f, 0.0f};
+    if (reference_column < 0 || reference_column + kOwnColumns > reference_.shifted[0].width()) return {};
+    Likeness result;
     for (int j = row; j < row + kOwnRows; ++j) {
       const float* live = paired_.row(j) + column;
       const float* shifted = reference_.shifted[shift.phase].row(j) + reference_column;
@@ -172,7 +170,7 @@ class EdgeSettler {
       for (int i = 0; i < kOwnColumns; ++i) {
         const float seen = live[i] - surface.bias;
         const float predicted = surface.gain * (shifted[i] + shift.rest_ir_px * gradient[i]);
-        result.error += (seen - predicted) * (seen - predicted);
+        result.both += seen * predicted;
         result.seen += seen * seen;
         result.predicted += predicted * predicted;
       }
