@@ -1,4 +1,4 @@
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,7 +77,11 @@ class EdgeSettler {
   }
 
  private:
-  bool inside(int x, int y) const { return x >= 0 && x < estimates_.width() && y >= 0 && y < estimates_.height(); }
+  /// Inside the image and not in its border, where nothing is matched.
+  bool inside(int x, int y) const {
+    const int border = sensor_.matcher.window_columns / 4;
+    return x >= border && x < estimates_.width() - border && y >= 0 && y < estimates_.height();
+  }
 
   static float extended(const Estimate& estimate, int dx, int dy) {
     return estimate.disparity + estimate.slope_x * static_cast<float>(dx) + estimate.slope_y * static_cast<float>(dy);
@@ -148,9 +152,11 @@ class EdgeSettler {
         right += row * difference;
       }
       if (normal(0, 0) < kEnough) break;
-      const Eigen::LDLT<Eigen::Matrix3f> solver(normal);
-      if (solver.vectorD().minCoeff() < 1.0f) break;  // all on one line
-      const Eigen::Vector3f correction = solver.solve(right);
+      Eigen::Matrix3f inverse;
+      bool solvable = false;
+      normal.computeInverseWithCheck(inverse, solvable, 1.0f);
+      if (!solvable) break;  // all on one line
+      const Eigen::Vector3f correction = inverse * right;
       surface.disparity += correction[0], surface.slope_x += correction[1], surface.slope_y += correction[2];
     }
     return surface.disparity;
@@ -188,17 +194,23 @@ class EdgeSettler {
 
 }  // namespace
 
-Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                             const Image<Estimate>& estimates) {
-  Image<Estimate> settled = estimates;
+void settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+                  Image<Estimate>& estimates) {
   const EdgeSettler settler(sensor, paired, reference, estimates);
+  struct Settled {
+    int x, y;
+    Estimate estimate;
+  };
+  std::vector<Settled> settled;
   const int border = sensor.matcher.window_columns / 4;
-  parallel_ranges(sensor.height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = border; x < sensor.width - border; ++x)
-        if (settler.is_edge(x, y)) settled(x, y) = settler.settle(x, y);
+  for (int y = 0; y < sensor.height; ++y)
+    for (int x = border; x < sensor.width - border; ++x)
+      if (settler.is_edge(x, y)) settled.push_back({x, y, {}});
+  // All are judged by what was there before any of them changes.
+  parallel_ranges(static_cast<int>(settled.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) settled[i].estimate = settler.settle(settled[i].x, settled[i].y);
   });
-  return settled;
+  for (const Settled& pixel : settled) estimates(pixel.x, pixel.y) = pixel.estimate;
 }
 
 }  // namespace fathom

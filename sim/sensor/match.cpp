@@ -11,7 +11,7 @@ Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& 
   const Image<float> coarse = search(sensor, paired, reference);
   Image<Estimate> estimates = refine(sensor, paired, reference, coarse);
   carry_to_pixels(estimates);
-  estimates = settle_edges(sensor, paired, reference, estimates);
+  settle_edges(sensor, paired, reference, estimates);
 
   const float at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));
   Match result{Image<float>(sensor.width, sensor.height), Image<float>(sensor.width, sensor.height)};

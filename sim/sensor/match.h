@@ -48,8 +48,8 @@ void carry_to_pixels(Image<Estimate>& estimates);
 
 /// Where windows reach over an edge, replaces each estimate by the neighbouring one that predicts the pixel's own dots
 /// best, or by none when none does.
-Image<Estimate> settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                             const Image<Estimate>& estimates);
+void settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+                  Image<Estimate>& estimates);
 
 /// A disparity as a place in the reference: column shift in whole infrared pixels, phase, and what is left over.
 struct ReferenceShift {

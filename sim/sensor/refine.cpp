@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <vector>
 
 #include "core/parallel.h"
 #include "core/simd.h"
@@ -10,127 +11,229 @@
 namespace fathom {
 namespace {
 
-constexpr int kColumns = 16;  ///< of the window [infrared px]: 8 depth pixels
-constexpr int kRows = 7;      ///< of the window [row pairs]: 7 depth pixels
-constexpr float kCount = kColumns * kRows;
+constexpr float kCount = kRefineColumns * kRefineRows;
 
 /// Half a row of the window: one register where there are wide ones; elsewhere the compiler splits it.
-constexpr int kLanes = kColumns / 2;
+constexpr int kLanes = kRefineColumns / 2;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 inline __attribute__((always_inline)) void load(const float* from, Lanes& lanes) {
   std::memcpy(&lanes, from, sizeof(lanes));
 }
 
-/// Adds the lanes pairwise, always in the same order, so that every instruction set rounds alike.
-inline __attribute__((always_inline)) float lane_sum(const Lanes& lanes) {
-  return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+/// Sums of the lanes of two registers at once, added pairwise and always in the same order, so that every instruction
+/// set rounds alike.
+inline __attribute__((always_inline)) void sum_lanes(const Lanes& a, const Lanes& b, float& sum_a, float& sum_b) {
+  using Index = int __attribute__((vector_size(sizeof(Lanes))));
+  const Lanes fours = __builtin_shuffle(a, b, Index{0, 1, 2, 3, 8, 9, 10, 11}) +
+                      __builtin_shuffle(a, b, Index{4, 5, 6, 7, 12, 13, 14, 15});
+  const Lanes twos = fours + __builtin_shuffle(fours, Index{2, 3, 2, 3, 6, 7, 6, 7});
+  const Lanes ones = twos + __builtin_shuffle(twos, Index{1, 1, 1, 1, 5, 5, 5, 5});
+  sum_a = ones[0], sum_b = ones[4];
 }
 
-/// Sums over a window of the live image i, the reference r and its derivative g [1/px].
-struct Moments {
-  float i, ii, ir, ig, r, g, rr, rg, gg;
-  float gg_x, gg_y;  ///< gg weighted by column and by row, both from 0
-};
+/// A place for every pixel of a row that is to be refined, as arrays, so that the compiler makes vectors of the
+/// arithmetic.
+struct RowScratch {
+  std::vector<int> x;                ///< depth column
+  std::vector<float> from, rest;     ///< disparity to start from [px] and its part below a phase [infrared px]
+  std::vector<int> live, reference;  ///< first column of the window in the live image and in the reference
+  std::vector<int> phase;
+  std::vector<float> i, ii, ir, ig;     ///< sums over the window of the live image i with itself, r and g
+  std::vector<float> r, g, rr, rg, gg;  ///< the reference's, see WindowMoments
+  std::vector<float> centre_x,
+      centre_y;  ///< gg_x, gg_y; solve() makes them g²'s centroid from the window's first pixel
+  std::vector<float> moved, correlation, gain, bias;
 
-/// Sums over one half of the window's columns.
-struct HalfMoments {
-  Lanes i{}, ii{}, ir{}, ig{}, r{}, g{}, rr{}, rg{}, gg{}, gg_y{};
-
-  inline __attribute__((always_inline)) void add(const float* live, std::ptrdiff_t live_stride, const float* reference,
-                                                 const float* gradient, std::ptrdiff_t reference_stride) {
-    const Lanes zero{};
-#pragma GCC unroll 1
-    for (int row = 0; row < kRows; ++row) {
-      Lanes a, b, c;
-      load(live, a), load(reference, b), load(gradient, c);
-      i += a, ii += a * a, ir += a * b, ig += a * c;
-      r += b, g += c, rr += b * b, rg += b * c;
-      const Lanes energy = c * c;
-      gg += energy, gg_y += energy * (zero + static_cast<float>(row));
-      live += live_stride, reference += reference_stride, gradient += reference_stride;
-    }
+  explicit RowScratch(int width) {
+    for (auto* numbers : {&x, &live, &reference, &phase}) numbers->resize(width);
+    for (auto* values : {&from, &rest, &i, &ii, &ir, &ig, &r, &g, &rr, &rg, &gg, &centre_x, &centre_y, &moved,
+                         &correlation, &gain, &bias})
+      values->resize(width);
   }
 };
 
+/// Σ live · reference and Σ live · gradient over the windows of one row's pixels. `stride`s are the images' widths;
+/// `reference` and `gradient` hold the first rows of the windows by phase.
 FATHOM_SIMD_CLONES
-void sum_window(const float* live, std::ptrdiff_t live_stride, const float* reference, const float* gradient,
-                std::ptrdiff_t reference_stride, Moments* sums) {
-  HalfMoments left, right;
-  left.add(live, live_stride, reference, gradient, reference_stride);
-  right.add(live + kLanes, live_stride, reference + kLanes, gradient + kLanes, reference_stride);
-  const Lanes column{0, 1, 2, 3, 4, 5, 6, 7};
-  sums->i = lane_sum(left.i + right.i);
-  sums->ii = lane_sum(left.ii + right.ii);
-  sums->ir = lane_sum(left.ir + right.ir);
-  sums->ig = lane_sum(left.ig + right.ig);
-  sums->r = lane_sum(left.r + right.r);
-  sums->g = lane_sum(left.g + right.g);
-  sums->rr = lane_sum(left.rr + right.rr);
-  sums->rg = lane_sum(left.rg + right.rg);
-  sums->gg = lane_sum(left.gg + right.gg);
-  sums->gg_x = lane_sum(left.gg * column + right.gg * (column + static_cast<float>(kLanes)));
-  sums->gg_y = lane_sum(left.gg_y + right.gg_y);
+void cross_moments(const float* live_row, std::ptrdiff_t live_stride,
+                   const std::array<const float*, kPhases>& reference,
+                   const std::array<const float*, kPhases>& gradient, std::ptrdiff_t reference_stride, RowScratch& s,
+                   int count) {
+  for (int k = 0; k < count; ++k) {
+    const float* live = live_row + s.live[k];
+    const float* r = reference[s.phase[k]] + s.reference[k];
+    const float* g = gradient[s.phase[k]] + s.reference[k];
+    Lanes r_left{}, r_right{}, g_left{}, g_right{};
+#pragma GCC unroll 1
+    for (int row = 0; row < kRefineRows; ++row) {
+      Lanes a, b, c;
+      load(live, a), load(r, b), load(g, c);
+      r_left += a * b, g_left += a * c;
+      load(live + kLanes, a), load(r + kLanes, b), load(g + kLanes, c);
+      r_right += a * b, g_right += a * c;
+      live += live_stride, r += reference_stride, g += reference_stride;
+    }
+    sum_lanes(r_left + r_right, g_left + g_right, s.ir[k], s.ig[k]);
+  }
 }
 
-class Refiner {
- public:
-  Refiner(const SensorModel& sensor, const Image<float>& paired, const Reference& reference)
-      : paired_(paired),
-        reference_(reference),
-        first_row_(sensor.ir_first_row() / 2 - kRows / 2),
-        least_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kCount) {}
+/// The shift t that maximises the correlation of i with r + t g, (a + t b) / √(ii (rr + 2 t rg + t² gg)), with the
+/// correlation, gain and bias there. A window without contrast or maximum gets the correlation −1.
+FATHOM_SIMD_CLONES
+void solve(RowScratch& s, float least_energy, int count) {
+  constexpr float kFarthest = 1.5f;  // [infrared px]; beyond, the derivative says nothing
+  constexpr float kTiny = 1e-12f;
+  float *moved = s.moved.data(), *correlation = s.correlation.data(), *gain = s.gain.data(), *bias = s.bias.data();
+  float *centre_x = s.centre_x.data(), *centre_y = s.centre_y.data();
+  const float *i = s.i.data(), *r = s.r.data(), *g = s.g.data();
+  const float *sum_ii = s.ii.data(), *sum_ir = s.ir.data(), *sum_ig = s.ig.data();
+  const float *sum_rr = s.rr.data(), *sum_rg = s.rg.data(), *sum_gg = s.gg.data();
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k) {
+    const float mean = i[k] / kCount;
+    const float ii = sum_ii[k] - i[k] * mean;
+    const float a = sum_ir[k] - mean * r[k], b = sum_ig[k] - mean * g[k];
+    const float rr = sum_rr[k] - r[k] * r[k] / kCount;
+    const float rg = sum_rg[k] - r[k] * g[k] / kCount;
+    const float gg = sum_gg[k] - g[k] * g[k] / kCount;
+    const float denominator = a * gg - b * rg;
+    const float t = (b * rr - a * rg) / (denominator > kTiny ? denominator : kTiny);
+    const float energy = rr + 2.0f * t * rg + t * t * gg;
+    const float both = a + t * b;
+    const float squared = ii * energy;
+    // No short-circuit: branches would keep the compiler from making vectors of this.
+    const bool good =
+        (denominator > kTiny) & (ii > least_energy) & (t < kFarthest) & (t > -kFarthest) & (energy > kTiny);
+    const float own_gain = both / (energy > kTiny ? energy : kTiny);
+    const float own_correlation = both / std::sqrt(squared > kTiny ? squared : kTiny);
+    moved[k] = t;
+    correlation[k] = good ? own_correlation : -1.0f;
+    gain[k] = own_gain;
+    bias[k] = mean - own_gain * (r[k] + t * g[k]) / kCount;
+    const float per_energy = 1.0f / (sum_gg[k] + 1e-9f);
+    centre_x[k] *= per_energy;
+    centre_y[k] *= per_energy;
+  }
+}
 
-  std::optional<Estimate> refine(int x, int y, float coarse) const {
-    // The first step is exact for dots that all moved alike; a second one from nearer by takes in those that did not.
+FATHOM_SIMD_CLONES
+void add_columns(const float* __restrict row, float* __restrict column, float* __restrict column_square, int width) {
+  for (int x = 0; x < width; ++x) {
+    column[x] += row[x];
+    column_square[x] += row[x] * row[x];
+  }
+}
+
+FATHOM_SIMD_CLONES
+void slide(const float* __restrict column, float* __restrict sums, int count) {
+  for (int x = 0; x < count; ++x) {
+    float sum = 0.0f;
+    for (int i = 0; i < kRefineColumns; ++i) sum += column[x + i];
+    sums[x] = sum;
+  }
+}
+
+/// Sums and sums of squares of a row of live windows, by first column.
+struct LiveSums {
+  std::vector<float> column, column_square, value, square;
+
+  explicit LiveSums(int width) : column(width), column_square(width), value(width), square(width) {}
+
+  void update(const Image<float>& paired, int first_row) {
+    const int width = paired.width();
+    std::fill(column.begin(), column.end(), 0.0f);
+    std::fill(column_square.begin(), column_square.end(), 0.0f);
+    for (int j = 0; j < kRefineRows; ++j)
+      add_columns(paired.row(first_row + j), column.data(), column_square.data(), width);
+    slide(column.data(), value.data(), width - kRefineColumns + 1);
+    slide(column_square.data(), square.data(), width - kRefineColumns + 1);
+  }
+};
+
+/// Refines one depth row after the other.
+class RowRefiner {
+ public:
+  RowRefiner(const SensorModel& sensor, const Image<float>& paired, const Reference& reference)
+      : sensor_(sensor), paired_(paired), reference_(reference), scratch_(sensor.width), live_sums_(paired.width()) {}
+
+  void refine(int y, const float* coarse, Estimate* estimates) {
+    // A window needs three quarters of its columns inside the image.
+    const int border = sensor_.matcher.window_columns / 4;
+    live_sums_.update(paired_, refine_first_row(sensor_, y));
+    count_ = 0;
+    for (int x = border; x < sensor_.width - border; ++x)
+      if (!std::isnan(coarse[x])) add(x, y, coarse[x]);
+    step(y);
+    keep(y, estimates);
+    // The step is exact for dots that all moved alike; a second one from nearer by takes in those that did not.
     constexpr float kNearEnough = 0.75f / kPhases;  // [infrared px]
-    float moved = 0.0f;
-    std::optional<Estimate> estimate = step(x, y, coarse, moved);
-    if (estimate && std::fabs(moved) > kNearEnough) estimate = step(x, y, estimate->disparity, moved);
-    return estimate;
+    const int first_count = count_;
+    count_ = 0;
+    for (int k = 0; k < first_count; ++k)
+      if (estimates[scratch_.x[k]].valid() && std::fabs(scratch_.moved[k]) > kNearEnough)
+        add(scratch_.x[k], y, estimates[scratch_.x[k]].disparity);
+    step(y);
+    keep(y, estimates);
   }
 
  private:
-  std::optional<Estimate> step(int x, int y, float from, float& moved) const {
-    const int first_column = std::clamp(2 * x + 1 - kColumns / 2, 0, paired_.width() - kColumns);
-    const int first_row = std::clamp(first_row_ + y, 0, paired_.height() - kRows);
+  /// Leaves out pixels whose window lies outside the reference.
+  void add(int x, int y, float from) {
+    RowScratch& s = scratch_;
     const ReferenceShift shift = reference_shift(from);
-    const int column = first_column + 2 * reference_.margin_px + shift.whole;
-    const Image<float>&shifted = reference_.shifted[shift.phase], &gradient = reference_.gradient[shift.phase];
-    if (column < 0 || column + kColumns > shifted.width()) return std::nullopt;
-    Moments sums;
-    sum_window(paired_.row(first_row) + first_column, paired_.width(), shifted.row(first_row) + column,
-               gradient.row(first_row) + column, shifted.width(), &sums);
-    const float ii = sums.ii - sums.i * sums.i / kCount;
-    if (ii < least_energy_) return std::nullopt;
-    const float a = sums.ir - sums.i * sums.r / kCount, b = sums.ig - sums.i * sums.g / kCount;
-    const float rr = sums.rr - sums.r * sums.r / kCount;
-    const float rg = sums.rg - sums.r * sums.g / kCount;
-    const float gg = sums.gg - sums.g * sums.g / kCount;
-    // The correlation of i with r + t g, (a + t b) / √(ii (rr + 2 t rg + t² gg)), has its one maximum at t.
-    const float denominator = a * gg - b * rg;
-    if (denominator <= 0.0f) return std::nullopt;
-    const float t = (b * rr - a * rg) / denominator;
-    constexpr float kFarthest = 1.5f;  // [infrared px]; beyond, the derivative says nothing
-    if (std::fabs(t) > kFarthest) return std::nullopt;
-    moved = t;
-    const float energy = rr + 2.0f * t * rg + t * t * gg;
-    Estimate estimate;
-    estimate.disparity = from + 0.5f * (shift.rest_ir_px - t);
-    estimate.correlation = (a + t * b) / std::sqrt(ii * energy);
-    estimate.gain = (a + t * b) / energy;
-    estimate.bias = (sums.i - estimate.gain * (sums.r + t * sums.g)) / kCount;
-    estimate.centre_x =
-        0.5f * (static_cast<float>(first_column) + sums.gg_x / sums.gg + 0.5f) - (static_cast<float>(x) + 0.5f);
-    estimate.centre_y =
-        static_cast<float>(first_row - first_row_ - y) + sums.gg_y / sums.gg - static_cast<float>(kRows / 2);
-    return estimate;
+    const int live = std::clamp(2 * x + 1 - kRefineColumns / 2, 0, paired_.width() - kRefineColumns);
+    const int column = live + 2 * reference_.margin_px + shift.whole;
+    if (column < 0 || column >= reference_.moment_columns) return;
+    s.x[count_] = x, s.from[count_] = from, s.rest[count_] = shift.rest_ir_px;
+    s.live[count_] = live, s.reference[count_] = column, s.phase[count_] = shift.phase;
+    __builtin_prefetch(&reference_.moments_at(y, shift.phase, column));  // the table is larger than the caches
+    ++count_;
   }
 
+  void step(int y) {
+    RowScratch& s = scratch_;
+    for (int k = 0; k < count_; ++k) {
+      const WindowMoments& memory = reference_.moments_at(y, s.phase[k], s.reference[k]);
+      s.i[k] = live_sums_.value[s.live[k]], s.ii[k] = live_sums_.square[s.live[k]];
+      s.r[k] = memory.r, s.g[k] = memory.g, s.rr[k] = memory.rr, s.rg[k] = memory.rg, s.gg[k] = memory.gg;
+      s.centre_x[k] = memory.gg_x, s.centre_y[k] = memory.gg_y;
+    }
+    const int first_row = refine_first_row(sensor_, y);
+    std::array<const float*, kPhases> shifted, gradient;
+    for (int phase = 0; phase < kPhases; ++phase) {
+      shifted[phase] = reference_.shifted[phase].row(first_row);
+      gradient[phase] = reference_.gradient[phase].row(first_row);
+    }
+    cross_moments(paired_.row(first_row), paired_.width(), shifted, gradient, reference_.shifted[0].width(), s, count_);
+    const float contrast = static_cast<float>(sensor_.matcher.contrast_min);
+    solve(s, contrast * contrast * kCount, count_);
+  }
+
+  void keep(int y, Estimate* estimates) const {
+    const RowScratch& s = scratch_;
+    const float least_correlation = static_cast<float>(sensor_.matcher.correlation_min);
+    const float row_offset = static_cast<float>(refine_first_row(sensor_, y) - sensor_.ir_first_row() / 2 - y);
+    for (int k = 0; k < count_; ++k) {
+      Estimate estimate;
+      if (s.correlation[k] >= least_correlation) {
+        estimate.disparity = s.from[k] + 0.5f * (s.rest[k] - s.moved[k]);
+        estimate.correlation = s.correlation[k];
+        estimate.gain = s.gain[k], estimate.bias = s.bias[k];
+        estimate.centre_x =
+            0.5f * (static_cast<float>(s.live[k]) + s.centre_x[k] + 0.5f) - (static_cast<float>(s.x[k]) + 0.5f);
+        estimate.centre_y = row_offset + s.centre_y[k];
+      }
+      estimates[s.x[k]] = estimate;
+    }
+  }
+
+  const SensorModel& sensor_;
   const Image<float>& paired_;
   const Reference& reference_;
-  int first_row_;  ///< of the window of depth row 0 [row pairs]
-  float least_energy_;
+  RowScratch scratch_;
+  LiveSums live_sums_;
+  int count_ = 0;
 };
 
 /// Disparities along one axis through a pixel, NaN outside the image and where nothing matched.
@@ -172,17 +275,9 @@ float local_slope(const Profile& profile) {
 Image<Estimate> refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
                        const Image<float>& coarse) {
   Image<Estimate> estimates(sensor.width, sensor.height);
-  const Refiner refiner(sensor, paired, reference);
-  // A window needs three quarters of its columns inside the image.
-  const int border = sensor.matcher.window_columns / 4;
-  const float least_correlation = static_cast<float>(sensor.matcher.correlation_min);
   parallel_ranges(sensor.height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = border; x < sensor.width - border; ++x) {
-        if (std::isnan(coarse(x, y))) continue;
-        const std::optional<Estimate> found = refiner.refine(x, y, coarse(x, y));
-        if (found && found->correlation >= least_correlation) estimates(x, y) = *found;
-      }
+    RowRefiner refiner(sensor, paired, reference);
+    for (int y = begin; y < end; ++y) refiner.refine(y, coarse.row(y), estimates.row(y));
   });
   return estimates;
 }
