@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/simd.h"
 #include "sim/sensor/match.h"
 
 namespace fathom {
@@ -16,8 +18,6 @@ constexpr int kOwnColumns = 8, kOwnRows = 3;  ///< [infrared px, row pairs] the 
 struct Step {
   int dx, dy;
 };
-constexpr int kLookout = 4;  ///< [depth px] edges farther away than this do not touch the pixel's window
-constexpr std::array<Step, 4> kAcross{{{-kLookout, 0}, {kLookout, 0}, {0, -kLookout}, {0, kLookout}}};
 constexpr std::array<Step, 9> kAround{{{0, 0},
                                        {-kReach, 0},
                                        {kReach, 0},
@@ -38,10 +38,38 @@ struct Likeness {
   float correlation() const { return both / std::sqrt(seen * predicted + 1e-6f); }
 };
 
+/// A surface near a pixel, extended to the pixel.
+struct LocalSurface {
+  float disparity, slope_x, slope_y;
+  float correlation, gain, bias;
+  bool own;  ///< found by the pixel's own window
+};
+
+/// Marks the pixels of a row whose windows may meet more than one surface: the disparity over ±kReach is not straight,
+/// or the correlation is lower than a neighbour's because of foreign dots.
+FATHOM_SIMD_CLONES
+void mark_edges(const float* disparity, const float* correlation, std::ptrdiff_t stride, std::uint8_t* edges, int begin,
+                int end) {
+  constexpr float kBend = 0.8f;  // [px]
+  constexpr float kDrop = 0.1f;
+#pragma GCC ivdep
+  for (int x = begin; x < end; ++x) {
+    const float* d = disparity + x;
+    const float* c = correlation + x;
+    const float across = std::fabs(d[-kReach] - 2.0f * d[0] + d[kReach]);
+    const float down = std::fabs(d[-kReach * stride] - 2.0f * d[0] + d[kReach * stride]);
+    const float best_across = c[-kReach] > c[kReach] ? c[-kReach] : c[kReach];
+    const float best_down = c[-kReach * stride] > c[kReach * stride] ? c[-kReach * stride] : c[kReach * stride];
+    const float best = best_across > best_down ? best_across : best_down;
+    const bool plain = (across < kBend) & (down < kBend) & (c[0] >= best - kDrop);
+    edges[x] = plain ? 0 : 1;
+  }
+}
+
 class EdgeSettler {
  public:
   EdgeSettler(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-              const Image<Estimate>& estimates)
+              const Estimates& estimates)
       : sensor_(sensor),
         paired_(paired),
         reference_(reference),
@@ -49,26 +77,31 @@ class EdgeSettler {
         edges_(sensor.width, sensor.height),
         noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kOwnColumns *
                       kOwnRows) {
-    parallel_ranges(edges_.height(), [&](int begin, int end) {
-      for (int y = begin; y < end; ++y)
-        for (int x = 0; x < edges_.width(); ++x) edges_(x, y) = near_edge(x, y);
+    // The image's own border is no edge between surfaces.
+    const int margin = sensor.matcher.window_columns / 4 + kReach;
+    parallel_ranges(edges_.height() - 2 * kReach, [&](int begin, int end) {
+      for (int y = begin + kReach; y < end + kReach; ++y)
+        mark_edges(estimates.disparity.row(y), estimates.correlation.row(y), edges_.width(), edges_.row(y), margin,
+                   edges_.width() - margin);
     });
   }
 
   /// Whether the windows around the pixel meet more than one surface.
   bool is_edge(int x, int y) const { return edges_(x, y) != 0; }
 
-  Estimate settle(int x, int y) const {
+  /// The surface whose dots are most like those at the pixel; nothing when none is.
+  std::optional<LocalSurface> settle(int x, int y) const {
     constexpr float kExplained = 0.5f;
-    Estimate best;
+    std::optional<LocalSurface> best;
     float best_correlation = kExplained;
+    std::vector<LocalSurface> surfaces = surfaces_around(x, y);
+    if (surfaces.empty()) return best;
     const std::vector<Neighbour> neighbours = clean_neighbours(x, y);
-    for (Estimate& surface : surfaces_around(x, y)) {
-      const bool own = surface.disparity == estimates_(x, y).disparity;
-      surface.disparity = from_neighbours(neighbours, surface);
+    for (LocalSurface& surface : surfaces) {
+      fit(neighbours, surface);
       const Likeness found = likeness(x, y, surface);
       // A pixel without dots, seen or predicted, keeps its own surface but takes no other's.
-      if (found.energy() < noise_energy_ && own) return surface;
+      if (found.energy() < noise_energy_ && surface.own) return surface;
       if (found.energy() < noise_energy_ || found.correlation() < best_correlation) continue;
       best_correlation = found.correlation();
       best = surface;
@@ -80,42 +113,30 @@ class EdgeSettler {
   /// Inside the image and not in its border, where nothing is matched.
   bool inside(int x, int y) const {
     const int border = sensor_.matcher.window_columns / 4;
-    return x >= border && x < estimates_.width() - border && y >= 0 && y < estimates_.height();
+    return x >= border && x < edges_.width() - border && y >= 0 && y < edges_.height();
   }
 
-  static float extended(const Estimate& estimate, int dx, int dy) {
-    return estimate.disparity + estimate.slope_x * static_cast<float>(dx) + estimate.slope_y * static_cast<float>(dy);
-  }
-
-  bool near_edge(int x, int y) const {
-    constexpr float kStep = 0.4f;  // [px] of disparity beyond what the slope explains
-    constexpr float kDrop = 0.1f;  // of the correlation: foreign dots in this window
-    const Estimate& here = estimates_(x, y);
-    for (const auto& [dx, dy] : kAcross) {
-      if (!inside(x + dx, y + dy)) continue;
-      const Estimate& there = estimates_(x + dx, y + dy);
-      if (here.valid() != there.valid() || std::fabs(there.disparity - extended(here, dx, dy)) > kStep) return true;
-      if (here.correlation < there.correlation - kDrop) return true;
-    }
-    return false;
-  }
-
-  /// The different surfaces that the pixel's own and the neighbouring windows found, extended to the pixel, each from
-  /// its best correlated window.
-  std::vector<Estimate> surfaces_around(int x, int y) const {
+  /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
+  /// window.
+  std::vector<LocalSurface> surfaces_around(int x, int y) const {
     constexpr float kDifferent = 0.6f;  // [px]
-    std::vector<Estimate> surfaces;
+    std::vector<LocalSurface> surfaces;
     for (const auto& [dx, dy] : kAround) {
-      if (!inside(x + dx, y + dy) || !estimates_(x + dx, y + dy).valid()) continue;
-      Estimate found = estimates_(x + dx, y + dy);
-      found.disparity = extended(found, -dx, -dy);
-      const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const Estimate& other) {
+      const int i = x + dx, j = y + dy;
+      if (!inside(i, j) || !estimates_.valid(i, j)) continue;
+      LocalSurface found{
+          estimates_.disparity(i, j), estimates_.slope_x(i, j), estimates_.slope_y(i, j), estimates_.correlation(i, j),
+          estimates_.gain(i, j),      estimates_.bias(i, j),    dx == 0 && dy == 0};
+      found.disparity -= found.slope_x * static_cast<float>(dx) + found.slope_y * static_cast<float>(dy);
+      const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const LocalSurface& other) {
         return std::fabs(other.disparity - found.disparity) < kDifferent;
       });
-      if (same == surfaces.end())
+      if (same == surfaces.end()) {
         surfaces.push_back(found);
-      else if (found.correlation > same->correlation)
+      } else if (found.correlation > same->correlation) {
+        found.own = same->own;
         *same = found;
+      }
     }
     return surfaces;
   }
@@ -127,17 +148,17 @@ class EdgeSettler {
   /// Those neighbours whose windows meet one surface only: windows that reach over an edge are pulled by the other
   /// surface's dots.
   std::vector<Neighbour> clean_neighbours(int x, int y) const {
-    constexpr int kFar = 8, kStride = 2;
+    constexpr int kFar = 9, kStride = 3;
     std::vector<Neighbour> neighbours;
     for (int dy = -kFar; dy <= kFar; dy += kStride)
       for (int dx = -kFar; dx <= kFar; dx += kStride)
-        if (inside(x + dx, y + dy) && !is_edge(x + dx, y + dy) && estimates_(x + dx, y + dy).valid())
-          neighbours.push_back({static_cast<float>(dx), static_cast<float>(dy), estimates_(x + dx, y + dy).disparity});
+        if (inside(x + dx, y + dy) && !is_edge(x + dx, y + dy) && estimates_.valid(x + dx, y + dy))
+          neighbours.push_back({static_cast<float>(dx), static_cast<float>(dy), estimates_.disparity(x + dx, y + dy)});
     return neighbours;
   }
 
-  /// A surface's disparity at the pixel from the plane through its clean neighbours; its own where they are too few.
-  static float from_neighbours(const std::vector<Neighbour>& neighbours, Estimate surface) {
+  /// Fits a surface to those clean neighbours that lie on it; leaves it as it is where they are too few.
+  static void fit(const std::vector<Neighbour>& neighbours, LocalSurface& surface) {
     for (const float same_surface :
          {0.6f, 0.15f, 0.05f}) {  // [px]; the later rounds leave out what lies beyond a crease
       constexpr int kEnough = 6;
@@ -159,10 +180,9 @@ class EdgeSettler {
       const Eigen::Vector3f correction = inverse * right;
       surface.disparity += correction[0], surface.slope_x += correction[1], surface.slope_y += correction[2];
     }
-    return surface.disparity;
   }
 
-  Likeness likeness(int x, int y, const Estimate& surface) const {
+  Likeness likeness(int x, int y, const LocalSurface& surface) const {
     const ReferenceShift shift = reference_shift(surface.disparity);
     const int column = std::clamp(2 * x + 1 - kOwnColumns / 2, 0, paired_.width() - kOwnColumns);
     const int row = std::clamp(sensor_.ir_first_row() / 2 + y - kOwnRows / 2, 0, paired_.height() - kOwnRows);
@@ -187,7 +207,7 @@ class EdgeSettler {
   const SensorModel& sensor_;
   const Image<float>& paired_;
   const Reference& reference_;
-  const Image<Estimate>& estimates_;
+  const Estimates& estimates_;
   Image<std::uint8_t> edges_;
   float noise_energy_;
 };
@@ -195,11 +215,11 @@ class EdgeSettler {
 }  // namespace
 
 void settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                  Image<Estimate>& estimates) {
+                  Estimates& estimates) {
   const EdgeSettler settler(sensor, paired, reference, estimates);
   struct Settled {
     int x, y;
-    Estimate estimate;
+    std::optional<LocalSurface> surface;
   };
   std::vector<Settled> settled;
   const int border = sensor.matcher.window_columns / 4;
@@ -208,9 +228,13 @@ void settle_edges(const SensorModel& sensor, const Image<float>& paired, const R
       if (settler.is_edge(x, y)) settled.push_back({x, y, {}});
   // All are judged by what was there before any of them changes.
   parallel_ranges(static_cast<int>(settled.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) settled[i].estimate = settler.settle(settled[i].x, settled[i].y);
+    for (int i = begin; i < end; ++i) settled[i].surface = settler.settle(settled[i].x, settled[i].y);
   });
-  for (const Settled& pixel : settled) estimates(pixel.x, pixel.y) = pixel.estimate;
+  for (const Settled& pixel : settled) {
+    estimates.disparity(pixel.x, pixel.y) =
+        pixel.surface ? pixel.surface->disparity : std::numeric_limits<float>::quiet_NaN();
+    estimates.correlation(pixel.x, pixel.y) = pixel.surface ? pixel.surface->correlation : 0.0f;
+  }
 }
 
 }  // namespace fathom

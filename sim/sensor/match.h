@@ -25,31 +25,41 @@ Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& 
 
 // The steps, each from one image to the next. `paired` is the infrared image with its rows in pairs.
 
-/// What is known at a pixel about the surface there. Disparities are relative to the reference plane, in depth pixels.
-struct Estimate {
-  float disparity = std::numeric_limits<float>::quiet_NaN();  ///< NaN: no match
-  float correlation = 0.0f;
-  float gain = 0.0f, bias = 0.0f;          ///< image ≈ gain · reference + bias
-  float centre_x = 0.0f, centre_y = 0.0f;  ///< where `disparity` holds, from the pixel's centre [px]
-  float slope_x = 0.0f, slope_y = 0.0f;    ///< of the disparity [px/px]
+/// What is known at every pixel about the surface there, one image per quantity. Disparities are relative to the
+/// reference plane, in depth pixels.
+struct Estimates {
+  Image<float> disparity;  ///< NaN: no match
+  Image<float> correlation;
+  Image<float> gain, bias;          ///< image ≈ gain · reference + bias
+  Image<float> centre_x, centre_y;  ///< where `disparity` holds, from the pixel's centre [px]
+  Image<float> slope_x, slope_y;    ///< of the disparity [px/px]
 
-  bool valid() const { return disparity == disparity; }
+  Estimates(int width, int height)
+      : disparity(width, height, std::numeric_limits<float>::quiet_NaN()),
+        correlation(width, height),
+        gain(width, height),
+        bias(width, height),
+        centre_x(width, height),
+        centre_y(width, height),
+        slope_x(width, height),
+        slope_y(width, height) {}
+  bool valid(int x, int y) const { return disparity(x, y) == disparity(x, y); }
 };
 
 /// Disparity of every pixel's best window, interpolated from the scores [px]; NaN without a peak inside the range.
 Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference);
 
 /// Sub-pixel disparity at the centroid of each window, with gain, bias and correlation.
-Image<Estimate> refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                       const Image<float>& coarse);
+Estimates refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+                 const Image<float>& coarse);
 
 /// Fills in the slopes and moves every disparity from its centroid to its pixel's centre.
-void carry_to_pixels(Image<Estimate>& estimates);
+void carry_to_pixels(Estimates& estimates);
 
 /// Where windows reach over an edge, replaces each estimate by the neighbouring one that predicts the pixel's own dots
 /// best, or by none when none does.
 void settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                  Image<Estimate>& estimates);
+                  Estimates& estimates);
 
 /// A disparity as a place in the reference: column shift in whole infrared pixels, phase, and what is left over.
 struct ReferenceShift {

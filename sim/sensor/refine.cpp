@@ -157,7 +157,7 @@ class RowRefiner {
   RowRefiner(const SensorModel& sensor, const Image<float>& paired, const Reference& reference)
       : sensor_(sensor), paired_(paired), reference_(reference), scratch_(sensor.width), live_sums_(paired.width()) {}
 
-  void refine(int y, const float* coarse, Estimate* estimates) {
+  void refine(int y, const float* coarse, Estimates& estimates) {
     // A window needs three quarters of its columns inside the image.
     const int border = sensor_.matcher.window_columns / 4;
     live_sums_.update(paired_, refine_first_row(sensor_, y));
@@ -170,9 +170,10 @@ class RowRefiner {
     constexpr float kNearEnough = 0.75f / kPhases;  // [infrared px]
     const int first_count = count_;
     count_ = 0;
-    for (int k = 0; k < first_count; ++k)
-      if (estimates[scratch_.x[k]].valid() && std::fabs(scratch_.moved[k]) > kNearEnough)
-        add(scratch_.x[k], y, estimates[scratch_.x[k]].disparity);
+    for (int k = 0; k < first_count; ++k) {
+      const int x = scratch_.x[k];
+      if (std::fabs(scratch_.moved[k]) > kNearEnough && estimates.valid(x, y)) add(x, y, estimates.disparity(x, y));
+    }
     step(y);
     keep(y, estimates);
   }
@@ -210,21 +211,21 @@ class RowRefiner {
     solve(s, contrast * contrast * kCount, count_);
   }
 
-  void keep(int y, Estimate* estimates) const {
+  void keep(int y, Estimates& estimates) const {
     const RowScratch& s = scratch_;
     const float least_correlation = static_cast<float>(sensor_.matcher.correlation_min);
     const float row_offset = static_cast<float>(refine_first_row(sensor_, y) - sensor_.ir_first_row() / 2 - y);
+    float *disparity = estimates.disparity.row(y), *correlation = estimates.correlation.row(y);
+    float *gain = estimates.gain.row(y), *bias = estimates.bias.row(y);
+    float *centre_x = estimates.centre_x.row(y), *centre_y = estimates.centre_y.row(y);
     for (int k = 0; k < count_; ++k) {
-      Estimate estimate;
-      if (s.correlation[k] >= least_correlation) {
-        estimate.disparity = s.from[k] + 0.5f * (s.rest[k] - s.moved[k]);
-        estimate.correlation = s.correlation[k];
-        estimate.gain = s.gain[k], estimate.bias = s.bias[k];
-        estimate.centre_x =
-            0.5f * (static_cast<float>(s.live[k]) + s.centre_x[k] + 0.5f) - (static_cast<float>(s.x[k]) + 0.5f);
-        estimate.centre_y = row_offset + s.centre_y[k];
-      }
-      estimates[s.x[k]] = estimate;
+      const int x = s.x[k];
+      const bool found = s.correlation[k] >= least_correlation;
+      disparity[x] = found ? s.from[k] + 0.5f * (s.rest[k] - s.moved[k]) : std::numeric_limits<float>::quiet_NaN();
+      correlation[x] = found ? s.correlation[k] : 0.0f;
+      gain[x] = s.gain[k], bias[x] = s.bias[k];
+      centre_x[x] = 0.5f * (static_cast<float>(s.live[k]) + s.centre_x[k] + 0.5f) - (static_cast<float>(x) + 0.5f);
+      centre_y[x] = row_offset + s.centre_y[k];
     }
   }
 
@@ -236,63 +237,16 @@ class RowRefiner {
   int count_ = 0;
 };
 
-/// Disparities along one axis through a pixel, NaN outside the image and where nothing matched.
-class Profile {
- public:
-  Profile(const Image<Estimate>& estimates, int x, int y, int dx, int dy)
-      : estimates_(estimates), x_(x), y_(y), dx_(dx), dy_(dy) {}
-
-  float operator()(int steps) const {
-    const int x = x_ + steps * dx_, y = y_ + steps * dy_;
-    const bool inside = x >= 0 && x < estimates_.width() && y >= 0 && y < estimates_.height();
-    return inside ? estimates_(x, y).disparity : std::numeric_limits<float>::quiet_NaN();
-  }
-  /// By how much three equidistant disparities around `middle` miss a straight line.
-  float bend(int middle, int reach) const {
-    return std::fabs((*this)(middle - reach) - 2.0f * (*this)(middle) + (*this)(middle + reach));
-  }
-
- private:
-  const Image<Estimate>& estimates_;
-  int x_, y_, dx_, dy_;
-};
-
-/// Slope of the disparity [px/px] over the longest stretch that is straight; on one side where the other bends away, 0
-/// where both do.
-float local_slope(const Profile& profile) {
-  constexpr float kStraight = 0.20f;  // [px]
-  for (const int reach : {7, 4})
-    if (profile.bend(0, reach) < kStraight) return (profile(reach) - profile(-reach)) / static_cast<float>(2 * reach);
-  constexpr int kHalf = 3;
-  const float before = profile.bend(-kHalf, kHalf), after = profile.bend(kHalf, kHalf);
-  if (before < kStraight && !(after < before)) return (profile(0) - profile(-2 * kHalf)) / (2 * kHalf);
-  if (after < kStraight) return (profile(2 * kHalf) - profile(0)) / (2 * kHalf);
-  return 0.0f;
-}
-
 }  // namespace
 
-Image<Estimate> refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                       const Image<float>& coarse) {
-  Image<Estimate> estimates(sensor.width, sensor.height);
+Estimates refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+                 const Image<float>& coarse) {
+  Estimates estimates(sensor.width, sensor.height);
   parallel_ranges(sensor.height, [&](int begin, int end) {
     RowRefiner refiner(sensor, paired, reference);
-    for (int y = begin; y < end; ++y) refiner.refine(y, coarse.row(y), estimates.row(y));
+    for (int y = begin; y < end; ++y) refiner.refine(y, coarse.row(y), estimates);
   });
   return estimates;
-}
-
-void carry_to_pixels(Image<Estimate>& estimates) {
-  parallel_ranges(estimates.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < estimates.width(); ++x) {
-        if (!estimates(x, y).valid()) continue;
-        estimates(x, y).slope_x = local_slope(Profile(estimates, x, y, 1, 0));
-        estimates(x, y).slope_y = local_slope(Profile(estimates, x, y, 0, 1));
-      }
-  });
-  for (Estimate& estimate : estimates.pixels())
-    estimate.disparity -= estimate.slope_x * estimate.centre_x + estimate.slope_y * estimate.centre_y;
 }
 
 }  // namespace fathom
