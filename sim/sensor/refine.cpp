@@ -53,6 +53,31 @@ struct RowScratch {
   }
 };
 
+/// The window of scratch place k in the live image, and in the reference where its disparity puts it. The reference's
+/// margin is wide enough for every disparity of the search.
+inline __attribute__((always_inline)) void place_window(RowScratch& s, int k, int live_width, int margin_px) {
+  const ReferenceShift shift = reference_shift(s.from[k]);
+  const int centred = 2 * s.x[k] + 1 - kRefineColumns / 2;
+  const int last = live_width - kRefineColumns;
+  const int live = centred < 0 ? 0 : centred > last ? last : centred;
+  s.rest[k] = shift.rest_ir_px;
+  s.live[k] = live;
+  s.reference[k] = live + 2 * margin_px + shift.whole;
+  s.phase[k] = shift.phase;
+}
+
+/// Places for `count` pixels from `first` on; without a coarse disparity they get the reference plane's.
+FATHOM_SIMD_CLONES
+void place_windows(const float* coarse, int first, int live_width, int margin_px, RowScratch& s, int count) {
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k) {
+    const float from = coarse[first + k];
+    s.x[k] = first + k;
+    s.from[k] = from == from ? from : 0.0f;
+    place_window(s, k, live_width, margin_px);
+  }
+}
+
 /// Σ live · reference and Σ live · gradient over the windows of one row's pixels. `stride`s are the images' widths;
 /// `reference` and `gradient` hold the first rows of the windows by phase.
 FATHOM_SIMD_CLONES
@@ -161,40 +186,31 @@ class RowRefiner {
     // A window needs three quarters of its columns inside the image.
     const int border = sensor_.matcher.window_columns / 4;
     live_sums_.update(paired_, refine_first_row(sensor_, y));
-    count_ = 0;
-    for (int x = border; x < sensor_.width - border; ++x)
-      if (!std::isnan(coarse[x])) add(x, y, coarse[x]);
+    count_ = sensor_.width - 2 * border;
+    place_windows(coarse, border, paired_.width(), reference_.margin_px, scratch_, count_);
     step(y);
     keep(y, estimates);
     // The step is exact for dots that all moved alike; a second one from nearer by takes in those that did not.
     constexpr float kNearEnough = 0.75f / kPhases;  // [infrared px]
     const int first_count = count_;
     count_ = 0;
-    for (int k = 0; k < first_count; ++k) {
-      const int x = scratch_.x[k];
-      if (std::fabs(scratch_.moved[k]) > kNearEnough && estimates.valid(x, y)) add(x, y, estimates.disparity(x, y));
-    }
+    for (int k = 0; k < first_count; ++k)
+      if (std::fabs(scratch_.moved[k]) > kNearEnough && estimates.valid(scratch_.x[k], y)) {
+        scratch_.x[count_] = scratch_.x[k];
+        scratch_.from[count_++] = estimates.disparity(scratch_.x[k], y);
+      }
+    for (int k = 0; k < count_; ++k) place_window(scratch_, k, paired_.width(), reference_.margin_px);
     step(y);
     keep(y, estimates);
   }
 
  private:
-  /// Leaves out pixels whose window lies outside the reference.
-  void add(int x, int y, float from) {
-    RowScratch& s = scratch_;
-    const ReferenceShift shift = reference_shift(from);
-    const int live = std::clamp(2 * x + 1 - kRefineColumns / 2, 0, paired_.width() - kRefineColumns);
-    const int column = live + 2 * reference_.margin_px + shift.whole;
-    if (column < 0 || column >= reference_.moment_columns) return;
-    s.x[count_] = x, s.from[count_] = from, s.rest[count_] = shift.rest_ir_px;
-    s.live[count_] = live, s.reference[count_] = column, s.phase[count_] = shift.phase;
-    __builtin_prefetch(&reference_.moments_at(y, shift.phase, column));  // the table is larger than the caches
-    ++count_;
-  }
-
   void step(int y) {
     RowScratch& s = scratch_;
     for (int k = 0; k < count_; ++k) {
+      constexpr int kAhead = 16;  // the table is larger than the caches
+      if (k + kAhead < count_)
+        __builtin_prefetch(&reference_.moments_at(y, s.phase[k + kAhead], s.reference[k + kAhead]));
       const WindowMoments& memory = reference_.moments_at(y, s.phase[k], s.reference[k]);
       s.i[k] = live_sums_.value[s.live[k]], s.ii[k] = live_sums_.square[s.live[k]];
       s.r[k] = memory.r, s.g[k] = memory.g, s.rr[k] = memory.rr, s.rg[k] = memory.rg, s.gg[k] = memory.gg;
