@@ -46,12 +46,11 @@ struct LocalSurface {
 };
 
 /// Marks the pixels of a row whose windows may meet more than one surface: the disparity over ±kReach is not straight,
-/// or the correlation is lower than a neighbour's because of foreign dots.
+/// or much more is left unexplained than in a neighbour's window, because of foreign dots.
 FATHOM_SIMD_CLONES
 void mark_edges(const float* disparity, const float* correlation, std::ptrdiff_t stride, std::uint8_t* edges, int begin,
                 int end) {
   constexpr float kBend = 0.8f;  // [px]
-  constexpr float kDrop = 0.1f;
 #pragma GCC ivdep
   for (int x = begin; x < end; ++x) {
     const float* d = disparity + x;
@@ -61,7 +60,7 @@ void mark_edges(const float* disparity, const float* correlation, std::ptrdiff_t
     const float best_across = c[-kReach] > c[kReach] ? c[-kReach] : c[kReach];
     const float best_down = c[-kReach * stride] > c[kReach * stride] ? c[-kReach * stride] : c[kReach * stride];
     const float best = best_across > best_down ? best_across : best_down;
-    const bool plain = (across < kBend) & (down < kBend) & (c[0] >= best - kDrop);
+    const bool plain = (across < kBend) & (down < kBend) & (1.0f - c[0] < 2.0f * (1.0f - best) + 0.15f);
     edges[x] = plain ? 0 : 1;
   }
 }
