@@ -122,6 +122,24 @@ Pose pose_from_json(const JsonReader& json, double baseline) {
   return camera_pose(midpoint, std::atan2(-forward.z(), horizontal), yaw, roll, baseline);
 }
 
+/// Pitch and roll, or the aim where the sensor looks to the side.
+void add_direction(const Eigen::Matrix3d& world_from_camera, const Eigen::Vector3d& midpoint_in_world, Json& json) {
+  const Eigen::Vector3d right = world_from_camera.col(0), forward = world_from_camera.col(2);
+  const double horizontal = forward.head<2>().norm();
+  // Looking straight up or down, the yaw cannot be told from the roll and counts as none.
+  const bool vertical = horizontal < 1e-12;
+  const Eigen::Vector3d level_right =
+      vertical ? Eigen::Vector3d::UnitX() : Eigen::Vector3d(forward.y() / horizontal, -forward.x() / horizontal, 0.0);
+  const double roll = std::atan2(right.dot(forward.cross(level_right)), right.dot(level_right));
+  if (vertical || level_right == Eigen::Vector3d::UnitX()) {
+    json["pitch_deg"] = deg_from_radians(std::atan2(-forward.z(), horizontal));
+  } else {
+    const Eigen::Vector3d aim_mm = (midpoint_in_world + forward) / kMetresPerMm;
+    json["aim_mm"] = {aim_mm.x(), aim_mm.y(), aim_mm.z()};
+  }
+  json["roll_deg"] = deg_from_radians(roll);
+}
+
 }  // namespace
 
 Eigen::Vector3d Rig::direction_in_world(double x_px, double y_px) const {
@@ -167,15 +185,10 @@ Rig rig_from_json(const JsonReader& json) {
 
 Json json_from_rig(const Rig& rig) {
   const SensorModel& s = rig.sensor;
-  const Eigen::Matrix3d world_from_camera = rig.world_from_camera.linear();
-  const Eigen::Vector3d forward = world_from_camera.col(2), right = world_from_camera.col(0);
   const Eigen::Vector3d midpoint = 0.5 * (rig.camera_in_world() + rig.projector_in_world());
-  const double pitch = std::asin(std::clamp(-forward.z(), -1.0, 1.0));
-  return {
-      {"model", s.name},
-      {"height_mm", mm_from_metres(midpoint.z())},
-      {"pitch_deg", deg_from_radians(pitch)},
-      {"roll_deg", deg_from_radians(std::asin(std::clamp(-right.z(), -1.0, 1.0)))},
+  Json json{{"model", s.name}, {"height_mm", mm_from_metres(midpoint.z())}};
+  add_direction(rig.world_from_camera.linear(), midpoint, json);
+  json.update({
       {"baseline_mm", mm_from_metres(s.baseline)},
       {"wavelength_nm", s.wavelength_nm},
       {"ir_size_px", {s.ir_width, s.ir_height}},
@@ -208,7 +221,8 @@ Json json_from_rig(const Rig& rig) {
         {"disparity_max_px", s.matcher.disparity_max_px},
         {"correlation_min", s.matcher.correlation_min},
         {"contrast_min_dn", s.matcher.contrast_min}}},
-  };
+  });
+  return json;
 }
 
 }  // namespace fathom

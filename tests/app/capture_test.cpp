@@ -1,0 +1,156 @@
+// `fathom capture` as users run it: every file of the contract, the same bytes for any number of threads, one line for
+// every mistake and nothing left behind.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/files.h"
+#include "core/image_file.h"
+#include "core/json.h"
+#include "tests/app/run_fathom.h"
+#include "tests/core/temporary_folder.h"
+
+namespace fathom {
+namespace {
+
+/// A cup of water before a small sensor: a quarter of the pixels, so that a shot takes a fraction of a second.
+Json small_scene() {
+  return Json::parse(R"({
+    "sensor": {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 300, 0], "ir_size_px": [640, 512],
+               "depth_size_px": [320, 240], "focal_px": 285, "pattern": {"step_px": 1.0}},
+    "cups": [{"shape": "paper_cup", "position_mm": [0, 300], "liquid": "water", "fill_mm": 30}]})");
+}
+
+class CaptureCommand : public testing::Test {
+ protected:
+  CaptureCommand() { write_json(scene_, small_scene()); }
+
+  /// Captures into a subfolder that is returned.
+  std::filesystem::path capture(const std::string& name, const std::string& options) {
+    const std::filesystem::path output = folder_ / name;
+    const ProgramRun run =
+        run_fathom(fmt::format("capture {} -o {} --quiet {}", scene_.string(), output.string(), options));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    return output;
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path scene_ = folder_ / "scene.json";
+};
+
+TEST_F(CaptureCommand, WritesTheFilesOfTheContract) {
+  const std::filesystem::path out = capture("out", "");
+  for (const char* name : {"ir.exr", "ir.png", "disparity.exr", "depth.exr", "depth.png", "cloud.pcd", "truth.exr"})
+    EXPECT_TRUE(std::filesystem::is_regular_file(out / name)) << name;
+  const Image<float> ir = read_exr_channel(out / "ir.exr", "Y");
+  EXPECT_EQ(ir.width(), 640);
+  EXPECT_EQ(ir.height(), 512);
+  EXPECT_EQ(read_exr_channel(out / "disparity.exr", "Y").width(), 320);
+
+  std::vector<std::string> names;
+  for (const ExrChannel& channel : read_exr(out / "truth.exr")) names.push_back(channel.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"apparent.Z", "object", "path", "position.X", "position.Y", "position.Z"}));
+
+  const Image<float> depth = read_exr_channel(out / "depth.exr", "Z");
+  const Image<std::uint16_t> depth_mm = read_png_grey(out / "depth.png");
+  ASSERT_EQ(depth.width(), 320);
+  ASSERT_EQ(depth_mm.height(), 240);
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    ASSERT_EQ(depth_mm.pixels()[i], std::lround(depth.pixels()[i] * 1000.0f));  // the device's depths are whole mm
+
+  const std::string cloud = read_text(out / "cloud.pcd");
+  for (const char* line : {"FIELDS x y z intensity\n", "WIDTH 320\n", "HEIGHT 240\n", "DATA binary\n"})
+    EXPECT_NE(cloud.find(line), std::string::npos) << line;
+}
+
+TEST_F(CaptureCommand, RecordsWhatItDid) {
+  const Json record = read_json(capture("out", "--seed 5 --spp 1 --threads 1") / "run.json");
+  EXPECT_EQ(record["scene"], small_scene());
+  EXPECT_EQ(record["seed"], 5);
+  EXPECT_EQ(record["spp"], 1);
+  EXPECT_EQ(record["threads"], 1);
+  EXPECT_EQ(record["mode"], "photometric");
+  EXPECT_EQ(record["objects"], Json::parse(R"({"1": "desk", "2": "cup 0 paper_cup", "3": "cup 0 water"})"));
+  EXPECT_NEAR(record["media"]["water"]["index"].get<double>(), 1.3281, 5e-6);  // half a unit of the printed digit
+  EXPECT_EQ(record["sensor"]["focal_px"], 285.0);
+  EXPECT_GT(record["rays"].get<double>(), 640.0 * 512.0);
+  EXPECT_TRUE(record.contains("fathom"));
+  for (const char* time : {"build_s", "truth_s", "render_s", "match_s", "total_s"})
+    EXPECT_GE(record["timing"][time].get<double>(), 0.0) << time;
+}
+
+TEST_F(CaptureCommand, SameSeedSameBytesForAnyNumberOfThreads) {
+  const std::filesystem::path one = capture("one", "--seed 3 --threads 1"),
+                              two = capture("two", "--seed 3 --threads 2");
+  for (const char* name : {"ir.exr", "disparity.exr", "depth.exr", "cloud.pcd", "truth.exr"})
+    EXPECT_TRUE(read_text(one / name) == read_text(two / name)) << name;
+  const std::filesystem::path other = capture("other", "--seed 4");
+  EXPECT_FALSE(read_text(one / "ir.exr") == read_text(other / "ir.exr"));
+  EXPECT_TRUE(read_text(one / "truth.exr") == read_text(other / "truth.exr"));  // chance has no part in it
+}
+
+TEST_F(CaptureCommand, FramesDifferInTheirNoiseOnly) {
+  const std::filesystem::path out = capture("out", "--frames 2");
+  EXPECT_FALSE(read_text(out / "frame_0000" / "ir.exr") == read_text(out / "frame_0001" / "ir.exr"));
+  EXPECT_TRUE(std::filesystem::exists(out / "truth.exr"));
+  EXPECT_EQ(read_json(out / "run.json")["frames"], 2);
+}
+
+TEST_F(CaptureCommand, GeometricModeMakesNoImages) {
+  const std::filesystem::path out = capture("out", "--mode geometric");
+  EXPECT_FALSE(std::filesystem::exists(out / "ir.exr"));
+  EXPECT_TRUE(std::filesystem::exists(out / "depth.exr"));
+  EXPECT_TRUE(std::filesystem::exists(out / "cloud.pcd"));
+}
+
+TEST_F(CaptureCommand, BlackSurfacesAreHoles) {
+  Json scene = small_scene();
+  scene["desk"]["albedo"] = 0.0;
+  write_json(scene_, scene);
+  const std::filesystem::path out = capture("out", "");
+  const Image<float> depth = read_exr_channel(out / "depth.exr", "Z");
+  const Image<float> object = read_exr_channel(out / "truth.exr", "object");
+  double desk = 0.0, valid = 0.0;
+  for (int y = 20; y < 60; ++y)  // well away from the cup, whose dots windows at its edge share
+    for (int x = 20; x < 80; ++x) {
+      desk += object(x, y) == 1.0f;
+      valid += depth(x, y) > 0.0f;
+    }
+  EXPECT_EQ(desk, 40.0 * 60.0);
+  EXPECT_EQ(valid, 0.0);
+}
+
+TEST_F(CaptureCommand, MistakesAreAnsweredInOneLineAndLeaveNothing) {
+  const std::pair<std::string, std::string> mistakes[] = {
+      {"{", "line 1"},
+      {R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650}})", "/sensor: needs either aim_mm or pitch_deg"},
+      {R"({"sensor": {"height_mm": 650, "pitch_deg": 60}, "cup": []})", "/cup: unknown key 'cup'"},
+      {R"({"sensor": {"height_mm": 650, "pitch_deg": 60}, "objects": [{"gltf": "none.glb"}]})", "no such file"},
+      {R"({"sensor": {"height_mm": 650, "pitch_deg": 60, "wavelength_nm": 2000},
+           "cups": [{"shape": "paper_cup", "position_mm": [0, 300], "liquid": "water", "fill_mm": 3}]})",
+       "known from 182 to 1129 nm"},
+  };
+  for (const auto& [scene, message] : mistakes) {
+    write_text(scene_, scene);
+    const std::filesystem::path out = folder_ / "out";
+    const ProgramRun run = run_fathom(fmt::format("capture {} -o {}", scene_.string(), out.string()));
+    EXPECT_EQ(run.exit_code, 1) << scene;
+    EXPECT_EQ(run.err.rfind("error: ", 0), 0u) << run.err;
+    EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_TRUE(!std::filesystem::exists(out) || std::filesystem::is_empty(out)) << scene;
+    EXPECT_EQ(run.out, "");
+  }
+}
+
+TEST_F(CaptureCommand, BadUsageIsTwo) {
+  EXPECT_EQ(run_fathom(fmt::format("capture {}", scene_.string())).exit_code, 2);  // -o DIR is missing
+  EXPECT_EQ(run_fathom(fmt::format("capture {} -o x --mode exact", scene_.string())).exit_code, 2);
+  EXPECT_EQ(run_fathom(fmt::format("capture {} -o x --spp 0", scene_.string())).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,131 @@
+// Opaque objects from glTF files: axes, transformations, and one line for every way a file can be wrong.
+#include "sim/scene/gltf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "tests/core/expect_error.h"
+#include "tests/core/temporary_folder.h"
+
+namespace fathom {
+namespace {
+
+std::string base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      bits = bits << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
+  }
+  return text;
+}
+
+/// One triangle (1,2,3) (4,5,6) (7,8,10) with three indices after the positions.
+Json triangle(std::array<float, 9> positions = {1, 2, 3, 4, 5, 6, 7, 8, 10},
+              std::array<std::uint16_t, 3> indices = {0, 1, 2}) {
+  std::string bytes(sizeof(positions) + sizeof(indices), '\0');
+  std::memcpy(bytes.data(), positions.data(), sizeof(positions));
+  std::memcpy(bytes.data() + sizeof(positions), indices.data(), sizeof(indices));
+  Json json = Json::parse(R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1]}}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+    "buffers": [{"byteLength": 42}]})");
+  json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
+  return json;
+}
+
+std::vector<GltfPart> read(const Json& json) {
+  const TemporaryFolder folder;
+  write_text(folder / "thing.gltf", json.dump());
+  return read_gltf(folder / "thing.gltf");
+}
+
+TEST(Gltf, UpBecomesUp) {
+  const std::vector<GltfPart> parts = read(triangle());
+  ASSERT_EQ(parts.size(), 1u);
+  const Mesh& mesh = parts[0].mesh;
+  ASSERT_EQ(mesh.vertices.size(), 3u);
+  EXPECT_EQ(mesh.vertices[0], Eigen::Vector3d(1, -3, 2));  // (x, −z, y)
+  EXPECT_EQ(mesh.vertices[2], Eigen::Vector3d(7, -10, 8));
+  EXPECT_EQ(mesh.triangles.at(0), Eigen::Vector3i(0, 1, 2));
+  EXPECT_NEAR(parts[0].albedo, 0.5, 1e-15);
+}
+
+TEST(Gltf, NodesMoveTurnAndScaleTheirMeshesAndTheirChildren) {
+  Json json = triangle();
+  json["nodes"] = Json::parse(R"([{"children": [1], "translation": [10, 0, 0]},
+      {"mesh": 0, "scale": [2, 2, 2], "rotation": [0, 0.70710678118654752, 0, 0.70710678118654752]}])");
+  // Scaled to (2, 4, 6), a quarter turn about y: (6, 4, −2), moved: (16, 4, −2), z up: (16, 2, 4). Roundings.
+  EXPECT_LT((read(json)[0].mesh.vertices[0] - Eigen::Vector3d(16, 2, 4)).norm(), 1e-14);
+}
+
+TEST(Gltf, AMeshWithoutIndicesIsReadInOrder) {
+  Json json = triangle();
+  json["meshes"][0]["primitives"][0].erase("indices");
+  EXPECT_EQ(read(json)[0].mesh.triangles.at(0), Eigen::Vector3i(0, 1, 2));
+}
+
+TEST(Gltf, BrokenFilesAreAnsweredInOneLine) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  expect_error([] { read(triangle({1, 2, kNan, 4, 5, 6, 7, 8, 10})); }, {"thing.gltf: ", "is not finite"});
+  expect_error([] { read(triangle({1, 2, 3, 4, 5, 6, 7, 8, 9}, {0, 1, 3})); }, {"has the index 3, but only 3"});
+  struct Break {
+    const char* pointer;
+    const char* value;
+    const char* message;
+  };
+  const Break breaks[] = {
+      {"/nodes/0/children", "[0]", "in a circle"},
+      {"/nodes/0/mesh", "7", ""},
+      {"/scenes/0/nodes", "[5]", ""},
+      {"/scenes/0/nodes", "[]", "has no triangles"},
+      {"/scene", "3", ""},
+      {"/accessors/0/count", "400000000", "past the end of its buffer"},
+      {"/accessors/0/byteOffset", "1000", "past the end of its buffer"},
+      {"/accessors/0/type", "\"VEC2\"", "of a kind that is not supported"},
+      {"/accessors/0/componentType", "5123", "positions that are not floats"},
+      {"/accessors/1/componentType", "5126", ""},
+      {"/accessors/0/bufferView", "9", ""},
+      {"/bufferViews/0/buffer", "9", ""},
+      {"/bufferViews/0/byteOffset", "100000", ""},
+      {"/buffers/0/byteLength", "100", ""},
+      {"/buffers/0/uri", "\"missing.bin\"", ""},
+      {"/meshes/0/primitives/0/mode", "1", "no list of triangles"},
+      {"/meshes/0/primitives/0/attributes", "{\"NORMAL\": 0}", "has no POSITION"},
+      {"/meshes/0/primitives/0/attributes", "{\"POSITION\": 12}", ""},
+      {"/meshes/0/primitives/0/material", "4", ""},
+      {"/materials/0/extensions", R"({"KHR_materials_transmission": {"transmissionFactor": 1}})", "is transmissive"},
+  };
+  for (const Break& broken : breaks) {
+    Json json = triangle();
+    json[Json::json_pointer(broken.pointer)] = Json::parse(broken.value);
+    SCOPED_TRACE(std::string(broken.pointer) + " = " + broken.value);
+    expect_error([&] { read(json); }, {"thing.gltf", broken.message});
+  }
+}
+
+TEST(Gltf, TruncatedAndMissingFilesAreAnsweredInOneLine) {
+  const TemporaryFolder folder;
+  const std::string whole = triangle().dump();
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, whole.size() / 2, whole.size() - 1}) {
+    write_text(folder / "cut.gltf", whole.substr(0, length));
+    expect_error([&] { read_gltf(folder / "cut.gltf"); }, {"cut.gltf: is no readable glTF"});
+    write_text(folder / "cut.glb", "glTF" + whole.substr(0, length));
+    expect_error([&] { read_gltf(folder / "cut.glb"); }, {"cut.glb: is no readable glTF"});
+  }
+  expect_error([&] { read_gltf(folder / "none.gltf"); }, {"none.gltf: no such file"});
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,91 @@
+// Where the sensor stands and what it is: conventions of the pose, descriptions that can be read back.
+#include "sim/scene/rig.h"
+
+#include <gtest/gtest.h>
+
+namespace fathom {
+namespace {
+
+constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
+
+Rig rig_of(const char* text) {
+  const Json json = Json::parse(text);
+  return rig_from_json(JsonReader(json, "test"));
+}
+
+TEST(Rig, AimAndPitchAgree) {
+  const Rig aimed = rig_of(R"({"height_mm": 650, "aim_mm": [0, 400, 0]})");
+  const Rig pitched = rig_of(R"({"height_mm": 650, "pitch_deg": 58.392497753751115})");  // atan(650/400)
+  EXPECT_TRUE(aimed.world_from_camera.isApprox(pitched.world_from_camera, kRounding));
+}
+
+TEST(Rig, CameraStandsLeftAndProjectorRightOfTheOrigin) {
+  for (const char* pose : {R"({"height_mm": 650, "aim_mm": [0, 400, 0]})", R"({"height_mm": 650, "pitch_deg": 90})",
+                           R"({"height_mm": 650, "pitch_deg": 0})"}) {
+    const Rig rig = rig_of(pose);
+    EXPECT_LT((rig.camera_in_world() - Eigen::Vector3d(-0.0375, 0.0, 0.650)).norm(), kRounding);
+    EXPECT_LT((rig.projector_in_world() - Eigen::Vector3d(0.0375, 0.0, 0.650)).norm(), kRounding);
+  }
+}
+
+TEST(Rig, LooksWhereItAims) {
+  const Rig rig = rig_of(R"({"height_mm": 650, "aim_mm": [120, 400, 80]})");
+  const Eigen::Vector3d midpoint = 0.5 * (rig.camera_in_world() + rig.projector_in_world());
+  const Eigen::Vector3d to_aim = (Eigen::Vector3d(0.120, 0.400, 0.080) - midpoint).normalized();
+  EXPECT_LT((rig.world_from_camera.linear().col(2) - to_aim).norm(), kRounding);
+  EXPECT_NEAR(rig.world_from_camera.linear()(2, 0), 0.0, kRounding);  // the baseline stays level
+}
+
+TEST(Rig, StraightDownTheImagesTopIsAway) {
+  Eigen::Matrix3d expected;
+  expected << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  for (const char* pose : {R"({"height_mm": 650, "pitch_deg": 90})", R"({"height_mm": 650, "aim_mm": [0, 0, 0]})"})
+    EXPECT_LT((rig_of(pose).world_from_camera.linear() - expected).norm(), kRounding);
+}
+
+TEST(Rig, RollTurnsTheSensorClockwiseAboutItsAxis) {
+  const Rig rig = rig_of(R"({"height_mm": 650, "pitch_deg": 40, "roll_deg": 10})");
+  const Rig level = rig_of(R"({"height_mm": 650, "pitch_deg": 40})");
+  // Seen from behind, the right side goes down; the line of sight stays.
+  EXPECT_LT(rig.world_from_camera.linear()(2, 0), 0.0);
+  EXPECT_LT((rig.world_from_camera.linear().col(2) - level.world_from_camera.linear().col(2)).norm(), kRounding);
+}
+
+TEST(Rig, FocalLengthFollowsFromTheZeroPlane) {
+  EXPECT_NEAR(rig_of(R"({"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": 60})").sensor.focal_px,
+              1200.0 / (2.0 * 1.052), 1e-12);
+  EXPECT_NEAR(rig_of(R"({"model": "kinect_v1", "height_mm": 650, "pitch_deg": 60})").sensor.focal_px,
+              1200.0 / (2.0 * 1.042), 1e-12);
+}
+
+TEST(Rig, TheFirstPixelsCentreIsHalfAPixelIn) {
+  const Rig rig = rig_of(R"({"height_mm": 650, "pitch_deg": 0})");
+  EXPECT_LT((rig.direction_in_world(320.0, 240.0) - Eigen::Vector3d::UnitY()).norm(), kRounding);
+  const Eigen::Vector3d right = rig.direction_in_world(320.0 + rig.sensor.focal_px, 240.0);
+  EXPECT_LT((right - Eigen::Vector3d(1.0, 1.0, 0.0).normalized()).norm(), kRounding);
+}
+
+TEST(Rig, ADescriptionReadsBackAsTheSameRig) {
+  for (const char* pose :
+       {R"("aim_mm": [0, 400, 0])", R"("aim_mm": [120, 400, 80])", R"("pitch_deg": 90)", R"("pitch_deg": -10)",
+        R"("pitch_deg": 58, "roll_deg": 7)", R"("pitch_deg": 90, "roll_deg": 20)",
+        R"("pitch_deg": 30, "roll_deg": 170)", R"("aim_mm": [-200, 300, 0], "roll_deg": -12)"}) {
+    const Rig rig = rig_of((std::string(R"({"model": "kinect_v1", "height_mm": 650, "noise": {"read_dn": 3},
+        "quantization": "off", "pattern": {"seed": 7}, "matcher": {"window_rows": 7}, )") +
+                            pose + "}")
+                               .c_str());
+    const Json json = json_from_rig(rig);
+    const Rig again = rig_from_json(JsonReader(json, "test"));
+    // Degrees and back cost a few roundings.
+    EXPECT_TRUE(again.world_from_camera.isApprox(rig.world_from_camera, 1e-14)) << pose << "\n" << json.dump();
+    EXPECT_EQ(json_from_rig(again)["matcher"], json["matcher"]);
+    EXPECT_EQ(again.sensor.pattern.seed, 7u);
+    EXPECT_EQ(again.sensor.matcher.window_rows, 7);
+    EXPECT_EQ(again.sensor.noise.read_dn, 3.0);
+    EXPECT_FALSE(again.sensor.quantized);
+    EXPECT_EQ(again.sensor.focal_px, rig.sensor.focal_px);
+  }
+}
+
+}  // namespace
+}  // namespace fathom

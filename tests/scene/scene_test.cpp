@@ -1,0 +1,158 @@
+// Scene files: what is written is what stands there, and anything else is refused by name.
+#include "sim/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/scene/geometry.h"
+#include "sim/scene/library.h"
+#include "sim/scene/setup.h"
+#include "tests/core/expect_error.h"
+
+namespace fathom {
+namespace {
+
+Json good_scene() {
+  return Json::parse(R"({
+    "sensor": {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 400, 0]},
+    "desk": {"albedo": 0.5, "size_mm": [1000, 800], "centre_mm": [10, 400]},
+    "cups": [{"shape": "paper_cup", "position_mm": [20, 400], "yaw_deg": 30, "liquid": "water", "fill_mm": 30}],
+    "objects": [{"gltf": "box.glb", "position_mm": [150, 420, 0], "rotation_deg": [0, 0, 30]}]
+  })");
+}
+
+/// The good scene with the value at `pointer` replaced; a null pointer value removes it.
+Setup changed(const char* pointer, const char* value) {
+  Json scene = good_scene();
+  const Json::json_pointer at(pointer);
+  if (value)
+    scene[at] = Json::parse(value);
+  else
+    scene.at(at.parent_pointer()).erase(at.back());
+  return setup_from_json(scene, "scene.json");
+}
+
+TEST(Scene, IsReadInMetresAndRadians) {
+  const auto setup = setup_from_json(good_scene(), "folder/scene.json");
+  const Cup& cup = setup.scene.cups.at(0);
+  EXPECT_DOUBLE_EQ(cup.position.x(), 0.020);
+  EXPECT_DOUBLE_EQ(cup.yaw, 0.52359877559829882);
+  EXPECT_DOUBLE_EQ(cup.filling->depth, 0.030);
+  EXPECT_DOUBLE_EQ(cup.filling->medium.absorption, 3.1);  // 0.0031 per mm
+  EXPECT_DOUBLE_EQ(setup.scene.desk->size.y(), 0.8);
+  EXPECT_EQ(setup.scene.objects.at(0).gltf, "folder/box.glb");  // relative to the scene file
+  // A quarter turn about z takes x to y.
+  const auto turned = changed("/objects/0/rotation_deg", "[0, 0, 90]");
+  EXPECT_LT(
+      (turned.scene.objects[0].world_from_object.linear() * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(),
+      1e-15);
+}
+
+TEST(Scene, DeskCanBeLeftOutOnlyByName) {
+  EXPECT_TRUE(changed("/desk", nullptr).scene.desk);
+  EXPECT_FALSE(changed("/desk", "null").scene.desk);
+}
+
+TEST(Scene, AnEmptyFillIsAnEmptyCup) { EXPECT_FALSE(changed("/cups/0/fill_mm", "0").scene.cups[0].filling); }
+
+struct Refusal {
+  const char* pointer;
+  const char* value;  ///< nullptr: the key is removed
+  const char* message;
+};
+
+TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
+  const Refusal refusals[] = {
+      {"/table", "{}", "/table: unknown key 'table', choose from $schema, sensor, desk, cups"},
+      {"/effects", R"([{"name": "ripple"}])", "/effects: names an effect"},
+      {"/sensor", nullptr, "/sensor: is missing"},
+      {"/sensor/model", "\"xtion\"", "/sensor/model: unknown sensor model 'xtion', choose from kinect_v1, xtion_pro_"},
+      {"/sensor/height_mm", nullptr, "/sensor/height_mm: is missing"},
+      {"/sensor/height_mm", "-1", "/sensor/height_mm: must be a number above 0"},
+      {"/sensor/height_mm", "\"650\"", "/sensor/height_mm: must be a number above 0"},
+      {"/sensor/aim_mm", nullptr, "/sensor: needs either aim_mm or pitch_deg"},
+      {"/sensor/pitch_deg", "45", "/sensor: needs either aim_mm or pitch_deg"},
+      {"/sensor/aim_mm", "[0, 0, 650]", "/sensor/aim_mm: must not be the sensor's own place"},
+      {"/sensor/aim_mm", "[0, 400]", "/sensor/aim_mm: "},
+      {"/sensor/noise", "\"loud\"", "/sensor/noise: unknown noise preset 'loud', choose from off, basic"},
+      {"/sensor/noise", R"({"speckle_shape": 0.5})", "/sensor/noise/speckle_shape: must be 0"},
+      {"/sensor/quantization", "\"mm\"", "unknown quantization 'mm', choose from device, off"},
+      {"/sensor/ir_size_px", "[1000, 1024]", "/sensor: ir_size_px must be twice depth_size_px"},
+      {"/sensor/far_mm", "100", "/sensor/far_mm: must be above near_mm"},
+      {"/sensor/matcher", R"({"window_rows": 8})", "/sensor/matcher/window_rows: must be odd"},
+      {"/sensor/matcher", R"({"disparity_max_px": -40})", "/sensor/matcher/disparity_max_px: must be above"},
+      {"/sensor/pattern", R"({"dots_per_tile": 30000})", "/sensor/pattern/dots_per_tile: must be a whole number"},
+      {"/desk/albedo", "1.5", "/desk/albedo: must be a number from 0 and at most 1"},
+      {"/desk/size_mm", "[1000, 0]", "/desk/size_mm: must be two lengths above 0"},
+      {"/cups", "{}", "/cups: must be a list"},
+      {"/cups/0/shape", "\"glass\"", "/cups/0/shape: unknown cup shape 'glass', choose from mug, paper_cup, tapered"},
+      {"/cups/0/shape", "\"cup.glb\"", "/cups/0/shape: glTF cups cannot be filled yet"},
+      {"/cups/0/position_mm", nullptr, "/cups/0/position_mm: is missing"},
+      {"/cups/0/liquid", "\"wtaer\"", "/cups/0/liquid: unknown liquid 'wtaer', choose from barley_tea, milk_tea"},
+      {"/cups/0/liquid", nullptr, "/cups/0/fill_mm: needs a liquid"},
+      {"/cups/0/liquid", R"({"absorption_per_mm": 1})", "/cups/0/liquid/index: is missing"},
+      {"/cups/0/liquid", R"({"index": 0.9})", "/cups/0/liquid/index: must be a number from 1"},
+      {"/cups/0/fill_mm", nullptr, "/cups/0/fill_mm: is missing"},
+      {"/cups/0/fill_mm", "81", "/cups/0/fill_mm: must be at most 80, the depth of the cup"},
+      {"/objects/0/gltf", nullptr, "/objects/0/gltf: is missing"},
+  };
+  for (const Refusal& refusal : refusals)
+    expect_error([&] { changed(refusal.pointer, refusal.value); }, {"scene.json: ", refusal.message});
+}
+
+TEST(Scene, ImpossibleShapesAreRefused) {
+  const std::pair<const char*, const char*> shapes[] = {
+      {R"({"height_mm": 80, "bottom_mm": 80, "inner_radius_mm": 30, "outer_radius_mm": 33})",
+       "bottom_mm: must be below"},
+      {R"({"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 33, "outer_radius_mm": 33})",
+       "outer_radius_mm: must be"},
+      {R"({"height_mm": 80, "inner_profile_mm": [], "outer_profile_mm": []})", "height_mm: cannot stand beside"},
+      {R"({"inner_profile_mm": [[0, 4], [26, 4], [38, 90]]})", "outer_profile_mm: is missing"},
+      {R"({"inner_profile_mm": [[1, 4], [26, 4], [38, 90]], "outer_profile_mm": []})", "must start on the axis"},
+      {R"({"inner_profile_mm": [[0, 4], [26, 3], [38, 90]], "outer_profile_mm": []})", "must not be lower"},
+      {R"({"inner_profile_mm": [[0, 4], [26, 4]], "outer_profile_mm": []})", "at least 3 points"},
+      {R"({"inner_profile_mm": [[0, 4], [26, 4], [38, 80]], "outer_profile_mm": [[0, 0], [27, 0], [39, 90]]})",
+       "inner_profile_mm: must end at the outer rim's height"},
+      {R"({"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33,
+           "handle": {"low_mm": 50, "high_mm": 40}})",
+       "handle/high_mm: must be above low_mm"},
+  };
+  for (const auto& [shape, message] : shapes)
+    expect_error([&] { changed("/cups/0/shape", shape); }, {"scene.json: /cups/0/shape", message});
+}
+
+TEST(Scene, GltfScenesAreRefusedInWords) {
+  expect_error([] { read_setup("room.glb"); }, {"room.glb: glTF scenes cannot be read yet"});
+}
+
+TEST(Library, EveryEntryLoadsAndNamesItsSource) {
+  const auto as_json = [](const std::string& name) { return Json(name); };
+  for (const std::string& name : library_names("cups")) {
+    const Json json = as_json(name);
+    const CupShape shape = cup_shape_from_json(JsonReader(json, "test"));
+    EXPECT_EQ(shape.name, name);
+    EXPECT_FALSE(shape.source.empty()) << name;
+  }
+  for (const std::string& name : library_names("media")) {
+    const Json json = as_json(name);
+    const Medium medium = medium_from_json(JsonReader(json, "test"));
+    EXPECT_FALSE(medium.source.empty()) << name;
+    EXPECT_GT(medium.n(830.0), 1.32) << name;  // drinks are water and more
+    EXPECT_LT(medium.n(830.0), 1.36) << name;
+  }
+  for (const std::string& name : library_names("sensors"))
+    EXPECT_EQ(changed("/sensor/model", as_json(name).dump().c_str()).rig.sensor.name, name);
+}
+
+TEST(Geometry, TurbidLiquidsAreOpaqueAndSaySo) {
+  auto setup = changed("/objects", "[]");
+  EXPECT_TRUE(std::holds_alternative<LiquidSurface>(build_geometry(setup.scene, 830.0).surfaces.back().optics));
+  setup = changed("/cups/0/liquid", "\"milk_tea\"");
+  setup.scene.objects.clear();
+  const Geometry geometry = build_geometry(setup.scene, 830.0);
+  EXPECT_TRUE(std::holds_alternative<Diffuse>(geometry.surfaces.back().optics));
+  EXPECT_EQ(geometry.approximations.size(), 1u);
+  EXPECT_EQ(geometry.objects, (std::vector<std::string>{"desk", "cup 0 paper_cup", "cup 0 milk_tea"}));
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,117 @@
+// scenes/schema.json says what the parser accepts, key for key.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "core/error.h"
+#include "sim/scene/setup.h"
+
+namespace fathom {
+namespace {
+
+Json schema() { return read_json(std::filesystem::path(FATHOM_SCENES) / "schema.json"); }
+
+/// A scene in which every kind of object of the schema stands.
+Json full_scene() {
+  return Json::parse(R"({
+    "sensor": {"height_mm": 650, "pitch_deg": 60, "noise": {}, "pattern": {}, "matcher": {}},
+    "desk": {},
+    "cups": [{"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33, "handle": {}},
+              "position_mm": [0, 400], "fill_mm": 20,
+              "liquid": {"index": {"sellmeier_a": [0.75], "sellmeier_b_um2": [0.01], "range_nm": [400, 900]}}}],
+    "objects": [{"gltf": "box.glb"}]
+  })");
+}
+
+/// The keys that the parser offers when it meets an unknown one there: "…, choose from a, b, c".
+std::set<std::string> keys_of_parser(const std::string& pointer) {
+  Json scene = full_scene();
+  scene[Json::json_pointer(pointer + "/no_such_key")] = 0;
+  std::string message;
+  try {
+    setup_from_json(scene, "scene.json");
+  } catch (const Error& problem) {
+    message = problem.what();
+  }
+  std::set<std::string> keys;
+  const std::string lead = "choose from ";
+  std::size_t at = message.find(lead);
+  if (at == std::string::npos) return keys;
+  for (at += lead.size(); at < message.size();) {
+    const std::size_t end = std::min(message.find(", ", at), message.size());
+    keys.insert(message.substr(at, end - at));
+    at = end + 2;
+  }
+  return keys;
+}
+
+std::set<std::string> keys_of_schema(const Json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.at("properties").items()) keys.insert(key);
+  return keys;
+}
+
+TEST(Schema, HasExactlyTheKeysOfTheParser) {
+  const std::pair<const char*, const char*> places[] = {
+      {"", ""},
+      {"/sensor", "/$defs/sensor"},
+      {"/sensor/noise", "/$defs/noise"},
+      {"/sensor/pattern", "/$defs/pattern"},
+      {"/sensor/matcher", "/$defs/matcher"},
+      {"/desk", "/$defs/desk"},
+      {"/cups/0", "/$defs/cup"},
+      {"/cups/0/shape", "/$defs/shape"},
+      {"/cups/0/shape/handle", "/$defs/handle"},
+      {"/cups/0/liquid", "/$defs/liquid"},
+      {"/cups/0/liquid/index", "/$defs/dispersion"},
+      {"/objects/0", "/$defs/object"},
+  };
+  EXPECT_NO_THROW(setup_from_json(full_scene(), "scene.json"));
+  const Json whole = schema();
+  for (const auto& [in_scene, in_schema] : places) {
+    const Json& object = whole.at(Json::json_pointer(in_schema));
+    EXPECT_EQ(keys_of_parser(in_scene), keys_of_schema(object)) << in_scene;
+    EXPECT_EQ(object.at("additionalProperties"), false) << in_schema;
+    for (const Json& required : object.value("required", Json::array())) {
+      Json scene = full_scene();
+      scene.at(Json::json_pointer(in_scene)).erase(required.get<std::string>());
+      EXPECT_THROW(setup_from_json(scene, "scene.json"), Error) << in_scene << " without " << required;
+    }
+  }
+}
+
+void expect_references_resolve(const Json& part, const Json& whole) {
+  if (part.is_object() && part.contains("$ref")) {
+    const std::string target = part["$ref"];
+    EXPECT_TRUE(whole.contains(Json::json_pointer(target.substr(1)))) << target;
+  }
+  if (part.is_structured())
+    for (const Json& child : part) expect_references_resolve(child, whole);
+}
+
+TEST(Schema, RefersOnlyToItself) {
+  const Json whole = schema();
+  expect_references_resolve(whole, whole);
+}
+
+TEST(Schema, NoisePresetsAreTheParsers) {
+  for (const Json& name : schema().at(Json::json_pointer("/$defs/sensor/properties/noise/anyOf/0/enum"))) {
+    Json scene = full_scene();
+    scene["sensor"]["noise"] = name;
+    EXPECT_NO_THROW(setup_from_json(scene, "scene.json")) << name;
+  }
+}
+
+TEST(Schema, ShippedScenesAreRead) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(FATHOM_SCENES)) {
+    if (entry.path().extension() != ".json" || entry.path().filename() == "schema.json") continue;
+    EXPECT_NO_THROW(read_setup(entry.path())) << entry.path();
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 0);
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,105 @@
+// The device's depth law, as recorded depth shows it.
+#include "sim/sensor/depth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/render/scenes.h"
+
+namespace fathom {
+namespace {
+
+SensorModel sensor_named(const std::string& name) {
+  const Json json = {{"model", name}, {"height_mm", 650}, {"pitch_deg", 60}};
+  return rig_from_json(JsonReader(json, "test")).sensor;
+}
+
+struct PrintedLaw {
+  const char* model;
+  double p;
+
+  /// z before truncation, 1 / (1/1200 − (n + ½) p / 36000) [mm]; `n` may lie between codes.
+  double exact_mm(double n) const { return 1.0 / (1.0 / 1200.0 - (n + 0.5) * p / 36000.0); }
+};
+constexpr PrintedLaw kLaws[] = {{"xtion_pro_live", 0.1052}, {"kinect_v1", 0.1042}};
+
+/// Calls `visit(code, exact depth [mm])` for every code from 0.3 to 10 m.
+template <class Visit>
+void for_codes(const PrintedLaw& law, Visit visit) {
+  int codes = 0;
+  for (int n = -2000; n < 284; ++n) {
+    const double z_mm = law.exact_mm(n);
+    if (z_mm < 300.0 || z_mm > 10000.0) continue;
+    visit(n, z_mm);
+    ++codes;
+  }
+  EXPECT_GT(codes, 1000);
+}
+
+TEST(DepthLaw, IsThePrintedOneForEveryCode) {
+  for (const PrintedLaw& law : kLaws) {
+    const SensorModel sensor = sensor_named(law.model);
+    for_codes(law, [&](int n, double z_mm) {
+      const auto depth = device_depth(sensor, n);
+      ASSERT_TRUE(depth);
+      ASSERT_NEAR(mm_from_metres(*depth), std::floor(z_mm), 1e-9) << law.model << " code " << n;  // whole mm
+    });
+  }
+}
+
+TEST(DepthLaw, CodeIsTheInverseOfDepth) {
+  for (const PrintedLaw& law : kLaws) {
+    const SensorModel sensor = sensor_named(law.model);
+    for_codes(law, [&](int n, double z_mm) {
+      ASSERT_EQ(device_code(sensor, metres_from_mm(z_mm)), n);
+      // What lies up to half a step away in disparity has the same code.
+      ASSERT_EQ(device_code(sensor, metres_from_mm(law.exact_mm(n - 0.49))), n);
+      ASSERT_EQ(device_code(sensor, metres_from_mm(law.exact_mm(n + 0.49))), n);
+    });
+  }
+}
+
+TEST(DepthLaw, StepsGrowWithTheSquareOfDepth) {
+  const SensorModel sensor = sensor_named("xtion_pro_live");
+  const std::pair<double, double> steps[] = {{0.5, 0.72}, {0.6, 1.05}, {0.7, 1.43}, {0.8, 1.87},
+                                             {1.0, 2.9},  {2.0, 11.6}, {4.0, 46.0}};
+  for (const auto& [depth, step_mm] : steps) {
+    const int code = device_code(sensor, depth);
+    const double mean_mm = mm_from_metres(*device_depth(sensor, code + 10) - *device_depth(sensor, code - 10)) / 20.0;
+    // Truncation to whole mm leaves ±1 mm over the 20 codes. The published steps are rounded (46 stands for 46.8) and
+    // z's curvature over 20 codes adds 1.4 % at 4 m: 3 % together.
+    EXPECT_NEAR(mean_mm / step_mm, 1.0, 0.05 / step_mm + 0.03) << depth;
+  }
+}
+
+TEST(DepthLaw, BeyondInfinityThereIsNoDepth) { EXPECT_FALSE(device_depth(sensor_named("kinect_v1"), 300)); }
+
+TEST(DepthImage, IsFloatWithoutQuantisationAndEmptyOutsideTheRange) {
+  SensorModel sensor = sensor_named("xtion_pro_live");
+  sensor.quantized = false;
+  Image<float> disparity(4, 1);
+  disparity(0, 0) = static_cast<float>(disparity_of_depth(sensor, 0.7123));
+  disparity(1, 0) = static_cast<float>(disparity_of_depth(sensor, 0.39));
+  disparity(2, 0) = static_cast<float>(disparity_of_depth(sensor, 10.1));
+  const Image<float> depth = depth_image(sensor, disparity);
+  EXPECT_NEAR(depth(0, 0), 0.7123, 2e-7);  // two roundings to float
+  EXPECT_EQ(depth(1, 0), 0.0f);            // nearer than 0.4 m
+  EXPECT_EQ(depth(2, 0), 0.0f);            // farther than 10 m
+  EXPECT_EQ(depth(3, 0), 0.0f);            // no disparity
+}
+
+TEST(Cloud, PointsLieOnTheirPixelsRays) {
+  const SensorModel sensor = sensor_named("xtion_pro_live");
+  Image<float> depth(sensor.width, sensor.height), intensity(sensor.width, sensor.height, 7.0f);
+  depth(0, 0) = 1.0f;
+  const Image<CloudPoint> cloud = cloud_of_depth(sensor, depth, intensity);
+  EXPECT_FLOAT_EQ(cloud(0, 0).x, static_cast<float>((0.5 - 320.0) / sensor.focal_px));
+  EXPECT_FLOAT_EQ(cloud(0, 0).y, static_cast<float>((0.5 - 240.0) / sensor.focal_px));
+  EXPECT_EQ(cloud(0, 0).z, 1.0f);
+  EXPECT_TRUE(std::isnan(cloud(1, 0).x) && std::isnan(cloud(1, 0).y) && std::isnan(cloud(1, 0).z));
+  EXPECT_EQ(cloud(1, 0).intensity, 7.0f);
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,82 @@
+// Matching finds the disparity that was rendered, and cares for neither brightness nor offset.
+#include "sim/sensor/match.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/sensor/depth.h"
+#include "sim/sensor/ir_camera.h"
+#include "tests/render/scenes.h"
+
+namespace fathom {
+namespace {
+
+/// A noiseless sensor that looks straight down on a plane, and its memorised reference.
+struct Bench {
+  explicit Bench(double height_mm)
+      : setup(setup_from_json(
+            Json::parse(fmt::format(
+                R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": {}, "pitch_deg": 90, "noise": "off"}},
+                     "desk": {{"size_mm": [6000, 6000], "centre_mm": [0, 0]}}}})",
+                height_mm)),
+            "test")),
+        pattern(sensor().pattern, sensor().ir_scale()) {
+    const int margin = reference_margin(sensor().matcher);
+    reference = memorise(sensor(), reference_image(sensor(), pattern, margin, 2), margin);
+    const Geometry geometry = build_geometry(setup.scene, sensor().wavelength_nm);
+    const Intersector world(geometry);
+    ir = render_ir(world, setup.rig, pattern, 2);
+  }
+  const SensorModel& sensor() const { return setup.rig.sensor; }
+
+  Setup setup;
+  Pattern pattern;
+  Reference reference;
+  Image<float> ir;
+};
+
+TEST(Match, AFrontoParallelPlaneIsMatchedToAHundredthOfAPixel) {
+  for (const double height_mm : {600.0, 733.3, 1700.0}) {
+    const Bench bench(height_mm);
+    const Match found = match(bench.sensor(), bench.ir, bench.reference);
+    const double expected = disparity_of_depth(bench.sensor(), metres_from_mm(height_mm));
+    double squares = 0.0, valid = 0.0, all = 0.0;
+    for (int y = 20; y < bench.sensor().height - 20; ++y)
+      for (int x = 80; x < bench.sensor().width - 80; ++x) {
+        ++all;
+        const double disparity = found.disparity_px(x, y);
+        if (disparity <= 0.0) continue;
+        ++valid;
+        squares += (disparity - expected) * (disparity - expected);
+      }
+    EXPECT_GT(valid / all, 0.99) << height_mm;
+    EXPECT_LT(std::sqrt(squares / valid), 0.01) << height_mm;  // the promised RMS [px]; one false match breaks it
+  }
+}
+
+TEST(Match, DoesNotDependOnGainOrOffset) {
+  const Bench bench(650.0);
+  const Match plain = match(bench.sensor(), bench.ir, bench.reference);
+  Image<float> changed = bench.ir;
+  for (float& value : changed.pixels()) value = 0.5f * value + 40.0f;
+  const Match other = match(bench.sensor(), changed, bench.reference);
+  double squares = 0.0, both = 0.0, one = 0.0;
+  for (std::size_t i = 0; i < plain.disparity_px.size(); ++i) {
+    const float a = plain.disparity_px.pixels()[i], b = other.disparity_px.pixels()[i];
+    one += (a > 0.0f) != (b > 0.0f);
+    if (a <= 0.0f || b <= 0.0f) continue;
+    ++both;
+    squares += (a - b) * (a - b);
+  }
+  EXPECT_GT(both, 250000.0);
+  EXPECT_LT(one / both, 1e-4);                 // thresholds met within rounding
+  EXPECT_LT(std::sqrt(squares / both), 1e-3);  // rounding of float sums of 112 products, a tenth of the error itself
+}
+
+TEST(Match, WithoutContrastThereIsNoMatch) {
+  const Bench bench(650.0);
+  const Match found = match(bench.sensor(), Image<float>(1280, 1024, 200.0f), bench.reference);
+  for (const float disparity : found.disparity_px.pixels()) ASSERT_EQ(disparity, 0.0f);
+}
+
+}  // namespace
+}  // namespace fathom
