@@ -10,7 +10,8 @@ from pathlib import Path
 
 def measure(command):
     start = time.monotonic()
-    child = os.posix_spawnp(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
+    silence = [(os.POSIX_SPAWN_OPEN, sys.stdout.fileno(), os.devnull, os.O_WRONLY, 0)]
+    child = os.posix_spawnp(command[0], command, os.environ, file_actions=silence)
     _, status, usage = os.wait4(child, 0)
     if status:
         sys.exit(f"error: {' '.join(command)} failed")
