@@ -44,7 +44,7 @@ Json circle_json(const Candidate& candidate, const std::optional<TemplateMatch>&
           {"icp_iterations", match ? Json(match->iterations) : Json()}};
 }
 
-Json cup_json(const Cup& cup) {
+Json cup_json(const DetectedCup& cup) {
   Json json = {{"center_camera_m", vector_json(cup.center_in_camera)}};
   json.update(circle_json(cup.candidate, cup.match));
   json["liquid"] = name_of(cup.liquid);
@@ -62,7 +62,7 @@ Json cup_json(const Cup& cup) {
 Json detection_json(const Detection& detection) {
   Json json = {{"plane", detection.desk ? plane_json(*detection.desk) : Json()}, {"segments", detection.segments}};
   json["cups"] = Json::array();
-  for (const Cup& cup : detection.cups) json["cups"].push_back(cup_json(cup));
+  for (const DetectedCup& cup : detection.cups) json["cups"].push_back(cup_json(cup));
   json["candidates"] = Json::array();
   for (const RejectedSegment& segment : detection.rejected) {
     json["candidates"].push_back(circle_json(segment.candidate, segment.match));
@@ -79,7 +79,7 @@ std::string for_people(const std::filesystem::path& cloud, const Detection& dete
                                  cloud.string(), mm_from_metres(desk.plane.offset),
                                  deg_from_radians(pitch_above(desk.plane)), mm_from_metres(desk.rms_m), desk.inliers);
   text += fmt::format("  {} segments, {} cups\n", detection.segments, detection.cups.size());
-  for (const Cup& cup : detection.cups) {
+  for (const DetectedCup& cup : detection.cups) {
     const Eigen::Vector3d& at = cup.center_in_camera;
     const std::string surface =
         cup.interior ? fmt::format("surface {:.1f} mm (sd {:.1f}, {} points)", mm_from_metres(cup.interior->mean_m),

@@ -21,7 +21,7 @@ enum class LiquidKind { kTransparent, kOpaque, kUnknown };
 std::string_view name_of(Liquid liquid);    ///< "yes", "no", "unknown"
 std::string_view name_of(LiquidKind kind);  ///< "transparent", "opaque", "unknown"
 
-struct Cup {
+struct DetectedCup {
   Candidate candidate;               ///< the segment and its circle; desk frame
   Eigen::Vector3d center_in_camera;  ///< [m] the circle's centre 45 mm above the desk
   TemplateMatch match;
@@ -41,7 +41,7 @@ struct RejectedSegment {
 struct Detection {
   std::optional<PlaneFit> desk;
   int segments = 0;
-  std::vector<Cup> cups;
+  std::vector<DetectedCup> cups;
   std::vector<RejectedSegment> rejected;
   std::string why;  ///< why there is no desk; empty when there is one
 };

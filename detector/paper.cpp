@@ -17,7 +17,7 @@ Points between_heights(const Points& points, double low_m, double high_m) {
   return result;
 }
 
-std::string decision_in_words(const Cup& cup, const CupTemplate& known) {
+std::string decision_in_words(const DetectedCup& cup, const CupTemplate& known) {
   if (!cup.interior) return fmt::format("matches {}; nothing is seen inside it", known.name);
   return fmt::format("matches {}; mean height inside {:.1f} mm is {} its threshold of {:g} mm", known.name,
                      mm_from_metres(cup.interior->mean_m), cup.liquid == Liquid::kYes ? "above" : "not above",
@@ -82,7 +82,7 @@ Detection detect_paper(const Cloud& cloud, const DetectorSettings& settings) {
       continue;
     }
     const CupTemplate& known = settings.templates[match->index];
-    Cup cup;
+    DetectedCup cup;
     cup.match = *match;
     cup.center_in_camera = center_in_camera(view, *candidate.circle);
     cup.interior = interior_height(view.points, *candidate.circle, config.interior);

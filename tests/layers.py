@@ -22,12 +22,13 @@ LAYERS = {
 }
 # Library: where its headers may be included; a star also stands for subfolders.
 BORDERS = {
-    "Embree": ["sim/render/*.cpp"],
+    "Embree": ["sim/render/*.cpp", "bench/*.cpp"],
     "PCL": ["detector/*.cpp", "tests/*.cpp", "bench/*.cpp"],
     "tinygltf": ["sim/scene/*.cpp"],
     "OpenEXR": ["core/*.cpp"],
     "libpng": ["core/*.cpp"],
     "CLI11": ["app/*.cpp"],
+    "OpenCV": ["bench/*"],
 }
 LIBRARY_HEADERS = {
     "Embree": r"embree\d/",
@@ -36,6 +37,7 @@ LIBRARY_HEADERS = {
     "OpenEXR": r"((OpenEXR|Imath)/)?(Imf|Imath)\w*\.h",
     "libpng": r"(libpng\d*/)?png\.h",
     "CLI11": r"CLI/",
+    "OpenCV": r"opencv\d?/",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 DOCUMENT = "docs/architecture.md"

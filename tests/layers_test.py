@@ -47,6 +47,7 @@ class Layers(unittest.TestCase):
             ("sim/sensor/exr.cpp", "OpenEXR/ImfHeader.h"),
             ("app/picture.cpp", "png.h"),
             ("core/options.cpp", "CLI/CLI.hpp"),
+            ("sim/sensor/match.cpp", "opencv2/calib3d.hpp"),
         ):
             with self.subTest(header):
                 self.write(path, f"#pragma once\n#include <{header}>\n")

@@ -46,7 +46,7 @@ TEST(PaperMethod, FindsTheCupWhereItStands) {
   const Detection result = detect(cast(scene), scene.sensor);
   EXPECT_EQ(result.segments, 1);
   ASSERT_EQ(result.cups.size(), 1u);
-  const Cup& cup = result.cups[0];
+  const DetectedCup& cup = result.cups[0];
   // The near half shows the outer wall, the far half the inner one: the circle lies between the two and a bit nearer.
   EXPECT_GT(cup.candidate.circle->radius_m, 0.040);
   EXPECT_LT(cup.candidate.circle->radius_m, 0.043);

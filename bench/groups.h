@@ -1,0 +1,11 @@
+// The groups of measurements. Each function prepares its inputs and registers its benchmarks as group/case/side.
+#pragma once
+
+namespace fathom {
+
+void register_geometric();
+void register_photometric();
+void register_match();
+void register_detect();
+
+}  // namespace fathom

@@ -1,0 +1,52 @@
+// usage: fathom_bench GROUP [Google Benchmark's options]
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <string_view>
+
+#include "bench/groups.h"
+
+namespace {
+
+struct Group {
+  std::string_view name;
+  void (*register_benchmarks)();
+  std::string_view summary;
+};
+
+constexpr std::array<Group, 4> kGroups{{
+    {"geometric", fathom::register_geometric, "trace_truth() beside a bare Embree loop over the same rays"},
+    {"photometric", fathom::register_photometric, "render_ir() beside a bare Embree loop, and a whole frame"},
+    {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
+    {"detect", fathom::register_detect, "the paper's method on a captured cloud, stage by stage"},
+}};
+
+int fail_with_usage() {
+  fmt::print(stderr, "usage: fathom_bench GROUP [--benchmark_...]\n");
+  for (const Group& group : kGroups) fmt::print(stderr, "  {:12} {}\n", group.name, group.summary);
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view asked = argc > 1 ? argv[1] : "";
+  for (const Group& group : kGroups) {
+    if (group.name != asked) continue;
+    int rest = argc - 1;
+    benchmark::Initialize(&rest, argv + 1);
+    if (benchmark::ReportUnrecognizedArguments(rest, argv + 1)) return 2;
+    try {
+      group.register_benchmarks();
+      benchmark::RunSpecifiedBenchmarks();
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "error: {}\n", error.what());
+      return 1;
+    }
+    return 0;
+  }
+  return fail_with_usage();
+}

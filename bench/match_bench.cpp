@@ -1,0 +1,104 @@
+// Our matcher beside OpenCV's on the same dots, all on one thread.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <limits>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "bench/groups.h"
+#include "bench/match_error.h"
+#include "bench/stereo_pair.h"
+#include "sim/sensor/depth.h"
+#include "sim/sensor/match.h"
+
+namespace fathom {
+namespace {
+
+constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+
+Image<float> relative_to_reference(const SensorModel& sensor, const Image<float>& disparity_px) {
+  const auto at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));
+  Image<float> relative(disparity_px.width(), disparity_px.height(), kInvalid);
+  for (std::size_t i = 0; i < relative.size(); ++i)
+    if (disparity_px.pixels()[i] > 0.0f) relative.pixels()[i] = disparity_px.pixels()[i] - at_reference;
+  return relative;
+}
+
+/// OpenCV's disparities count sixteenths of a pixel; those below the range are invalid.
+Image<float> from_sixteenths(const SensorModel& sensor, const cv::Mat& sixteenths) {
+  Image<float> disparity(sixteenths.cols, sixteenths.rows, kInvalid);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x) {
+      const auto value = sixteenths.at<std::int16_t>(y, x);
+      if (value >= 16 * sensor.matcher.disparity_min_px) disparity(x, y) = static_cast<float>(value) / 16.0f;
+    }
+  return disparity;
+}
+
+int disparity_count(const MatcherModel& matcher) { return matcher.disparity_max_px - matcher.disparity_min_px + 1; }
+
+cv::Ptr<cv::StereoMatcher> block_matcher(const MatcherModel& matcher) {
+  const auto result = cv::StereoBM::create(disparity_count(matcher), matcher.window_columns);
+  result->setMinDisparity(matcher.disparity_min_px);
+  return result;
+}
+
+/// Penalties as OpenCV's documentation proposes them: 8 and 32 times the block's area.
+cv::Ptr<cv::StereoMatcher> semi_global_matcher(const MatcherModel& matcher) {
+  const int area = matcher.window_columns * matcher.window_columns;
+  const auto result = cv::StereoSGBM::create(matcher.disparity_min_px, disparity_count(matcher), matcher.window_columns,
+                                             8 * area, 32 * area);
+  result->setMode(cv::StereoSGBM::MODE_SGBM);
+  return result;
+}
+
+void report(benchmark::State& state, const MatchError& error) {
+  state.counters["valid"] = error.valid;
+  state.counters["median_px"] = error.median_px;
+  state.counters["rms_px"] = error.rms_px;
+  state.counters["outliers"] = error.outliers;
+}
+
+void measure_match(benchmark::State& state, const StereoPair& pair) {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  Match found;
+  for (auto _ : state) found = match(pair.sensor, pair.ir, pair.reference);
+  report(state, match_error(pair, relative_to_reference(pair.sensor, found.disparity_px)));
+}
+
+void measure_opencv(benchmark::State& state, const StereoPair& pair, const cv::Ptr<cv::StereoMatcher>& matcher) {
+  cv::setNumThreads(1);
+  cv::Mat sixteenths;
+  for (auto _ : state) matcher->compute(pair.live, pair.remembered, sixteenths);
+  report(state, match_error(pair, from_sixteenths(pair.sensor, sixteenths)));
+}
+
+void register_pair(const std::string& name, const Setup& setup, const NoiseModel& noise) {
+  const auto pair = std::make_shared<const StereoPair>(make_stereo_pair(setup, noise));
+  const MatcherModel& matcher = pair->sensor.matcher;
+  const auto add = [&](const char* side, auto work) {
+    benchmark::RegisterBenchmark(fmt::format("match/{}/{}", name, side).c_str(), work)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+  };
+  add("fathom", [pair](benchmark::State& state) { measure_match(state, *pair); });
+  add("bm", [pair, bm = block_matcher(matcher)](benchmark::State& state) { measure_opencv(state, *pair, bm); });
+  add("sgbm",
+      [pair, sgbm = semi_global_matcher(matcher)](benchmark::State& state) { measure_opencv(state, *pair, sgbm); });
+}
+
+}  // namespace
+
+void register_match() {
+  const Setup water = paper_water(), plane = slanted_plane();
+  const NoiseModel clean, noisy = water.rig.sensor.noise;
+  register_pair("water_clean", water, clean);
+  register_pair("water_noisy", water, noisy);
+  register_pair("plane_clean", plane, clean);
+  register_pair("plane_noisy", plane, noisy);
+}
+
+}  // namespace fathom

@@ -1,0 +1,94 @@
+// How much tracing costs beyond what Embree itself needs for the same rays.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "bench/bench_scene.h"
+#include "bench/embree_loop.h"
+#include "bench/groups.h"
+#include "bench/ray_recorder.h"
+#include "sim/render/truth.h"
+#include "sim/sensor/depth.h"
+#include "sim/sensor/ir_camera.h"
+#include "sim/sensor/match.h"
+
+namespace fathom {
+namespace {
+
+struct Yardstick {
+  BenchScene scene{paper_water()};
+  EmbreeLoop embree{scene.geometry};
+};
+
+/// Times `work`, which traces `rays` rays each time, by the whole process's processor time.
+template <class Work>
+void measure(const char* name, std::uint64_t rays, Work work) {
+  benchmark::RegisterBenchmark(name,
+                               [rays, work](benchmark::State& state) {
+                                 for (auto _ : state) work();
+                                 state.counters["rays"] = static_cast<double>(rays);
+                               })
+      ->MeasureProcessCPUTime()
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+void measure_embree(const char* name, const std::shared_ptr<const Yardstick>& yardstick, Recording recording) {
+  const auto shared = std::make_shared<const Recording>(std::move(recording));
+  measure(name, shared->rays(), [=] { benchmark::DoNotOptimize(yardstick->embree.trace(*shared)); });
+}
+
+/// The loop must find what the capture found, or it is no yardstick. A refracted ray's direction is rounded anew, so a
+/// ray in 10 000 may fall on the other side of an edge.
+void require_same_hits(const Yardstick& yardstick, const Recording& recording) {
+  const double hits = static_cast<double>(yardstick.embree.trace(recording));
+  if (std::fabs(hits - static_cast<double>(recording.hits)) > 1e-4 * static_cast<double>(recording.rays()))
+    throw std::runtime_error("the bare Embree loop hits other surfaces than the capture");
+}
+
+/// From the scene to the cloud, as Camera does it for one frame.
+Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, const Reference& reference) {
+  const SensorModel& sensor = scene.setup.rig.sensor;
+  const Image<float> radiance = render_ir(scene.world, scene.setup.rig, pattern, kSamplesAcross);
+  const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
+  const Image<float> depth = depth_image(sensor, match(sensor, ir, reference).disparity_px);
+  return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));
+}
+
+}  // namespace
+
+void register_geometric() {
+  const auto yardstick = std::make_shared<const Yardstick>();
+  const BenchScene& scene = yardstick->scene;
+  Recording recording = record_truth(scene.world, scene.setup.rig);
+  require_same_hits(*yardstick, recording);
+  measure("geometric/fathom", recording.rays(),
+          [yardstick, &scene] { benchmark::DoNotOptimize(trace_truth(scene.world, scene.setup.rig)); });
+  measure_embree("geometric/embree", yardstick, std::move(recording));
+}
+
+void register_photometric() {
+  const auto yardstick = std::make_shared<const Yardstick>();
+  const BenchScene& scene = yardstick->scene;
+  const SensorModel& sensor = scene.setup.rig.sensor;
+  const auto pattern = std::make_shared<Pattern>(sensor.pattern, sensor.ir_scale());
+  const int margin = reference_margin(sensor.matcher);
+  const auto reference = std::make_shared<const Reference>(
+      memorise(sensor, reference_image(sensor, *pattern, margin, kSamplesAcross), margin));
+  pattern->set_dot_gains(speckle_gains(sensor.noise, *pattern, 1));
+
+  Recording recording = record_render(scene.world, scene.setup.rig, kSamplesAcross);
+  require_same_hits(*yardstick, recording);
+  measure("photometric/fathom", recording.rays(), [yardstick, &scene, pattern] {
+    benchmark::DoNotOptimize(render_ir(scene.world, scene.setup.rig, *pattern, kSamplesAcross));
+  });
+  measure("photometric/frame", recording.rays(), [yardstick, &scene, pattern, reference] {
+    benchmark::DoNotOptimize(whole_frame(scene, *pattern, *reference));
+  });
+  measure_embree("photometric/camera_rays", yardstick, camera_rays_of(recording));
+  measure_embree("photometric/embree", yardstick, std::move(recording));
+}
+
+}  // namespace fathom
