@@ -11,7 +11,9 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_template(CLI::App& app, const CommonOptions& common);
 
 inline constexpr std::array kCommands{
@@ -27,8 +29,16 @@ inline constexpr std::array kCommands{
             "  fathom detect cloud.pcd\n  fathom detect cloud.pcd --height-mm 650 --pitch-deg 58.4 --json\n"
             "  fathom detect shot1.pcd shot2.ply --config detector.json",
             define_detect},
+    Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",
+            "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
+            "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
+            define_campaign},
     Command{"measure", "Fills the height columns of a measurement directory: writes DIR/heights.csv",
             "  fathom measure campaign", define_measure},
+    Command{
+        "reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
+        "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce all --trials 10 -o out/paper_figures",
+        define_reproduce},
     Command{"template", "Makes a cup template for detect from a cloud of one empty cup",
             "  fathom template cloud.pcd -o templates --name my_mug\n"
             "  fathom template cloud.pcd -o templates --name tall_mug --liquid-threshold-mm 6",

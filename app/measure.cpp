@@ -2,17 +2,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "app/commands.h"
-#include "app/rig.h"
+#include "app/cup_height.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/rows.h"
 #include "core/table.h"
 #include "core/units.h"
-#include "detector/paper.h"
 #include "detector/read_cloud.h"
 
 namespace fathom {
@@ -40,28 +40,6 @@ void check_frames(const Table& frames, const LaboratoryRig& rig, const std::file
   }
 }
 
-/// The candidate nearest to where the cup stands, if it is nearer than the cup's outer radius.
-std::optional<Candidate> candidate_at(const DeskView& view, const Eigen::Vector2d& place, double within_m) {
-  std::optional<Candidate> nearest;
-  const auto distance = [&](const Candidate& candidate) { return (candidate.circle->center - place).norm(); };
-  for (Candidate& candidate : cup_candidates(view, PaperConfig{})) {
-    if (!candidate.rejected.empty() || distance(candidate) > within_m) continue;
-    if (!nearest || distance(candidate) < distance(*nearest)) nearest = std::move(candidate);
-  }
-  return nearest;
-}
-
-std::optional<InteriorHeight> measure_frame(const Cloud& cloud, const LaboratoryRig& rig,
-                                            const Eigen::Vector2d& cup_in_world) {
-  const auto found = view_of_desk(cloud, DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}, PlaneSearch{});
-  const DeskView* view = std::get_if<DeskView>(&found);
-  if (!view) return std::nullopt;
-  // The world's origin is below the middle of the baseline, the desk frame's below the camera at its left end.
-  const Eigen::Vector2d cup_in_desk = cup_in_world + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
-  const std::optional<Candidate> cup = candidate_at(*view, cup_in_desk, rig.outer_radius_m);
-  return cup ? interior_height(view->points, *cup->circle, InteriorSettings{}) : std::nullopt;
-}
-
 Cloud read_cloud_of(const Table& frames, std::size_t row, const std::filesystem::path& folder) {
   try {
     return read_cloud(folder / frames.text(row, "cloud"));
@@ -86,7 +64,7 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
     ++clouds;
     const Eigen::Vector2d place(metres_from_mm(frames.number(row, "lateral_mm")),
                                 metres_from_mm(frames.number(row, "distance_mm")));
-    const std::optional<InteriorHeight> height = measure_frame(read_cloud_of(frames, row, folder), rig, place);
+    const std::optional<InteriorHeight> height = height_in_cup(read_cloud_of(frames, row, folder), rig, place);
     if (!height) continue;
     ++measured;
     frames.set(row, "height_mm", fmt::format("{:.4f}", mm_from_metres(height->mean_m)));

@@ -1,0 +1,37 @@
+// What a simulated measurement campaign varies, as its file says it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/rig.h"
+#include "sim/scene/setup.h"
+#include "sim/sensor/capture.h"
+
+namespace fathom {
+
+struct CampaignFilling {
+  std::string liquid;  ///< "empty", or a key of the liquids
+  Medium medium;       ///< of a liquid
+  double fill = 0.0;   ///< [m], as the laboratory means to pour it; 0 when empty
+};
+
+struct CampaignSpec {
+  Json source;  ///< the file's text
+  Rig rig;
+  std::optional<Desk> desk;
+  CupShape cup;
+  LaboratoryRig nominal;  ///< what the laboratory believes, for rig.json
+  std::vector<CampaignFilling> fillings;
+  std::vector<double> distances, laterals;     ///< [m]
+  int pours = 1, placements = 1, trials = 10;  ///< pours of each filling, placements at each place, shots of each
+  CaptureMode mode = CaptureMode::photometric;
+
+  double deepest_fill() const { return cup.height() - cup.bottom(); }
+};
+
+/// Throws Error naming file, path, what is wrong and what is allowed.
+CampaignSpec read_campaign_spec(const std::filesystem::path& path);
+
+}  // namespace fathom

@@ -1,0 +1,63 @@
+#include "app/nominal_rig.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kBandMiddleMetres = 0.045;  // where the detector fits its circle
+
+/// Numbers for people: what is below a nanometre or a nanodegree is rounding.
+double tidy(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
+
+double tidy_mm(double metres) { return tidy(mm_from_metres(metres)); }
+
+}  // namespace
+
+LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file) {
+  const Eigen::Matrix3d world_from_camera = rig.world_from_camera.linear();
+  const Eigen::Vector3d forward = world_from_camera.col(2), right = world_from_camera.col(0);
+  constexpr double kRounding = 1e-9;
+  if (std::abs(forward.x()) > kRounding || forward.y() < -kRounding)
+    throw Error(file, "/sensor/aim_mm", "must lie straight ahead (x = 0, y ≥ 0): a measurement's rig knows no yaw");
+  LaboratoryRig nominal;
+  nominal.sensor_model = rig.sensor.name;
+  nominal.height_m = 0.5 * (rig.camera_in_world() + rig.projector_in_world()).z();
+  nominal.pitch_rad = std::atan2(-forward.z(), forward.y());
+  nominal.roll_rad = std::asin(-right.z());
+  nominal.baseline_m = rig.sensor.baseline;
+  nominal.focal_px = rig.sensor.focal_px;
+  nominal.cup_shape = cup.name;
+  nominal.cup_height_m = cup.height();
+  nominal.inner_radius_m = cup.inner_radius(kBandMiddleMetres);
+  nominal.outer_radius_m = cup.outer.back().x();
+  nominal.bottom_m = cup.bottom();
+  return nominal;
+}
+
+Json json_from_laboratory_rig(const LaboratoryRig& rig) {
+  Json sensor = {{"model", rig.sensor_model},
+                 {"height_mm", tidy_mm(rig.height_m)},
+                 {"pitch_deg", tidy(deg_from_radians(rig.pitch_rad))},
+                 {"roll_deg", tidy(deg_from_radians(rig.roll_rad))},
+                 {"baseline_mm", tidy_mm(rig.baseline_m)},
+                 {"focal_px", tidy(rig.focal_px)},
+                 {"disparity_offset_px", rig.disparity_offset_px}};
+  Json cup = {{"shape", rig.cup_shape},
+              {"height_mm", tidy_mm(rig.cup_height_m)},
+              {"inner_radius_mm", tidy_mm(rig.inner_radius_m)},
+              {"outer_radius_mm", tidy_mm(rig.outer_radius_m)},
+              {"bottom_mm", tidy_mm(rig.bottom_m)}};
+  Json liquids = Json::object();
+  for (const auto& [name, medium] : rig.liquids) liquids[name] = medium;
+  return {{"sensor", sensor},
+          {"cup", cup},
+          {"liquids", liquids},
+          {"fill_sigma_mm", tidy_mm(rig.fill_sigma_m)},
+          {"placement_sigma_mm", tidy_mm(rig.placement_sigma_m)}};
+}
+
+}  // namespace fathom

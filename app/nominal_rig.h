@@ -1,0 +1,17 @@
+// What a laboratory would write down about a simulated sensor and cup.
+#pragma once
+
+#include "app/rig.h"
+#include "sim/scene/rig.h"
+#include "sim/scene/scene.h"
+
+namespace fathom {
+
+/// The rig without any liquids. A measurement directory cannot say that a sensor looks aside: throws Error, as coming
+/// from `file`, when the rig has a yaw.
+LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file);
+
+/// rig.json, as read_rig reads it.
+Json json_from_laboratory_rig(const LaboratoryRig& rig);
+
+}  // namespace fathom

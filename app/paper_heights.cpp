@@ -1,0 +1,51 @@
+#include "app/paper_heights.h"
+
+#include <cmath>
+
+#include "app/cup_height.h"
+#include "core/progress.h"
+#include "core/rng.h"
+#include "core/units.h"
+#include "sim/sensor/capture.h"
+
+namespace fathom {
+namespace {
+
+constexpr int kSamplesPerPixel = 4;
+
+HeightCell measure_cell(const PaperFilling& filling, double distance_mm, int trials, std::uint64_t seed) {
+  const Setup setup = paper_setup(filling, distance_mm);
+  const LaboratoryRig rig = paper_rig(setup);
+  Camera camera(setup, CaptureMode::photometric, kSamplesPerPixel, seed);
+  HeightCell cell;
+  double sum = 0.0, squares = 0.0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Cloud cloud = cloud_from_image(camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
+    const auto height = height_in_cup(cloud, rig, {0.0, metres_from_mm(distance_mm)});
+    if (!height) continue;
+    ++cell.seen;
+    cell.points += static_cast<double>(height->points) / trials;
+    sum += mm_from_metres(height->mean_m);
+    squares += mm_from_metres(height->mean_m) * mm_from_metres(height->mean_m);
+  }
+  if (cell.seen == 0) return cell;
+  cell.mean_mm = sum / cell.seen;
+  if (cell.seen > 1)
+    cell.sd_mm = std::sqrt(std::max(0.0, squares - cell.seen * cell.mean_mm * cell.mean_mm) / (cell.seen - 1));
+  return cell;
+}
+
+}  // namespace
+
+PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet) {
+  PaperHeights heights;
+  Progress progress("condition", kPaperFillings.size() * kPaperDistancesMm.size(), quiet);
+  for (std::size_t f = 0; f < kPaperFillings.size(); ++f)
+    for (std::size_t d = 0; d < kPaperDistancesMm.size(); ++d) {
+      heights.cells[f][d] = measure_cell(kPaperFillings[f], kPaperDistancesMm[d], trials, Rng(seed, f, d).bits());
+      progress.step();
+    }
+  return heights;
+}
+
+}  // namespace fathom

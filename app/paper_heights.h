@@ -1,0 +1,32 @@
+// The measurement behind Fig. 5 and Fig. 14: the height in the cup for each filling and distance.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/paper_scene.h"
+
+namespace fathom {
+
+inline const std::array<PaperFilling, 7> kPaperFillings{
+    {{"empty", 0}, {"water", 10}, {"water", 20}, {"water", 30}, {"milk_tea", 10}, {"milk_tea", 20}, {"milk_tea", 30}}};
+inline constexpr std::array kPaperDistancesMm{200.0, 300.0, 400.0, 500.0, 600.0};
+
+/// One bar of Fig. 5, above the desk.
+struct HeightCell {
+  double mean_mm = 0.0;
+  double sd_mm = 0.0;   ///< of the shots' mean heights
+  double points = 0.0;  ///< inside the cup, on the average over all shots; those without any count as 0
+  int seen = 0;         ///< shots in which something was seen inside
+};
+
+/// cells[filling][distance]. Every cell is a new placement, with speckle of its own; its shots differ in their noise.
+struct PaperHeights {
+  std::array<std::array<HeightCell, kPaperDistancesMm.size()>, 7> cells;
+};
+
+PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet);
+
+}  // namespace fathom

@@ -1,0 +1,49 @@
+// The paper's figures, remade. Each function computes one, writes its data and pictures to a folder and says what came
+// out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/paper_heights.h"
+#include "core/table.h"
+
+namespace fathom {
+
+/// A statement of the paper beside the program's.
+struct Fact {
+  std::string what, printed, here;
+};
+
+struct Figure {
+  std::string name;  ///< "fig14": of NAME.csv, NAME.gp, NAME.png and NAME.svg
+  std::string title;
+  std::string sentence;  ///< what one sees
+  std::vector<Fact> facts;
+  Table table{{}};
+};
+
+struct ReproduceSettings {
+  std::filesystem::path folder;
+  int trials = 3;  ///< shots of each condition
+  std::uint64_t seed = 1;
+  bool quiet = false;
+};
+
+Figure reproduce_fig2(const ReproduceSettings& settings);  ///< side view, empty cup
+Figure reproduce_fig3(const ReproduceSettings& settings);  ///< side view, 30 mm of milk tea
+Figure reproduce_fig4(const ReproduceSettings& settings);  ///< side view, 30 mm of water
+/// Measured heights of every filling and distance.
+Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& heights);
+Figure reproduce_fig10(const ReproduceSettings& settings);  ///< Eq. 3 over the incidence angle
+Figure reproduce_fig12(const ReproduceSettings& settings);  ///< the skew of the two beams
+Figure reproduce_fig13(const ReproduceSettings& settings);  ///< Eq. 6 over the distance
+/// Eq. 7, exact and measured.
+Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& heights);
+
+/// report.html: pictures, facts and tables in one file.
+void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures, int trials);
+
+}  // namespace fathom

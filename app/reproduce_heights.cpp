@@ -1,0 +1,219 @@
+// Fig. 5 and Fig. 14: what the paper's detector measures in simulated captures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gnuplot.h"
+#include "app/reproduce.h"
+#include "core/units.h"
+#include "theory/raised_bottom.h"
+#include "theory/triangulation.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kBottomMm = 7.0;
+constexpr std::size_t kSeenDistances = 4;  // the fifth, 600 mm, is the one that the paper leaves out
+constexpr std::array<std::size_t, 3> kWater{1, 2, 3}, kMilkTea{4, 5, 6};
+
+std::string mm(double value) { return fmt::format("{:.3f}", value + 0.0); }
+
+using Cells = std::array<HeightCell, kPaperDistancesMm.size()>;
+
+std::pair<double, double> range_over_distance(const Cells& cells) {
+  const auto [low, high] =
+      std::minmax_element(cells.begin(), cells.begin() + kSeenDistances,
+                          [](const HeightCell& a, const HeightCell& b) { return a.mean_mm < b.mean_mm; });
+  return {low->mean_mm, high->mean_mm};
+}
+
+std::string heights_text(const Cells& cells) {
+  std::vector<std::string> texts;
+  for (std::size_t d = 0; d < kSeenDistances; ++d) texts.push_back(fmt::format("{:.1f}", cells[d].mean_mm));
+  return fmt::format("{}", fmt::join(texts, " → "));
+}
+
+/// "yes" or "no", and the numbers.
+std::string verdict(bool holds, const std::string& numbers) { return (holds ? "yes: " : "no: ") + numbers; }
+
+std::vector<Fact> facts_of(const PaperHeights& heights) {
+  const auto& cells = heights.cells;
+  std::vector<Fact> facts;
+  for (const std::size_t f : kWater) {
+    const bool rises = std::is_sorted(cells[f].begin(), cells[f].begin() + kSeenDistances,
+                                      [](const HeightCell& a, const HeightCell& b) { return a.mean_mm < b.mean_mm; });
+    facts.push_back({"The raised bottom rises with the distance, 200–500 mm, " + kPaperFillings[f].label(), "yes",
+                     verdict(rises, heights_text(cells[f]) + " mm")});
+  }
+  bool deeper = true;
+  for (std::size_t d = 0; d < kSeenDistances; ++d)
+    deeper = deeper && cells[1][d].mean_mm < cells[2][d].mean_mm && cells[2][d].mean_mm < cells[3][d].mean_mm;
+  facts.push_back({"It rises with the depth of the water at every distance", "yes",
+                   verdict(deeper, fmt::format("{:.1f} → {:.1f} → {:.1f} mm at 400 mm", cells[1][2].mean_mm,
+                                               cells[2][2].mean_mm, cells[3][2].mean_mm))});
+  const double empty_highest = range_over_distance(cells[0]).second;
+  facts.push_back({"10 mm of water against empty at 200 mm", "about 2 mm",
+                   fmt::format("{:.1f} mm", cells[1][0].mean_mm - cells[0][0].mean_mm)});
+  facts.push_back({"10 mm of water against empty, least over all distances", "at least about 1 mm",
+                   fmt::format("{:.1f} mm", range_over_distance(cells[1]).first - empty_highest)});
+  facts.push_back({"10 mm of milk tea against empty, least over all distances", "at least 7 mm",
+                   fmt::format("{:.1f} mm", range_over_distance(cells[4]).first - empty_highest)});
+  for (const std::size_t f : kMilkTea) {
+    const auto [low, high] = range_over_distance(cells[f]);
+    facts.push_back({"The milk tea's height does not depend on the distance, " + kPaperFillings[f].label(), "yes",
+                     verdict(high - low < 1.0, fmt::format("{:.1f}–{:.1f} mm, surface at {:g} mm", low, high,
+                                                           kBottomMm + kPaperFillings[f].fill_mm))});
+  }
+  std::vector<std::string> seen;
+  for (std::size_t f = 0; f < cells.size(); ++f)
+    if (cells[f].back().seen > 0)
+      seen.push_back(fmt::format("{} ({:.0f} points)", kPaperFillings[f].label(), cells[f].back().points));
+  facts.push_back({"At 600 mm the near wall hides the inside", "yes, left out of the chart",
+                   seen.empty() ? "yes, for all fillings"
+                                : fmt::format("hidden for {} of 7 fillings; seen in part: {}", 7 - seen.size(),
+                                              fmt::join(seen, ", "))});
+  return facts;
+}
+
+/// One row for a filling, a column pair for a distance, as gnuplot's histograms want it.
+Table bars_of(const PaperHeights& heights) {
+  std::vector<std::string> columns{"filling"};
+  for (std::size_t d = 0; d < kSeenDistances; ++d) {
+    columns.push_back(fmt::format("{:g} mm", kPaperDistancesMm[d]));
+    columns.push_back(fmt::format("sd {:g} mm", kPaperDistancesMm[d]));
+  }
+  columns.emplace_back("true_mm");
+  Table bars(columns);
+  for (std::size_t f = 0; f < kPaperFillings.size(); ++f) {
+    std::vector<std::string> cells{kPaperFillings[f].label()};
+    for (std::size_t d = 0; d < kSeenDistances; ++d) {
+      cells.push_back(mm(heights.cells[f][d].mean_mm));
+      cells.push_back(mm(heights.cells[f][d].sd_mm));
+    }
+    cells.push_back(mm(kBottomMm + kPaperFillings[f].fill_mm));
+    bars.add(cells);
+  }
+  return bars;
+}
+
+/// The closed and the exact height of the raised bottom above the bottom [mm].
+struct Prediction {
+  double eq7, exact_printed_index, exact_sensor_index;
+};
+
+Prediction predict(double fill_mm, double distance_mm) {
+  static const double n_at_sensor = water_index_at_sensor();
+  const double w = metres_from_mm(fill_mm), d = metres_from_mm(distance_mm);
+  const double h = metres_from_mm(kPaperHeightMm - kBottomMm);
+  theory::TriangulationSetup setup{.sensor_height = h,
+                                   .fill = w,
+                                   .index = kPaperIndex,
+                                   .distance = d,
+                                   .pitch = std::atan2(metres_from_mm(kPaperHeightMm), 0.400)};
+  const double printed = theory::triangulate(setup).height;
+  setup.index = n_at_sensor;
+  return {mm_from_metres(theory::raised_height_at(w, {.h = h, .b = setup.baseline, .d = d, .n = kPaperIndex})),
+          mm_from_metres(printed), mm_from_metres(theory::triangulate(setup).height)};
+}
+
+}  // namespace
+
+Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& heights) {
+  Figure figure{
+      .name = "fig5",
+      .title = "Fig. 5: measured height in the cup",
+      .sentence =
+          "Clear water raises the bottom the more the farther the cup stands and the deeper it is "
+          "filled; milk tea shows its surface, whatever the distance.",
+      .facts = facts_of(heights),
+      .table = Table({"liquid", "fill_mm", "distance_mm", "height_mm", "height_sd_mm", "points", "shots_seen"})};
+  for (std::size_t f = 0; f < kPaperFillings.size(); ++f)
+    for (std::size_t d = 0; d < kPaperDistancesMm.size(); ++d) {
+      const HeightCell& cell = heights.cells[f][d];
+      figure.table.add({kPaperFillings[f].liquid, fmt::format("{:g}", kPaperFillings[f].fill_mm),
+                        fmt::format("{:g}", kPaperDistancesMm[d]), cell.seen > 0 ? mm(cell.mean_mm) : "",
+                        cell.seen > 1 ? mm(cell.sd_mm) : "", fmt::format("{:.1f}", cell.points),
+                        fmt::format("{}", cell.seen)});
+    }
+  write_table(settings.folder / "fig5.csv", figure.table);
+  write_table(settings.folder / "fig5_bars.csv", bars_of(heights));
+  draw(settings.folder, figure.name,
+       fmt::format(R"(
+set title 'Measured height of the liquid''s surface or the raised bottom (simulated captures, {} each, ±1σ)'
+set ylabel 'height above the desk [mm]'
+set yrange [0:42]; set xrange [-0.6:6.6]; set ytics 5
+set grid noxtics
+set style data histogram
+set style histogram errorbars gap 1.6 lw 1.5
+set style fill solid 0.9 border lc rgb ink
+set boxwidth 0.95
+set errorbars 0.6
+set xtics scale 0
+set key top left reverse Left title 'distance of the cup' left
+array colour[4] = [0xC6DFF0, sky, blue, 0x003E63]
+plot for [i=1:4] 'fig5_bars.csv' using (column(2*i)):(column(2*i+1)):xtic(1) lc rgb colour[i] \
+       title sprintf('%d mm', 100*i+100), \
+     '' using ($0-0.42):'true_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red \
+       title 'true surface (empty: bottom)')",
+                   settings.trials));
+  return figure;
+}
+
+Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& heights) {
+  Figure figure{.name = "fig14",
+                .title = "Fig. 14: theory and measurement of the raised bottom",
+                .sentence =
+                    "Eq. 7, the exact triangulation and the simulated measurement agree to a fraction of the "
+                    "1–2 mm that the paper reports between theory and measurement.",
+                .facts = {},
+                .table = Table({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm", "simulated_mm",
+                                "simulated_sd_mm", "simulated_minus_exact_mm"})};
+  Table curves({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm"});
+  double closed_worst = 0.0, index_worst = 0.0, measured_worst = 0.0;
+  for (const std::size_t f : kWater) {
+    const double fill = kPaperFillings[f].fill_mm;
+    for (int distance = 100; distance <= 700; distance += 10) {
+      const Prediction p = predict(fill, distance);
+      curves.add({mm(fill), mm(distance), mm(p.eq7), mm(p.exact_printed_index), mm(p.exact_sensor_index)});
+    }
+    for (std::size_t d = 0; d < kSeenDistances; ++d) {
+      const Prediction p = predict(fill, kPaperDistancesMm[d]);
+      const HeightCell& cell = heights.cells[f][d];
+      const double measured = cell.mean_mm - kBottomMm;
+      closed_worst = std::max(closed_worst, std::abs(p.eq7 - p.exact_printed_index));
+      index_worst = std::max(index_worst, std::abs(p.exact_sensor_index - p.exact_printed_index));
+      if (cell.seen > 0) measured_worst = std::max(measured_worst, std::abs(measured - p.exact_sensor_index));
+      figure.table.add({mm(fill), mm(kPaperDistancesMm[d]), mm(p.eq7), mm(p.exact_printed_index),
+                        mm(p.exact_sensor_index), cell.seen > 0 ? mm(measured) : "",
+                        cell.seen > 1 ? mm(cell.sd_mm) : "", cell.seen > 0 ? mm(measured - p.exact_sensor_index) : ""});
+    }
+  }
+  write_table(settings.folder / "fig14.csv", figure.table);
+  write_table(settings.folder / "fig14_curves.csv", curves);
+  draw(settings.folder, figure.name, R"(
+set title 'Height of the raised bottom over the distance of the cup'
+set xlabel 'horizontal distance of the cup from the sensor [mm]'
+set ylabel 'height of the raised bottom above the bottom [mm]'
+set xrange [100:700]; set yrange [0:14]; set xtics 100; set ytics 2
+set key top left reverse Left
+set errorbars 1
+array colour[3] = [sky, blue, red]
+do for [i=1:3] { set label i sprintf('water %d mm', 10*i) at 690,(i==1?4.35:i==2?8.2:12.05) right textcolor rgb colour[i] }
+plot for [i=1:3] 'fig14_curves.csv' using 'distance_mm':(column('fill_mm') == 10*i ? column('eq7_mm') : NaN) \
+       with lines lw 3 lc rgb colour[i] title (i == 2 ? 'Eq. 7, n = 1.333' : ''), \
+     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('exact_n830nm_mm') : NaN) \
+       with lines lw 2 dt 3 lc rgb ink title (i == 2 ? 'exact, n of water at 830 nm' : ''), \
+     for [i=1:3] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i ? column('simulated_mm') : NaN):'simulated_sd_mm' \
+       with yerrorbars pt 7 ps 1.8 lw 2 lc rgb colour[i] title (i == 2 ? 'simulated measurement, ±1σ' : ''))");
+  figure.facts = {
+      {"Largest difference of measurement and theory", "approximately 1–2 mm",
+       fmt::format("{:.2f} mm (simulated against exact, n = {:.4f} at 830 nm)", measured_worst,
+                   water_index_at_sensor())},
+      {"Largest difference of Eq. 7 and exact triangulation, both with n = 1.333", "–",
+       fmt::format("{:.2f} mm", closed_worst)},
+      {"Largest effect of taking n at 830 nm instead of 1.333", "–", fmt::format("{:.2f} mm", index_worst)}};
+  return figure;
+}
+
+}  // namespace fathom
