@@ -97,9 +97,10 @@ set xlabel 'angle of the camera''s ray from its axis [deg], positive away from t
 set ylabel '|θ_1 − θ_4| [deg]'
 set xrange [-30:30]; set yrange [0:10]; set xtics 10; set ytics 2
 set key bottom right reverse Left
-set label 1 'field edge: 6.9522°' at 29.25,6.9522 right offset -1.2,-1.2 textcolor rgb red
+set label 1 'field edge: 6.9522°' at 29.5,5.3 right textcolor rgb red
+set arrow 1 from 28,5.6 to 29.1,6.7 lw 1.5 lc rgb red head filled size 0.5,18
 set label 2 'below the camera: 8.53°' at 0,8.5308 offset 1,1 textcolor rgb blue
-set label 3 '6.95° as printed' at -29.5,7.25 textcolor rgb ink
+set label 3 '6.95° as printed' at 1.5,6.6 textcolor rgb ink
 plot 6.95 with lines lw 1.5 dt 2 lc rgb ink notitle, \
      'fig12.csv' using 'field_deg':'skew_at_500_mm_range_deg' with lines lw 3 lc rgb blue \
        title '500 mm along the camera''s ray', \

@@ -23,10 +23,10 @@ struct View {
   PaperFilling filling;
 };
 
-/// Points near the cup's middle plane: y and z in the world, and whether they lie inside the cup's circle.
+/// Points near the cup's middle plane: y and z in the world, and whether they count as inside.
 Table slice(const Image<CloudPoint>& cloud, const Rig& rig, const CupShape& cup) {
   Table table({"y_mm", "z_mm", "inside"});
-  const double radius = cup.inner_radius(cup.bottom()) - 0.002;
+  const double radius = cup.inner_radius(cup.bottom()) - InteriorSettings{}.margin_m;
   for (const CloudPoint& point : cloud.pixels()) {
     if (!(point.z > 0.0f)) continue;  // NaN: not measured
     const Eigen::Vector3d p = rig.world_from_camera * Eigen::Vector3d(point.x, point.y, point.z);
@@ -70,11 +70,16 @@ set label 3 'true surface {0:g} mm' at 447,{2} left textcolor rgb blue
 set arrow 5 from 446.5,{2} to 440.5,{0} lw 1.5 lc rgb blue head filled size 2,18 front
 )",
                     surface, view.filling.liquid == "water" ? "0xE3F1FA" : "0xF3E6D3", surface + 8.0);
-  text += fmt::format(R"(set label 4 "{0}\n{1:.1f} mm" at 327,{2} left textcolor rgb red front
-set arrow 6 from 352,{3} to 368,{1} lw 1.5 lc rgb red head filled size 2,18 front
-plot '{4}.csv' using 'y_mm':(column('inside') == 0 ? column('z_mm') : NaN) with points pt 7 ps 0.45 lc rgb 0x9A9A9A, \
-     '' using 'y_mm':(column('inside') == 1 ? column('z_mm') : NaN) with points pt 7 ps 0.7 lc rgb red)",
-                      view.what, measured_mm, measured_mm + 22.0, measured_mm + 14.0, view.name);
+  if (filled && view.filling.liquid == "water")
+    text += fmt::format(R"(set arrow 7 from 420,7.4 to 420,{0} heads filled size 1.6,18 lw 1.8 lc rgb ink front
+set label 5 '+{1:.1f} mm' at 422,11.5 left textcolor rgb ink front
+)",
+                        measured_mm - 0.8, measured_mm - 7.0);
+  text += fmt::format(R"(set label 4 '{0} {1:.1f} mm' at 363,{2} left textcolor rgb red front
+set arrow 6 from 395,{3} to 405,{4} lw 1.5 lc rgb red head filled size 2,18 front
+plot '{5}.csv' using 'y_mm':(column('inside') == 0 ? column('z_mm') : NaN) with points pt 7 ps 0.45 lc rgb 0x9A9A9A, \
+     '' using 'y_mm':(column('inside') == 1 ? column('z_mm') : NaN) with points pt 7 ps 0.8 lc rgb red)",
+                      view.what, measured_mm, measured_mm + 10.0, measured_mm + 7.5, measured_mm + 2.0, view.name);
   return text;
 }
 
