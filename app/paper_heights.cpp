@@ -1,5 +1,6 @@
 #include "app/paper_heights.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/cup_height.h"
@@ -13,10 +14,11 @@ namespace {
 
 constexpr int kSamplesPerPixel = 4;
 
-HeightCell measure_cell(const PaperFilling& filling, double distance_mm, int trials, std::uint64_t seed) {
+HeightCell measure_cell(const PaperFilling& filling, double distance_mm, CaptureMode mode, int trials,
+                        std::uint64_t seed) {
   const Setup setup = paper_setup(filling, distance_mm);
   const LaboratoryRig rig = paper_rig(setup);
-  Camera camera(setup, CaptureMode::photometric, kSamplesPerPixel, seed);
+  Camera camera(setup, mode, kSamplesPerPixel, seed);
   HeightCell cell;
   double sum = 0.0, squares = 0.0;
   for (int trial = 0; trial < trials; ++trial) {
@@ -42,7 +44,11 @@ PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet) {
   Progress progress("condition", kPaperFillings.size() * kPaperDistancesMm.size(), quiet);
   for (std::size_t f = 0; f < kPaperFillings.size(); ++f)
     for (std::size_t d = 0; d < kPaperDistancesMm.size(); ++d) {
-      heights.cells[f][d] = measure_cell(kPaperFillings[f], kPaperDistancesMm[d], trials, Rng(seed, f, d).bits());
+      const PaperFilling& filling = kPaperFillings[f];
+      heights.rows[f][d] =
+          measure_cell(filling, kPaperDistancesMm[d], CaptureMode::photometric, trials, Rng(seed, f, d).bits());
+      if (filling.liquid == "water")
+        heights.noise_free[f][d] = measure_cell(filling, kPaperDistancesMm[d], CaptureMode::geometric, 1, seed);
       progress.step();
     }
   return heights;

@@ -20,11 +20,20 @@ struct HeightCell {
   double sd_mm = 0.0;   ///< of the shots' mean heights
   double points = 0.0;  ///< inside the cup, on the average over all shots; those without any count as 0
   int seen = 0;         ///< shots in which something was seen inside
+
+  /// The matcher looks at windows of 9 × 9 pixels: a patch that is not clearly larger is measured together with the
+  /// walls around it.
+  bool enough() const { return points >= 2 * 9 * 9; }
 };
 
-/// cells[filling][distance]. Every cell is a new placement, with speckle of its own; its shots differ in their noise.
+/// One filling, over the distances.
+using HeightRow = std::array<HeightCell, kPaperDistancesMm.size()>;
+
+/// Rows in the order of kPaperFillings. Every cell is a new placement, with speckle of its own; its shots differ in
+/// their noise.
 struct PaperHeights {
-  std::array<std::array<HeightCell, kPaperDistancesMm.size()>, 7> cells;
+  std::array<HeightRow, kPaperFillings.size()> rows;
+  std::array<HeightRow, kPaperFillings.size()> noise_free;  ///< of water only: geometric captures, without matching
 };
 
 PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet);

@@ -19,32 +19,52 @@ constexpr std::array<std::size_t, 3> kWater{1, 2, 3}, kMilkTea{4, 5, 6};
 
 std::string mm(double value) { return fmt::format("{:.3f}", value + 0.0); }
 
-using Cells = std::array<HeightCell, kPaperDistancesMm.size()>;
+/// The cells that a statement over the distance may rest on.
+std::vector<HeightCell> well_seen(const HeightRow& row) {
+  std::vector<HeightCell> cells;
+  std::copy_if(row.begin(), row.begin() + kSeenDistances, std::back_inserter(cells),
+               [](const HeightCell& cell) { return cell.enough(); });
+  return cells;
+}
 
-std::pair<double, double> range_over_distance(const Cells& cells) {
-  const auto [low, high] =
-      std::minmax_element(cells.begin(), cells.begin() + kSeenDistances,
-                          [](const HeightCell& a, const HeightCell& b) { return a.mean_mm < b.mean_mm; });
+bool lower(const HeightCell& a, const HeightCell& b) { return a.mean_mm < b.mean_mm; }
+
+std::pair<double, double> range_over_distance(const HeightRow& row) {
+  const std::vector<HeightCell> cells = well_seen(row);
+  if (cells.empty()) return {0.0, 0.0};
+  const auto [low, high] = std::minmax_element(cells.begin(), cells.end(), lower);
   return {low->mean_mm, high->mean_mm};
 }
 
-std::string heights_text(const Cells& cells) {
+std::string heights_text(const HeightRow& row) {
   std::vector<std::string> texts;
-  for (std::size_t d = 0; d < kSeenDistances; ++d) texts.push_back(fmt::format("{:.1f}", cells[d].mean_mm));
-  return fmt::format("{}", fmt::join(texts, " → "));
+  for (const HeightCell& cell : well_seen(row)) texts.push_back(fmt::format("{:.1f}", cell.mean_mm));
+  return fmt::format("{} mm from 200 mm on", fmt::join(texts, " → "));
 }
 
 /// "yes" or "no", and the numbers.
 std::string verdict(bool holds, const std::string& numbers) { return (holds ? "yes: " : "no: ") + numbers; }
 
+/// What our assumed geometry leaves of the insides at 500 mm.
+std::string few_points_text(const PaperHeights& heights) {
+  std::vector<std::string> texts;
+  for (std::size_t f = 0; f < kPaperFillings.size(); ++f)
+    if (const HeightCell& cell = heights.rows[f][kSeenDistances - 1]; !cell.enough())
+      texts.push_back(fmt::format("{} ({:.0f})", kPaperFillings[f].label(), cell.points));
+  if (texts.empty()) return "measured";
+  return fmt::format(
+      "for {} the near wall leaves fewer than two matching windows of 81 points; these heights are mixed "
+      "with the walls and are left out of the statements above",
+      fmt::join(texts, ", "));
+}
+
 std::vector<Fact> facts_of(const PaperHeights& heights) {
-  const auto& cells = heights.cells;
+  const auto& cells = heights.rows;
   std::vector<Fact> facts;
   for (const std::size_t f : kWater) {
-    const bool rises = std::is_sorted(cells[f].begin(), cells[f].begin() + kSeenDistances,
-                                      [](const HeightCell& a, const HeightCell& b) { return a.mean_mm < b.mean_mm; });
-    facts.push_back({"The raised bottom rises with the distance, 200–500 mm, " + kPaperFillings[f].label(), "yes",
-                     verdict(rises, heights_text(cells[f]) + " mm")});
+    const std::vector<HeightCell> seen = well_seen(heights.rows[f]);
+    facts.push_back({"The raised bottom rises with the distance, " + kPaperFillings[f].label(), "yes",
+                     verdict(std::is_sorted(seen.begin(), seen.end(), lower), heights_text(heights.rows[f]))});
   }
   bool deeper = true;
   for (std::size_t d = 0; d < kSeenDistances; ++d)
@@ -65,6 +85,7 @@ std::vector<Fact> facts_of(const PaperHeights& heights) {
                      verdict(high - low < 1.0, fmt::format("{:.1f}–{:.1f} mm, surface at {:g} mm", low, high,
                                                            kBottomMm + kPaperFillings[f].fill_mm))});
   }
+  facts.push_back({"At 500 mm", "measured", few_points_text(heights)});
   std::vector<std::string> seen;
   for (std::size_t f = 0; f < cells.size(); ++f)
     if (cells[f].back().seen > 0)
@@ -84,14 +105,17 @@ Table bars_of(const PaperHeights& heights) {
     columns.push_back(fmt::format("sd {:g} mm", kPaperDistancesMm[d]));
   }
   columns.emplace_back("true_mm");
+  columns.emplace_back("few_500_mm");
   Table bars(columns);
   for (std::size_t f = 0; f < kPaperFillings.size(); ++f) {
     std::vector<std::string> cells{kPaperFillings[f].label()};
     for (std::size_t d = 0; d < kSeenDistances; ++d) {
-      cells.push_back(mm(heights.cells[f][d].mean_mm));
-      cells.push_back(mm(heights.cells[f][d].sd_mm));
+      cells.push_back(mm(heights.rows[f][d].mean_mm));
+      cells.push_back(mm(heights.rows[f][d].sd_mm));
     }
     cells.push_back(mm(kBottomMm + kPaperFillings[f].fill_mm));
+    const HeightCell& far = heights.rows[f][kSeenDistances - 1];
+    cells.push_back(far.enough() ? "" : mm(far.mean_mm + 1.0));
     bars.add(cells);
   }
   return bars;
@@ -130,7 +154,7 @@ Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& hei
       .table = Table({"liquid", "fill_mm", "distance_mm", "height_mm", "height_sd_mm", "points", "shots_seen"})};
   for (std::size_t f = 0; f < kPaperFillings.size(); ++f)
     for (std::size_t d = 0; d < kPaperDistancesMm.size(); ++d) {
-      const HeightCell& cell = heights.cells[f][d];
+      const HeightCell& cell = heights.rows[f][d];
       figure.table.add({kPaperFillings[f].liquid, fmt::format("{:g}", kPaperFillings[f].fill_mm),
                         fmt::format("{:g}", kPaperDistancesMm[d]), cell.seen > 0 ? mm(cell.mean_mm) : "",
                         cell.seen > 1 ? mm(cell.sd_mm) : "", fmt::format("{:.1f}", cell.points),
@@ -155,7 +179,8 @@ array colour[4] = [0xC6DFF0, sky, blue, 0x003E63]
 plot for [i=1:4] 'fig5_bars.csv' using (column(2*i)):(column(2*i+1)):xtic(1) lc rgb colour[i] \
        title sprintf('%d mm', 100*i+100), \
      '' using ($0-0.42):'true_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red \
-       title 'true surface (empty: bottom)')",
+       title 'true surface (empty: bottom)', \
+     '' using ($0+0.27):'few_500_mm' with points pt 2 ps 1 lw 2 lc rgb ink title 'few points left by the near wall')",
                    settings.trials));
   return figure;
 }
@@ -168,9 +193,9 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
                     "1–2 mm that the paper reports between theory and measurement.",
                 .facts = {},
                 .table = Table({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm", "simulated_mm",
-                                "simulated_sd_mm", "simulated_minus_exact_mm"})};
+                                "simulated_sd_mm", "simulated_minus_exact_mm", "points", "geometric_mm"})};
   Table curves({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm"});
-  double closed_worst = 0.0, index_worst = 0.0, measured_worst = 0.0;
+  double closed_worst = 0.0, index_worst = 0.0, measured_worst = 0.0, geometric_worst = 0.0;
   for (const std::size_t f : kWater) {
     const double fill = kPaperFillings[f].fill_mm;
     for (int distance = 100; distance <= 700; distance += 10) {
@@ -179,14 +204,19 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
     }
     for (std::size_t d = 0; d < kSeenDistances; ++d) {
       const Prediction p = predict(fill, kPaperDistancesMm[d]);
-      const HeightCell& cell = heights.cells[f][d];
+      const HeightCell& cell = heights.rows[f][d];
       const double measured = cell.mean_mm - kBottomMm;
       closed_worst = std::max(closed_worst, std::abs(p.eq7 - p.exact_printed_index));
       index_worst = std::max(index_worst, std::abs(p.exact_sensor_index - p.exact_printed_index));
-      if (cell.seen > 0) measured_worst = std::max(measured_worst, std::abs(measured - p.exact_sensor_index));
+      const HeightCell& noise_free = heights.noise_free[f][d];
+      if (noise_free.seen > 0)
+        geometric_worst = std::max(geometric_worst, std::abs(noise_free.mean_mm - kBottomMm - p.exact_sensor_index));
+      if (cell.enough()) measured_worst = std::max(measured_worst, std::abs(measured - p.exact_sensor_index));
       figure.table.add({mm(fill), mm(kPaperDistancesMm[d]), mm(p.eq7), mm(p.exact_printed_index),
                         mm(p.exact_sensor_index), cell.seen > 0 ? mm(measured) : "",
-                        cell.seen > 1 ? mm(cell.sd_mm) : "", cell.seen > 0 ? mm(measured - p.exact_sensor_index) : ""});
+                        cell.seen > 1 ? mm(cell.sd_mm) : "", cell.seen > 0 ? mm(measured - p.exact_sensor_index) : "",
+                        fmt::format("{:.1f}", cell.points),
+                        noise_free.seen > 0 ? mm(noise_free.mean_mm - kBottomMm) : ""});
     }
   }
   write_table(settings.folder / "fig14.csv", figure.table);
@@ -204,8 +234,12 @@ plot for [i=1:3] 'fig14_curves.csv' using 'distance_mm':(column('fill_mm') == 10
        with lines lw 3 lc rgb colour[i] title (i == 2 ? 'Eq. 7, n = 1.333' : ''), \
      for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('exact_n830nm_mm') : NaN) \
        with lines lw 2 dt 3 lc rgb ink title (i == 2 ? 'exact, n of water at 830 nm' : ''), \
-     for [i=1:3] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i ? column('simulated_mm') : NaN):'simulated_sd_mm' \
-       with yerrorbars pt 7 ps 1.8 lw 2 lc rgb colour[i] title (i == 2 ? 'simulated measurement, ±1σ' : ''))");
+     for [i=1:3] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && column('points') >= 162 ? column('simulated_mm') : NaN):'simulated_sd_mm' \
+       with yerrorbars pt 7 ps 1.9 lw 2 lc rgb colour[i] title (i == 2 ? 'simulated measurement, ±1σ' : ''), \
+     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i && column('points') < 162 ? column('simulated_mm') : NaN) \
+       with points pt 2 ps 1.3 lw 2 lc rgb colour[i] title (i == 2 ? 'the same, few points left by the near wall' : ''), \
+     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('geometric_mm') : NaN) \
+       with points pt 4 ps 2.4 lw 1.8 lc rgb ink title (i == 2 ? 'simulated without matching and noise' : ''))");
   figure.facts = {
       {"Largest difference of measurement and theory", "approximately 1–2 mm",
        fmt::format("{:.2f} mm (simulated against exact, n = {:.4f} at 830 nm)", measured_worst,
