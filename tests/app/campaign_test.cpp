@@ -1,0 +1,122 @@
+// What `fathom campaign` promises: a measurement directory, the same for the same spec and seed, that can be resumed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/files.h"
+#include "core/json.h"
+#include "core/table.h"
+#include "tests/app/run_fathom.h"
+#include "tests/core/temporary_folder.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Geometric captures: a tenth of a second each.
+const Json kSpec = Json::parse(R"({
+  "sensor": {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 400, 0]},
+  "cup": {"shape": "paper_cup"},
+  "liquids": {"water": "water"},
+  "fillings": [{"liquid": "empty"}, {"liquid": "water", "fill_mm": 30}],
+  "distance_mm": [300, 400], "trials": 2, "mode": "geometric"})");
+
+struct CampaignCommand : testing::Test {
+  TemporaryFolder folder;
+
+  ProgramRun campaign(const Json& spec, const std::string& name, const std::string& options = "") {
+    write_json(folder / "spec.json", spec);
+    return run_fathom("campaign " + (folder / "spec.json").string() + " -o " + (folder / name).string() + " " +
+                      options);
+  }
+  std::string error_of(const Json& spec) {
+    const ProgramRun run = campaign(spec, "bad");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+    EXPECT_FALSE(fs::exists(folder / "bad"));
+    const std::string file = "error: " + (folder / "spec.json").string() + ": ";
+    return run.err.starts_with(file) ? run.err.substr(file.size()) : run.err;
+  }
+};
+
+TEST_F(CampaignCommand, WritesWhatMeasureReads) {
+  ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
+  ASSERT_EQ(run_fathom("measure " + (folder / "out").string()).exit_code, 0);
+  const Table heights = read_table(folder / "out" / "heights.csv");
+  ASSERT_EQ(heights.rows(), 8u);
+  // The bottom at 7 mm, to the steps of the depth (1 mm) over some hundred points; 30 mm of water raise it by 8.4 mm at
+  // 300 mm and 9.2 mm at 400 mm, by 0.3 mm more or less for a filling that is off by its sigma of 0.5 mm (2 sigma
+  // here).
+  const double expected[] = {7.0, 7.0, 7.0, 7.0, 15.4, 15.4, 16.2, 16.2};
+  for (std::size_t row = 0; row < heights.rows(); ++row)
+    EXPECT_NEAR(heights.number(row, "height_mm"), expected[row], row < 4 ? 0.3 : 0.8) << row;
+}
+
+TEST_F(CampaignCommand, EqualSeedsGiveEqualFilesOthersDoNot) {
+  const std::string truth = "--truth " + (folder / "truth_").string();
+  ASSERT_EQ(campaign(kSpec, "a", truth + "a.json").exit_code, 0);
+  ASSERT_EQ(campaign(kSpec, "b", truth + "b.json --threads 1").exit_code, 0);
+  ASSERT_EQ(campaign(kSpec, "c", truth + "c.json --seed 2").exit_code, 0);
+  for (const char* file : {"rig.json", "frames.csv", "clouds/000000.pcd", "clouds/000007.pcd"})
+    EXPECT_EQ(read_text(folder / "a" / file), read_text(folder / "b" / file)) << file;
+  EXPECT_EQ(read_text(folder / "truth_a.json"), read_text(folder / "truth_b.json"));
+  EXPECT_NE(read_text(folder / "truth_a.json"), read_text(folder / "truth_c.json"));
+}
+
+TEST_F(CampaignCommand, TheTruthStaysOutOfTheFolder) {
+  ASSERT_EQ(campaign(kSpec, "out", "--truth " + (folder / "truth.json").string()).exit_code, 0);
+  const Json truth = read_json(folder / "truth.json");
+  ASSERT_EQ(truth["placements"].size(), 4u);
+  const double fill_mm = truth["placements"][2]["fill_mm"];
+  EXPECT_NE(fill_mm, 30.0);
+  EXPECT_LT(std::abs(fill_mm - 30.0), 2.5);               // 5 sigma
+  EXPECT_EQ(fill_mm, truth["placements"][3]["fill_mm"]);  // one pour
+  EXPECT_EQ(truth["placements"][0]["fill_mm"], 0.0);
+  EXPECT_EQ(read_table(folder / "out" / "frames.csv").text(4, "fill_mm"), "30");
+}
+
+TEST_F(CampaignCommand, ARunThatWasCutShortGoesOn) {
+  ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
+  const std::string cloud = read_text(folder / "out" / "clouds/000003.pcd");
+  fs::remove(folder / "out" / "clouds/000003.pcd");
+  fs::remove(folder / "out" / "frames.csv");
+  const ProgramRun again = campaign(kSpec, "out", "--json");
+  ASSERT_EQ(again.exit_code, 0);
+  EXPECT_EQ(Json::parse(again.out)["frames_shot_now"]["value"], 1.0);
+  EXPECT_EQ(read_text(folder / "out" / "clouds/000003.pcd"), cloud);
+  EXPECT_TRUE(fs::exists(folder / "out" / "frames.csv"));
+}
+
+TEST_F(CampaignCommand, AFolderHoldsOneCampaign) {
+  ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
+  Json other = kSpec;
+  other["trials"] = 3;
+  const ProgramRun run = campaign(other, "out");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.err, "error: " + (folder / "out" / "campaign.json").string() +
+                         ": is of another spec, seed or program version; choose another folder\n");
+  EXPECT_FALSE(fs::exists(folder / "out" / "clouds/000008.pcd"));
+}
+
+TEST_F(CampaignCommand, MistakesNameFileAndKey) {
+  const auto with = [](const std::string& pointer, const Json& value) {
+    Json spec = kSpec;
+    spec[Json::json_pointer(pointer)] = value;
+    return spec;
+  };
+  EXPECT_EQ(error_of(with("/trails", 3)).rfind("/trails: ", 0), 0u);
+  EXPECT_EQ(error_of(with("/trials", 0)).rfind("/trials: must be ", 0), 0u);
+  EXPECT_EQ(error_of(with("/fillings/1/liquid", "wtaer")),
+            "/fillings/1/liquid: unknown liquid 'wtaer', choose from empty, water\n");
+  EXPECT_EQ(error_of(with("/fillings/1/fill_mm", 81)),
+            "/fillings/1/fill_mm: must be at most 80, the depth of the cup\n");
+  EXPECT_EQ(error_of(with("/fillings/0/fill_mm", 5)), "/fillings/0/fill_mm: cannot stand beside \"empty\"\n");
+  EXPECT_EQ(error_of(with("/distance_mm", Json::array())), "/distance_mm: must hold at least one length\n");
+  EXPECT_EQ(error_of(with("/sensor/aim_mm", {50, 400, 0})),
+            "/sensor/aim_mm: must lie straight ahead (x = 0, y ≥ 0): a measurement's rig knows no yaw\n");
+  EXPECT_EQ(error_of(with("/liquids/empty", "water")), "/liquids/empty: is a reserved name and no liquid\n");
+}
+
+}  // namespace
+}  // namespace fathom
