@@ -14,6 +14,8 @@ inline const std::array<PaperFilling, 7> kPaperFillings{
     {{"empty", 0}, {"water", 10}, {"water", 20}, {"water", 30}, {"milk_tea", 10}, {"milk_tea", 20}, {"milk_tea", 30}}};
 inline constexpr std::array kPaperDistancesMm{200.0, 300.0, 400.0, 500.0, 600.0};
 
+inline constexpr std::size_t kSeenDistances = 4;  ///< the fifth, 600 mm, is the one that the paper leaves out
+
 /// One bar of Fig. 5, above the desk.
 struct HeightCell {
   double mean_mm = 0.0;

@@ -17,6 +17,7 @@ struct PaperFilling {
 
 inline constexpr double kPaperIndex = 1.333;     ///< "the relative refractive index 1.333 of water to air"
 inline constexpr double kPaperHeightMm = 650.0;  ///< of the sensor above the desk: an assumption
+inline constexpr double kPaperBottomMm = 7.0;    ///< of the cup, above the desk: an assumption
 
 /// The cup on the sensor's middle line, the sensor aimed at (0, 400 mm, 0).
 Setup paper_setup(const PaperFilling& filling, double distance_mm);
