@@ -89,8 +89,10 @@ plot for [i=1:3] 'fig14_curves.csv' using 'distance_mm':(column('fill_mm') == 10
        with lines lw 3 lc rgb colour[i] title (i == 2 ? 'Eq. 7, n = 1.333' : ''), \
      for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('exact_n830nm_mm') : NaN) \
        with lines lw 2 dt 3 lc rgb ink title (i == 2 ? 'exact, n of water at 830 nm' : ''), \
-     for [i=1:3] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && column('points') >= 162 ? column('simulated_mm') : NaN):'simulated_sd_mm' \
-       with yerrorbars pt 7 ps 1.9 lw 2 lc rgb colour[i] title (i == 2 ? 'simulated measurement, ±1σ' : ''), \
+     for [i=1:3] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && column('points') >= 162 ? column('simulated_mm') : NaN) \
+       with points pt 7 ps 1.9 lc rgb colour[i] title (i == 2 ? 'simulated measurement, ±1σ' : ''), \
+     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i && column('points') >= 162 ? column('simulated_mm') : NaN):'simulated_sd_mm' \
+       with yerrorbars pt 0 lw 2 lc rgb colour[i] notitle, \
      for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i && column('points') < 162 ? column('simulated_mm') : NaN) \
        with points pt 2 ps 1.3 lw 2 lc rgb colour[i] title (i == 2 ? 'the same, few points left by the near wall' : ''), \
      for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('geometric_mm') : NaN) \
