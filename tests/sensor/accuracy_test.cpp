@@ -93,12 +93,12 @@ struct Condition {
 // bottom into view. The device's law itself moves the mean of the *exact* disparities by −0.26 … +0.16 mm (a step is
 // 0.7 to 1.5 mm, and a level bottom meets few codes), so no matcher could come within 0.15 mm of the theory there. What
 // can be asked is that measured and exact disparities agree after the same law. At 400 mm 245 to 378 pixels are left:
-// one pixel in 20 on the other side of a code's edge, by its matching error, is worth 0.05 mm.
+// one pixel in 20 on the other side of a code's edge, by its matching error, is worth 0.05 mm; 0.15 mm is the bar.
 constexpr Condition kConditions[] = {
-    {0, 200, 0.05, 0.05},  {0, 300, 0.05, 0.05},  {0, 400, 0.10, 0.20},   //
-    {10, 200, 0.05, 0.05}, {10, 300, 0.05, 0.05}, {10, 400, 0.05, 0.10},  //
-    {20, 200, 0.05, 0.05}, {20, 300, 0.05, 0.05}, {20, 400, 0.05, 0.10},  //
-    {30, 200, 0.05, 0.05}, {30, 300, 0.05, 0.05}, {30, 400, 0.05, 0.10},
+    {0, 200, 0.05, 0.05},  {0, 300, 0.05, 0.05},  {0, 400, 0.10, 0.15},   //
+    {10, 200, 0.05, 0.05}, {10, 300, 0.05, 0.05}, {10, 400, 0.05, 0.15},  //
+    {20, 200, 0.05, 0.05}, {20, 300, 0.05, 0.05}, {20, 400, 0.05, 0.15},  //
+    {30, 200, 0.05, 0.05}, {30, 300, 0.05, 0.05}, {30, 400, 0.05, 0.15},
 };
 
 class BottomHeight : public testing::TestWithParam<Condition> {};
