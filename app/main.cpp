@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "core/memory.h"
 
 namespace {
 
@@ -26,6 +27,7 @@ void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fathom::keep_freed_pages();
   CLI::App app("Fathom: simulates a structured-light depth camera that looks at cups with liquids in them", "fathom");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string(FATHOM_VERSION));

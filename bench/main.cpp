@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bench/groups.h"
+#include "core/memory.h"
 
 namespace {
 
@@ -33,6 +34,7 @@ int fail_with_usage() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fathom::keep_freed_pages();
   const std::string_view asked = argc > 1 ? argv[1] : "";
   for (const Group& group : kGroups) {
     if (group.name != asked) continue;
