@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -27,20 +29,25 @@ struct CaptureOptions {
 
 /// What a person wants to know at once.
 std::vector<Row> summary(const Frame& frame, const Image<TruePixel>& truth) {
-  double expected = 0, valid = 0, squared = 0, both = 0;
+  constexpr double kOutlier = 0.010;  // [m]: matched to another surface
+  double lit = 0, valid = 0, outliers = 0;
+  std::vector<double> errors;  // [m], where both depths exist
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const double depth = frame.depth.pixels()[i];
     const std::optional<double>& apparent = truth.pixels()[i].apparent_depth;
     valid += depth > 0.0;
-    if (!apparent) continue;
-    ++expected;
-    if (depth <= 0.0) continue;
-    ++both;
-    squared += (depth - *apparent) * (depth - *apparent);
+    lit += apparent.has_value();
+    if (!apparent || depth <= 0.0) continue;
+    errors.push_back(std::fabs(depth - *apparent));
+    outliers += errors.back() > kOutlier;
   }
-  std::vector<Row> rows{{"pixels_lit", expected, "px"}, {"pixels_valid", valid, "px"}};
-  if (expected > 0) rows.push_back({"valid_of_lit", both / expected, ""});
-  if (both > 0) rows.push_back({"rms_depth_error", mm_from_metres(std::sqrt(squared / both)), "mm"});
+  const double both = static_cast<double>(errors.size());
+  std::vector<Row> rows{{"pixels_lit", lit, "px"}, {"pixels_valid", valid, "px"}};
+  if (lit > 0) rows.push_back({"valid_of_lit", both / lit, ""});
+  if (errors.empty()) return rows;
+  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+  rows.push_back({"median_depth_error", mm_from_metres(errors[errors.size() / 2]), "mm"});
+  rows.push_back({"beyond_10_mm", outliers / both, ""});
   return rows;
 }
 
@@ -48,8 +55,9 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
   const Setup setup = read_setup(options.scene);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
-  make_directory(common.output);
   Camera camera(setup, mode, options.spp, common.seed);
+  make_directory(common.output);
+  remove_capture(common.output);
   write_truth(common.output, camera.truth());
   Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
@@ -58,14 +66,14 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
         options.frames == 1 ? common.output : common.output / fmt::format("frame_{:04}", i);
     make_directory(folder);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
-    write_frame(folder, frame, camera.truth());
+    write_frame(folder, frame, camera.truth(), setup.rig.sensor.noise.bits);
     if (i == 0) rows = summary(frame, camera.truth());
     progress.step();
   }
   Json record = run_record(setup, camera);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
-  record["spp"] = options.spp;
+  record["spp"] = camera.samples_per_pixel();
   record["frames"] = options.frames;
   record["seed"] = common.seed;
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

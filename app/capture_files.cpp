@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/preview.h"
+#include "core/files.h"
 #include "core/image_file.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -11,11 +12,12 @@
 namespace fathom {
 namespace {
 
-/// 10-bit intensities as 8-bit grey.
-Image<std::uint8_t> grey_from_dn(const Image<float>& ir) {
+/// Intensities as 8-bit grey; full scale is the detector's, 10 bits where it has none.
+Image<std::uint8_t> grey_from_dn(const Image<float>& ir, int bits) {
+  const float scale = 255.0f / static_cast<float>((1 << (bits > 0 ? bits : 10)) - 1);
   Image<std::uint8_t> grey(ir.width(), ir.height());
   for (std::size_t i = 0; i < ir.size(); ++i)
-    grey.pixels()[i] = static_cast<std::uint8_t>(std::clamp(ir.pixels()[i] / 4.0f, 0.0f, 255.0f));
+    grey.pixels()[i] = static_cast<std::uint8_t>(std::lround(std::clamp(ir.pixels()[i] * scale, 0.0f, 255.0f)));
   return grey;
 }
 
@@ -37,10 +39,25 @@ ExrChannel channel(const char* name, const Image<TruePixel>& truth, Value value)
 
 }  // namespace
 
-void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth) {
+void remove_capture(const std::filesystem::path& folder) {
+  remove_leftovers(folder);
+  for (const char* name : {"run.json", "ir.exr", "ir.png", "disparity.exr", "depth.exr", "depth.png", "cloud.pcd",
+                           "preview.png", "truth.exr"})
+    std::filesystem::remove(folder / name);
+  std::vector<std::filesystem::path> frames;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_directory() && entry.path().filename().string().starts_with("frame_")) frames.push_back(entry.path());
+  for (const std::filesystem::path& frame : frames) {
+    remove_capture(frame);
+    std::error_code not_empty;  // somebody else's files stay
+    std::filesystem::remove(frame, not_empty);
+  }
+}
+
+void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth, int ir_bits) {
   if (!frame.ir.empty()) {
     write_exr(folder / "ir.exr", {{"Y", frame.ir}});
-    write_png(folder / "ir.png", grey_from_dn(frame.ir));
+    write_png(folder / "ir.png", grey_from_dn(frame.ir, ir_bits));
   }
   write_exr(folder / "disparity.exr", {{"Y", frame.disparity_px}});
   write_exr(folder / "depth.exr", {{"Z", frame.depth}});
@@ -62,14 +79,15 @@ void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& tr
 Json run_record(const Setup& setup, const Camera& camera) {
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
   Json media = Json::object();
-  for (const Cup& cup : setup.scene.cups) {
+  for (std::size_t i = 0; i < setup.scene.cups.size(); ++i) {
+    const Cup& cup = setup.scene.cups[i];
     if (!cup.filling) continue;
     const Medium& medium = cup.filling->medium;
-    media[medium.name] = {{"index", medium.n(wavelength_nm)},
-                          {"absorption_per_mm", medium.absorption * kMetresPerMm},
-                          {"scattering_per_mm", medium.scattering * kMetresPerMm},
-                          {"anisotropy", medium.anisotropy},
-                          {"source", medium.source}};
+    media["cup " + std::to_string(i) + " " + medium.name] = {{"index", medium.n(wavelength_nm)},
+                                                             {"absorption_per_mm", medium.absorption * kMetresPerMm},
+                                                             {"scattering_per_mm", medium.scattering * kMetresPerMm},
+                                                             {"anisotropy", medium.anisotropy},
+                                                             {"source", medium.source}};
   }
   Json objects = Json::object();
   const std::vector<std::string>& names = camera.geometry().objects;

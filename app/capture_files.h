@@ -8,9 +8,12 @@
 
 namespace fathom {
 
+/// Removes what an earlier capture left in the folder, run.json first: while it is there the folder counts as complete.
+void remove_capture(const std::filesystem::path& folder);
+
 /// Writes one frame: ir.exr and ir.png (photometric mode only), disparity.exr, depth.exr, depth.png, cloud.pcd and
-/// preview.png, a picture for people.
-void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth);
+/// preview.png, a picture for people. `ir_bits` is the full scale of ir.png; 0 = 10.
+void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth, int ir_bits);
 
 /// truth.exr: position.X/Y/Z, apparent.Z, object, path.
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth);

@@ -34,7 +34,7 @@ inline constexpr std::array kCommands{
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
             define_campaign},
     Command{"measure", "Fills the height columns of a measurement directory: writes DIR/heights.csv",
-            "  fathom measure campaign", define_measure},
+            "  fathom measure out/paper", define_measure},
     Command{
         "reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
         "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce all --trials 10 -o out/paper_figures",

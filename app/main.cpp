@@ -4,11 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <thread>
 
 #include "app/commands.h"
+#include "core/error.h"
 #include "core/memory.h"
 
 namespace {
@@ -16,9 +19,20 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
+/// Messages quote what files hold; control characters must not break the line.
+std::string on_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  return text;
+}
+
 void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
   app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR");
-  app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
+  app.add_option("--seed", common.seed, "Seed of everything random")
+      ->check([](const std::string& text) {
+        return text.starts_with('-') ? std::string("must be at least 0") : std::string();
+      })
+      ->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
   app.add_flag("--json", common.json, "Results as JSON on stdout");
@@ -28,6 +42,7 @@ void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
 
 int main(int argc, char** argv) {
   fathom::keep_freed_pages();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of its writer, not the end
   CLI::App app("Fathom: simulates a structured-light depth camera that looks at cups with liquids in them", "fathom");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string(FATHOM_VERSION));
@@ -50,14 +65,15 @@ int main(int argc, char** argv) {
         common.threads > 0 ? static_cast<unsigned>(common.threads) : std::max(1u, std::thread::hardware_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     run();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw fathom::Error("stdout", "cannot be written");
     return 0;
   } catch (const fathom::UsageError& problem) {
-    fmt::print(stderr, "{}\nRun with --help for more information.\n", problem.what());
+    fmt::print(stderr, "error: {}\nRun with --help for more information.\n", problem.what());
     return kBadUsage;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n");
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
+    fmt::print(stderr, "error: {}\n", on_one_line(problem.what()));
   }
   return kFailed;
 }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "core/error.h"
 
@@ -31,7 +32,8 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) throw Error(path.string(), "cannot be written: its folder does not exist");
   if (fs::is_directory(path)) throw Error(path.string(), "cannot be written: a folder of that name exists");
-  // The extension stays last: some writers choose their format by it.
+  // The extension stays last: some writers choose their format by it. What a killed run left is overwritten by the
+  // next.
   fs::path beside = folder / fmt::format(".{}.{}.part", path.stem().string(), ::getpid());
   beside += path.extension();
   try {
@@ -47,6 +49,15 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     fs::remove(beside, ignored);
     throw Error(path.string(), std::string("cannot be written: ") + problem.what());
   }
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    if (stem.starts_with('.') && stem.ends_with(".part")) leftovers.push_back(entry.path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove(leftover);
 }
 
 void write_text(const fs::path& path, std::string_view text) {

@@ -14,6 +14,9 @@ namespace fathom {
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& beside)>& write);
 
+/// Removes the temporary files that a killed write_atomically() left in a folder.
+void remove_leftovers(const std::filesystem::path& folder);
+
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 /// The whole file. Throws Error when it is missing, a directory or unreadable.

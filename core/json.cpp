@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -79,11 +80,6 @@ std::string JsonReader::text() const {
   return value_->get<std::string>();
 }
 
-bool JsonReader::boolean() const {
-  if (!value_->is_boolean()) fail(fmt::format("must be true or false, got {}", shown(*value_)));
-  return value_->get<bool>();
-}
-
 int JsonReader::integer(int low, int high) const {
   const bool whole =
       value_->is_number_integer() && (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= 1u << 31);
@@ -119,8 +115,18 @@ std::size_t JsonReader::choice(std::span<const std::string> choices, std::string
 
 Json read_json(const std::filesystem::path& path) {
   const std::string text = read_text(path);
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto check_event = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    constexpr int kDeepest = 100;  // taking a value apart again is recursive
+    if (depth > kDeepest) throw Error(path.string(), fmt::format("is nested more than {} deep", kDeepest));
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+      throw Error(path.string(), fmt::format("has the key '{}' twice in one object", parsed.get<std::string>()));
+    return true;
+  };
   try {
-    return Json::parse(text);
+    return Json::parse(text, check_event);
   } catch (const Json::parse_error& problem) {
     const auto [line, column] = line_and_column(text, problem.byte);
     throw Error(path.string(), fmt::format("line {}, column {}", line, column), "is not valid JSON");

@@ -47,7 +47,6 @@ class JsonReader {
 
   double number(Range range = {}) const;
   std::string text() const;
-  bool boolean() const;
   int integer(int low, int high) const;
   std::vector<double> numbers(Range range = {}) const;
   Eigen::Vector2d vector2() const;
@@ -62,7 +61,6 @@ class JsonReader {
   std::string text_or(std::string_view key, std::string otherwise) const {
     return has(key) ? at(key).text() : std::move(otherwise);
   }
-  bool boolean_or(std::string_view key, bool otherwise) const { return has(key) ? at(key).boolean() : otherwise; }
   int integer_or(std::string_view key, int otherwise, int low, int high) const {
     return has(key) ? at(key).integer(low, high) : otherwise;
   }

@@ -1,6 +1,5 @@
 #include "sim/optics/flat_refraction.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "sim/optics/flat_refraction.h"
 #include "sim/optics/fresnel.h"

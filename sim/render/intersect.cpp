@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <limits>
 #include <stdexcept>
 #include <vector>
 

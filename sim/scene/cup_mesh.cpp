@@ -33,7 +33,7 @@ Mesh handle_mesh(const CupShape& shape) {
   constexpr int kAlong = 24, kAround = 12;
   const Handle& handle = *shape.handle;
   const double middle = 0.5 * (handle.low + handle.high), half = 0.5 * (handle.high - handle.low);
-  const double wall = 0.5 * (shape.inner_radius(middle) + shape.outer.back().x());
+  const double wall = 0.5 * (shape.inner_radius(middle) + shape.outer_radius(middle));
   Mesh mesh;
   for (int i = 0; i <= kAlong; ++i) {
     const double t = std::numbers::pi * (static_cast<double>(i) / kAlong - 0.5);
@@ -68,8 +68,8 @@ Mesh cup_mesh(const CupShape& shape) {
 }
 
 Mesh liquid_disc(const CupShape& shape, double height) {
-  const double wall = shape.outer.back().x() - shape.inner.back().x();
-  return revolve({{0.0, height}, {shape.inner_radius(height) + 0.5 * wall, height}}, false);
+  const double inside_wall = 0.5 * (shape.inner_radius(height) + shape.outer_radius(height));
+  return revolve({{0.0, height}, {inside_wall, height}}, false);
 }
 
 }  // namespace fathom

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 #include <map>
 

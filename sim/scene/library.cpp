@@ -10,7 +10,8 @@ namespace fathom {
 std::vector<std::string> library_names(std::string_view library) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(data_directory() / library))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".json" && !entry.path().filename().string().starts_with('.'))
+      names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

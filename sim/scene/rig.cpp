@@ -40,15 +40,21 @@ NoiseModel noise_from_json(const JsonReader& json) {
 void read_pattern(const JsonReader& json, PatternModel& pattern) {
   json.allow_only({"tile_columns", "tile_rows", "tiles_across", "tiles_down", "step_px", "dots_per_tile",
                    "dot_sigma_ir_px", "seed"});
-  pattern.tile_columns = json.integer_or("tile_columns", pattern.tile_columns, 16, 4096);
-  pattern.tile_rows = json.integer_or("tile_rows", pattern.tile_rows, 16, 4096);
+  pattern.tile_columns = json.integer_or("tile_columns", pattern.tile_columns, 16, 512);
+  pattern.tile_rows = json.integer_or("tile_rows", pattern.tile_rows, 16, 512);
   pattern.tiles_across = json.integer_or("tiles_across", pattern.tiles_across, 1, 64);
   pattern.tiles_down = json.integer_or("tiles_down", pattern.tiles_down, 1, 64);
   pattern.step_px = json.number_or("step_px", pattern.step_px, {0.25, 16.0});
   const int positions = pattern.tile_columns * pattern.tile_rows;
-  // Dots keep a distance of 2 positions; random placement cannot fill more than about 0.18 of the grid.
-  pattern.dots_per_tile = json.integer_or("dots_per_tile", pattern.dots_per_tile, 1, positions * 15 / 100);
+  // Dots keep a distance of 2 positions, so random placement fills at most about 0.18 of the grid; below 0.09 windows
+  // hold too few dots to be told apart.
+  pattern.dots_per_tile =
+      json.integer_or("dots_per_tile", pattern.dots_per_tile, positions * 9 / 100, positions * 15 / 100);
   pattern.dot_sigma_ir_px = json.number_or("dot_sigma_ir_px", pattern.dot_sigma_ir_px, {0.3, 2.0});
+  // A dot is drawn from the positions at most 1 to 2 steps away; a wider one would be cut where it is still bright.
+  const double widest_ir_px = 1.2 * pattern.step_px;
+  if (pattern.dot_sigma_ir_px > widest_ir_px)
+    json.fail_at("dot_sigma_ir_px", fmt::format("must be at most 1.2 step_px, here {:g}", widest_ir_px));
   pattern.seed = static_cast<std::uint64_t>(json.integer_or("seed", static_cast<int>(pattern.seed), 0, 1 << 30));
 }
 
@@ -166,6 +172,7 @@ Rig rig_from_json(const JsonReader& json) {
                    "radiant_dn_mm2", "noise", "quantization", "pattern", "matcher"});
   Rig rig;
   rig.sensor.noise = kNoisePresets[1].second;
+  rig.sensor.name.clear();  // a full description has no model's name
   if (json.has("model")) {
     const std::string name = json.text("model");
     const std::filesystem::path file =
@@ -186,7 +193,9 @@ Rig rig_from_json(const JsonReader& json) {
 Json json_from_rig(const Rig& rig) {
   const SensorModel& s = rig.sensor;
   const Eigen::Vector3d midpoint = 0.5 * (rig.camera_in_world() + rig.projector_in_world());
-  Json json{{"model", s.name}, {"height_mm", mm_from_metres(midpoint.z())}};
+  Json json = Json::object();
+  if (!s.name.empty()) json["model"] = s.name;
+  json["height_mm"] = mm_from_metres(midpoint.z());
   add_direction(rig.world_from_camera.linear(), midpoint, json);
   json.update({
       {"baseline_mm", mm_from_metres(s.baseline)},

@@ -38,7 +38,7 @@ struct MatcherModel {
 };
 
 struct SensorModel {
-  std::string name = "xtion_pro_live";
+  std::string name = "xtion_pro_live";  ///< of the model; empty for a full description
   double baseline = 0.075;
   double wavelength_nm = 830.0;
   int ir_width = 1280, ir_height = 1024;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/units.h"
 #include "sim/scene/library.h"
@@ -46,10 +47,21 @@ std::vector<Eigen::Vector2d> profile_from_json(const JsonReader& json) {
   return profile;
 }
 
+/// Radius of a profile at a height, by linear interpolation.
+double radius_at(const std::vector<Eigen::Vector2d>& profile, double height) {
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const Eigen::Vector2d &below = profile[i - 1], &above = profile[i];
+    if (height > above.y() || above.y() == below.y()) continue;
+    const double t = (height - below.y()) / (above.y() - below.y());
+    return below.x() + std::clamp(t, 0.0, 1.0) * (above.x() - below.x());
+  }
+  return profile.back().x();
+}
+
 /// Straight walls: the paper's cup and every "height, radii, bottom" description.
 void set_cylinder(const JsonReader& json, CupShape& shape) {
   const double height = metres_from_mm(json.number("height_mm", kPositive));
-  const double bottom = metres_from_mm(json.number("bottom_mm", kNonNegative));
+  const double bottom = metres_from_mm(json.number("bottom_mm", kPositive));
   const double inner = metres_from_mm(json.number("inner_radius_mm", kPositive));
   const double outer = metres_from_mm(json.number("outer_radius_mm", kPositive));
   if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
@@ -77,6 +89,13 @@ CupShape shape_from_object(const JsonReader& json) {
   if (shape.outer.front().y() != 0.0) json.fail_at("outer_profile_mm", "must start at height 0, on the desk");
   if (shape.inner.back().y() != shape.outer.back().y())
     json.fail_at("inner_profile_mm", "must end at the outer rim's height");
+  if (shape.bottom() <= 0.0) json.fail_at("inner_profile_mm", "must start above the desk, at the bottom's thickness");
+  for (const auto* profile : {&shape.inner, &shape.outer})
+    for (const Eigen::Vector2d& point : *profile)
+      if (point.y() >= shape.bottom() && shape.inner_radius(point.y()) >= shape.outer_radius(point.y()))
+        json.fail_at("inner_profile_mm",
+                     fmt::format("must stay inside outer_profile_mm, but meets it {:g} mm above the desk",
+                                 mm_from_metres(point.y())));
   if (shape.inner.back().x() >= shape.outer.back().x())
     json.fail_at("inner_profile_mm", "must end inside the outer rim");
   return shape;
@@ -130,22 +149,28 @@ void set_index(const JsonReader& json, Medium& medium) {
   if (law.a.size() != law.b_um2.size() || law.a.empty())
     index.fail_at("sellmeier_b_um2", "must hold as many numbers as sellmeier_a, at least one");
   const Eigen::Vector2d range = index.at("range_nm").vector2();
+  if (range[0] <= 0.0 || range[1] <= range[0])
+    index.fail_at("range_nm", "must be two wavelengths above 0, the lower first");
+  for (const double b_um2 : law.b_um2) {
+    const double resonance_nm = b_um2 > 0.0 ? 1e3 * std::sqrt(b_um2) : 0.0;
+    if (resonance_nm >= range[0] && resonance_nm <= range[1])
+      index.fail_at("sellmeier_b_um2", fmt::format("has a resonance at {:g} nm, inside range_nm", resonance_nm));
+  }
   medium.index = std::move(law);
   medium.wavelength_min_nm = range[0];
   medium.wavelength_max_nm = range[1];
+  for (const double wavelength_nm : range) {
+    const double n = medium.n(wavelength_nm);
+    if (!(n >= kIndex.low && n <= kIndex.high))
+      index.fail_at("sellmeier_a",
+                    fmt::format("gives the index {:g} at {:g} nm, must be from 1 to 4", n, wavelength_nm));
+  }
 }
 
 }  // namespace
 
-double CupShape::inner_radius(double height_above_desk) const {
-  for (std::size_t i = 1; i < inner.size(); ++i) {
-    const Eigen::Vector2d &below = inner[i - 1], &above = inner[i];
-    if (height_above_desk > above.y() || above.y() == below.y()) continue;
-    const double t = (height_above_desk - below.y()) / (above.y() - below.y());
-    return below.x() + std::clamp(t, 0.0, 1.0) * (above.x() - below.x());
-  }
-  return inner.back().x();
-}
+double CupShape::inner_radius(double height_above_desk) const { return radius_at(inner, height_above_desk); }
+double CupShape::outer_radius(double height_above_desk) const { return radius_at(outer, height_above_desk); }
 
 CupShape cup_shape_from_json(const JsonReader& json) {
   if (!json.value().is_string()) return shape_from_object(json);

@@ -39,8 +39,9 @@ struct CupShape {
 
   double height() const { return outer.back().y(); }
   double bottom() const { return inner.front().y(); }
-  /// Inner radius at a height above the desk, by linear interpolation of the profile.
+  /// Radii at a height above the desk [m], by linear interpolation of the profiles.
   double inner_radius(double height_above_desk) const;
+  double outer_radius(double height_above_desk) const;
 };
 
 struct Filling {

@@ -31,15 +31,15 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   statistics_.camera_rays = truth_.size();
   if (mode == CaptureMode::geometric) return;
 
-  const int samples_across = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
+  samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale());
   const int margin = reference_margin(sensor.matcher);
   reference_ = timed(statistics_.reference_s, [&] {
-    return memorise(sensor, reference_image(sensor, pattern, margin, samples_across), margin);
+    return memorise(sensor, reference_image(sensor, pattern, margin, samples_across_), margin);
   });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
-  radiance_ = timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across); });
-  statistics_.camera_rays += radiance_.size() * samples_across * samples_across;
+  radiance_ = timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across_); });
+  statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
 }
 
 Frame Camera::shoot(std::uint64_t frame) {

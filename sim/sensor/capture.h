@@ -1,9 +1,7 @@
-// One shot of the simulated sensor, in ten lines.
+// One shot of the simulated sensor: scene, image, match, depth, cloud.
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "core/cloud_file.h"
 #include "core/image.h"
@@ -41,6 +39,8 @@ class Camera {
 
   const Geometry& geometry() const { return geometry_; }
   const Image<TruePixel>& truth() const { return truth_; }
+  /// Samples per infrared pixel after rounding up to a square grid; 0 in geometric mode.
+  int samples_per_pixel() const { return samples_across_ * samples_across_; }
   const CaptureStatistics& statistics() const { return statistics_; }
 
  private:
@@ -50,6 +50,7 @@ class Camera {
   Rig rig_;
   CaptureMode mode_;
   std::uint64_t seed_;
+  int samples_across_ = 0;
   Geometry geometry_;
   Image<TruePixel> truth_;
   Image<float> radiance_;

@@ -8,7 +8,7 @@
 namespace fathom {
 namespace {
 
-/// Steps of 1/8 px between a depth [mm] and the reference plane, growing with distance: 8 f b (1/z_ref − 1/z).
+/// 8 f b [mm]: how many steps of 1/8 px a change of inverse depth by 1/mm makes.
 double steps_per_inverse_mm(const SensorModel& sensor) {
   return 8.0 * sensor.focal_px * mm_from_metres(sensor.baseline);
 }

@@ -1,10 +1,10 @@
 // Dots to disparity: correlation of the infrared image against the memorised reference.
 //
-//   search   whole depth pixels: zero-mean normalised cross-correlation over the matcher's window, on halved images
-//   refine   fractions of an infrared pixel: the shift that maximises the correlation with the reference and its
-//            derivative, in closed form, on images of full width
-//   carry    that shift belongs to the centroid of the window's gradient energy; the local slope carries it to the
-//   pixel settle   near edges: the surface whose prediction explains the few dots around the pixel itself
+//   search: whole depth pixels, by zero-mean normalised cross-correlation over the matcher's window, on halved images;
+//   refine: fractions of an infrared pixel, by the shift that maximises the correlation with the reference and its
+//     derivative, in closed form, on images of full width;
+//   carry: that shift belongs to the centroid of the window's gradient energy, the local slope carries it to the pixel;
+//   settle: near edges, the surface whose prediction explains the few dots around the pixel itself.
 #pragma once
 
 #include <cmath>

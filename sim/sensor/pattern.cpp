@@ -135,11 +135,12 @@ Image<std::uint8_t> make_dot_tile(const PatternModel& model) {
   }
   for (; dots + 1 < model.dots_per_tile; dots += 2)
     if (!maker.add_pair()) throw Error("pattern", "dots_per_tile", "leaves no room between the dots, lower it");
-  constexpr int kRepairs = 200;
+  constexpr int kRepairs = 60;
+  constexpr std::size_t kMostAtOnce = 500;
   for (int repair = 0; repair < kRepairs; ++repair) {
     std::vector<std::pair<int, int>> alike;  // a few windows that do not overlap: one moved dot often mends several
     compare_windows(window_bits(maker.tile(), kUniqueWindow), kUniqueRange, [&](int x, int y, int cells) {
-      if (cells >= kUniqueCells) return;
+      if (cells >= kUniqueCells || alike.size() >= kMostAtOnce) return;
       const bool apart = std::none_of(alike.begin(), alike.end(), [&](const auto& other) {
         return ring_distance(x, other.first, model.tile_columns) < kUniqueWindow &&
                ring_distance(y, other.second, model.tile_rows) < kUniqueWindow;

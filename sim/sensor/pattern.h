@@ -21,8 +21,7 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
 
 class Pattern {
  public:
-  /// `ir_px_per_depth_px` turns the model's dot size into grid steps. `dot_gain`, when not empty, holds a brightness
-  /// for every position of the whole grid, row by row (speckle).
+  /// `ir_px_per_depth_px` turns the model's dot size into grid steps.
   Pattern(const PatternModel& model, double ir_px_per_depth_px);
 
   int columns() const { return columns_; }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "core/parallel.h"
@@ -36,6 +37,7 @@ inline __attribute__((always_inline)) void sum_lanes(const Lanes& a, const Lanes
 /// arithmetic.
 struct RowScratch {
   std::vector<int> x;                ///< depth column
+  std::vector<int> searched;         ///< whether the search found a disparity to start from
   std::vector<float> from, rest;     ///< disparity to start from [px] and its part below a phase [infrared px]
   std::vector<int> live, reference;  ///< first column of the window in the live image and in the reference
   std::vector<int> phase;
@@ -46,7 +48,7 @@ struct RowScratch {
   std::vector<float> moved, correlation, gain, bias;
 
   explicit RowScratch(int width) {
-    for (auto* numbers : {&x, &live, &reference, &phase}) numbers->resize(width);
+    for (auto* numbers : {&x, &searched, &live, &reference, &phase}) numbers->resize(width);
     for (auto* values : {&from, &rest, &i, &ii, &ir, &ig, &r, &g, &rr, &rg, &gg, &centre_x, &centre_y, &moved,
                          &correlation, &gain, &bias})
       values->resize(width);
@@ -66,13 +68,15 @@ inline __attribute__((always_inline)) void place_window(RowScratch& s, int k, in
   s.phase[k] = shift.phase;
 }
 
-/// Places for `count` pixels from `first` on; without a coarse disparity they get the reference plane's.
+/// Places for `count` pixels from `first` on; without a coarse disparity they stand in the reference plane, and are not
+/// kept.
 FATHOM_SIMD_CLONES
 void place_windows(const float* coarse, int first, int live_width, int margin_px, RowScratch& s, int count) {
 #pragma GCC ivdep
   for (int k = 0; k < count; ++k) {
     const float from = coarse[first + k];
     s.x[k] = first + k;
+    s.searched[k] = from == from;
     s.from[k] = from == from ? from : 0.0f;
     place_window(s, k, live_width, margin_px);
   }
@@ -197,6 +201,7 @@ class RowRefiner {
     for (int k = 0; k < first_count; ++k)
       if (std::fabs(scratch_.moved[k]) > kNearEnough && estimates.valid(scratch_.x[k], y)) {
         scratch_.x[count_] = scratch_.x[k];
+        scratch_.searched[count_] = 1;
         scratch_.from[count_++] = estimates.disparity(scratch_.x[k], y);
       }
     for (int k = 0; k < count_; ++k) place_window(scratch_, k, paired_.width(), reference_.margin_px);
@@ -236,7 +241,7 @@ class RowRefiner {
     float *centre_x = estimates.centre_x.row(y), *centre_y = estimates.centre_y.row(y);
     for (int k = 0; k < count_; ++k) {
       const int x = s.x[k];
-      const bool found = s.correlation[k] >= least_correlation;
+      const bool found = s.searched[k] && s.correlation[k] >= least_correlation;
       disparity[x] = found ? s.from[k] + 0.5f * (s.rest[k] - s.moved[k]) : std::numeric_limits<float>::quiet_NaN();
       correlation[x] = found ? s.correlation[k] : 0.0f;
       gain[x] = s.gain[k], bias[x] = s.bias[k];

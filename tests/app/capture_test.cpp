@@ -74,7 +74,7 @@ TEST_F(CaptureCommand, RecordsWhatItDid) {
   EXPECT_EQ(record["threads"], 1);
   EXPECT_EQ(record["mode"], "photometric");
   EXPECT_EQ(record["objects"], Json::parse(R"({"1": "desk", "2": "cup 0 paper_cup", "3": "cup 0 water"})"));
-  EXPECT_NEAR(record["media"]["water"]["index"].get<double>(), 1.3281, 5e-6);  // half a unit of the printed digit
+  EXPECT_NEAR(record["media"]["cup 0 water"]["index"].get<double>(), 1.3281, 5e-6);  // half a unit of the printed digit
   EXPECT_EQ(record["sensor"]["focal_px"], 285.0);
   EXPECT_GT(record["rays"].get<double>(), 640.0 * 512.0);
   EXPECT_TRUE(record.contains("fathom"));
