@@ -120,7 +120,7 @@ Json truth_json(const std::vector<Placement>& placements) {
 }
 
 /// campaign.json says what the folder belongs to; clouds of anything else are never mixed in.
-void claim_folder(const fs::path& folder, const Json& identity) {
+void check_folder(const fs::path& folder, const Json& identity) {
   const fs::path file = folder / "campaign.json";
   if (fs::exists(file)) {
     if (read_json(file) != identity)
@@ -129,16 +129,31 @@ void claim_folder(const fs::path& folder, const Json& identity) {
   }
   for (const char* name : {"clouds", "frames.csv", "rig.json"})
     if (fs::exists(folder / name)) throw Error((folder / name).string(), "is there already; choose another folder");
+}
+
+/// campaign.json comes first, so that a run cut short at any later moment can go on.
+void claim_folder(const fs::path& folder, const Json& identity) {
+  make_directory(folder);
+  write_json(folder / "campaign.json", identity);
   make_directory(folder / "clouds");
-  write_json(file, identity);
+}
+
+void require_truth_outside(const fs::path& truth, const fs::path& folder) {
+  const auto resolved = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  const fs::path inside = resolved(truth).lexically_relative(resolved(folder));
+  if (!inside.empty() && *inside.begin() != "..")
+    throw UsageError("--truth must lie outside the folder of -o, which holds what a laboratory knows");
 }
 
 void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
+  if (!options.truth.empty()) require_truth_outside(options.truth, common.output);
   const CampaignSpec spec = read_campaign_spec(options.spec);
-  claim_folder(common.output,
-               {{"fathom", FATHOM_VERSION}, {"seed", common.seed}, {"spp", options.spp}, {"spec", spec.source}});
+  const Json identity = {
+      {"fathom", FATHOM_VERSION}, {"seed", common.seed}, {"spp", options.spp}, {"spec", spec.source}};
   const std::vector<Placement> placements = plan(spec, common.seed);
+  check_folder(common.output, identity);
   if (!options.truth.empty()) write_json(options.truth, truth_json(placements));
+  claim_folder(common.output, identity);
   write_json(common.output / "rig.json", json_from_laboratory_rig(spec.nominal));
   Progress progress("placement", placements.size(), common.quiet);
   int shot = 0;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "app/commands.h"
@@ -100,7 +101,6 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
   settings.prior = options.desk.prior();
 
   Json all = Json::array();
-  std::string text;
   Progress progress("detect", options.clouds.size(), common.quiet || options.clouds.size() == 1);
   for (const std::filesystem::path& path : options.clouds) {
     const Detection detection = method.detect(read_cloud(path), settings);
@@ -110,11 +110,12 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
       all.push_back({{"cloud", path.string()}});
       all.back().update(detection_json(detection));
     } else {
-      text += for_people(path, detection);
+      fmt::print("{}", for_people(path, detection));
+      std::fflush(stdout);  // into pipes too, while the next cloud is worked on
     }
     progress.step();
   }
-  fmt::print("{}", common.json ? all.dump(2) + "\n" : text);
+  if (common.json) fmt::print("{}\n", all.dump(2));
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -33,21 +33,25 @@ set ylabel textcolor rgb ink
 
 std::string script(const std::string& name, const std::string& plot) {
   return fmt::format(
-      "# gnuplot {0}.gp\n{1}\nset terminal pngcairo size 1280,800 font 'DejaVu Sans,14'\nset output '{0}.png'\n{2}\n"
-      "set terminal svg size 1280,800 font 'DejaVu Sans,19' background 'white'\nset output '{0}.svg'\nreplot\n"
+      "# gnuplot {0}.gp\n{1}\nif (!exists('png_file')) png_file = '{0}.png'\n"
+      "if (!exists('svg_file')) svg_file = '{0}.svg'\n"
+      "set terminal pngcairo size 1280,800 font 'DejaVu Sans,14'\nset output png_file\n{2}\n"
+      "set terminal svg size 1280,800 font 'DejaVu Sans,19' background 'white'\nset output svg_file\nreplot\n"
       "unset output\n",
       name, kStyle, plot);
 }
 
-/// Exit code of `gnuplot file`, started in `folder`.
-int run_gnuplot(const fs::path& folder, std::string file) {
-  std::string program = "gnuplot";
-  std::array<char*, 3> arguments{program.data(), file.data(), nullptr};
+/// Exit code of `gnuplot -d …`, without the user's own settings, started in `folder`.
+int run_gnuplot(const fs::path& folder, std::vector<std::string> words) {
+  words.insert(words.begin(), {"gnuplot", "-d"});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   pid_t child = 0;
-  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int problem = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (problem == ENOENT) throw Error("gnuplot", "is not installed, and draws the figures; install gnuplot-nox");
   if (problem != 0) throw Error("gnuplot", std::strerror(problem));
@@ -59,13 +63,21 @@ int run_gnuplot(const fs::path& folder, std::string file) {
 
 }  // namespace
 
+void require_gnuplot() {
+  if (run_gnuplot(".", {"-e", "exit"}) != 0) throw Error("gnuplot", "does not run, and draws the figures");
+}
+
 void draw(const fs::path& folder, const std::string& name, const std::string& plot) {
   const fs::path file = folder / (name + ".gp");
   write_text(file, script(name, plot));
-  if (run_gnuplot(folder, file.filename().string()) == 0) return;
-  std::error_code absent;
-  for (const char* kind : {".png", ".svg"}) fs::remove(folder / (name + kind), absent);
-  throw Error(file.string(), "gnuplot failed on it, and said why above");
+  write_atomically(folder / (name + ".png"), [&](const fs::path& png) {
+    write_atomically(folder / (name + ".svg"), [&](const fs::path& svg) {
+      const std::string names =
+          fmt::format("png_file = '{}'; svg_file = '{}'", png.filename().string(), svg.filename().string());
+      if (run_gnuplot(folder, {"-e", names, file.filename().string()}) != 0)
+        throw Error(file.string(), "gnuplot failed on it, and said why above");
+    });
+  });
 }
 
 }  // namespace fathom

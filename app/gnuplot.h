@@ -6,8 +6,12 @@
 
 namespace fathom {
 
+/// For work that ends in a picture, before it starts. Throws Error when gnuplot is missing.
+void require_gnuplot();
+
 /// Writes folder/NAME.gp: the house's style, then `plot` (which ends with one plot command and names its data files
-/// relative to the folder), for NAME.png and NAME.svg; and runs it. Throws Error when gnuplot is missing or fails.
+/// relative to the folder), for NAME.png and NAME.svg; and runs it. Throws Error when gnuplot is missing or fails;
+/// pictures that are there already then stay.
 void draw(const std::filesystem::path& folder, const std::string& name, const std::string& plot);
 
 }  // namespace fathom

@@ -1,6 +1,8 @@
 #include "app/nominal_rig.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -15,6 +17,21 @@ double tidy(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 double tidy_mm(double metres) { return tidy(mm_from_metres(metres)); }
 
+/// About the optical axis, of a camera without yaw: from the world's x axis to the camera's right, positive downwards.
+double roll_of(const Eigen::Vector3d& right, const Eigen::Vector3d& forward) {
+  const Eigen::Vector3d level_right = Eigen::Vector3d::UnitX();
+  return std::atan2(right.dot(forward.cross(level_right)), right.dot(level_right));
+}
+
+/// Of the cup's outside at a height above the desk, by linear interpolation of the profile.
+double outer_radius(const CupShape& cup, double height) {
+  const auto above = std::find_if(cup.outer.begin(), cup.outer.end(),
+                                  [height](const Eigen::Vector2d& point) { return point.y() >= height; });
+  if (above == cup.outer.begin() || above == cup.outer.end()) return cup.outer.back().x();
+  const Eigen::Vector2d below = *std::prev(above);
+  return std::lerp(below.x(), above->x(), (height - below.y()) / (above->y() - below.y()));
+}
+
 }  // namespace
 
 LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file) {
@@ -27,13 +44,13 @@ LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string
   nominal.sensor_model = rig.sensor.name;
   nominal.height_m = 0.5 * (rig.camera_in_world() + rig.projector_in_world()).z();
   nominal.pitch_rad = std::atan2(-forward.z(), forward.y());
-  nominal.roll_rad = std::asin(-right.z());
+  nominal.roll_rad = roll_of(right, forward);
   nominal.baseline_m = rig.sensor.baseline;
   nominal.focal_px = rig.sensor.focal_px;
   nominal.cup_shape = cup.name;
   nominal.cup_height_m = cup.height();
   nominal.inner_radius_m = cup.inner_radius(kBandMiddleMetres);
-  nominal.outer_radius_m = cup.outer.back().x();
+  nominal.outer_radius_m = outer_radius(cup, kBandMiddleMetres);
   nominal.bottom_m = cup.bottom();
   return nominal;
 }

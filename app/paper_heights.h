@@ -16,6 +16,10 @@ inline constexpr std::array kPaperDistancesMm{200.0, 300.0, 400.0, 500.0, 600.0}
 
 inline constexpr std::size_t kSeenDistances = 4;  ///< the fifth, 600 mm, is the one that the paper leaves out
 
+/// The matcher looks at windows of 9 × 9 pixels: a patch that is not clearly larger is measured together with the walls
+/// around it.
+inline constexpr int kWindowPoints = 9 * 9, kPointsEnough = 2 * kWindowPoints;
+
 /// One bar of Fig. 5, above the desk.
 struct HeightCell {
   double mean_mm = 0.0;
@@ -23,9 +27,7 @@ struct HeightCell {
   double points = 0.0;  ///< inside the cup, on the average over all shots; those without any count as 0
   int seen = 0;         ///< shots in which something was seen inside
 
-  /// The matcher looks at windows of 9 × 9 pixels: a patch that is not clearly larger is measured together with the
-  /// walls around it.
-  bool enough() const { return points >= 2 * 9 * 9; }
+  bool enough() const { return points >= kPointsEnough; }
 };
 
 /// One filling, over the distances.

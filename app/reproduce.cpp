@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "app/commands.h"
+#include "app/gnuplot.h"
 #include "core/files.h"
 #include "core/json.h"
 
@@ -70,6 +71,7 @@ Json json_of(const Figure& figure) {
 }
 
 void run_reproduce(const ReproduceOptions& options, const CommonOptions& common) {
+  require_gnuplot();
   make_directory(common.output);
   Reproduction reproduction(
       {.folder = common.output, .trials = options.trials, .seed = common.seed, .quiet = common.quiet});

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "app/gnuplot.h"
 #include "app/reproduce.h"
@@ -9,31 +10,26 @@
 namespace fathom {
 namespace {
 
+constexpr std::size_t kEmpty = 0;
 constexpr std::array<std::size_t, 3> kWater{1, 2, 3}, kMilkTea{4, 5, 6};
 
 std::string mm(double value) { return fmt::format("{:.3f}", value + 0.0); }
 
-/// The cells that a statement over the distance may rest on.
-std::vector<HeightCell> well_seen(const HeightRow& row) {
-  std::vector<HeightCell> cells;
-  std::copy_if(row.begin(), row.begin() + kSeenDistances, std::back_inserter(cells),
-               [](const HeightCell& cell) { return cell.enough(); });
-  return cells;
+constexpr const char* kNotSeen = "not seen";
+
+/// The distances that a statement about these fillings may rest on.
+std::vector<std::size_t> where_enough(std::initializer_list<const HeightRow*> rows) {
+  std::vector<std::size_t> distances;
+  for (std::size_t d = 0; d < kSeenDistances; ++d)
+    if (std::all_of(rows.begin(), rows.end(), [d](const HeightRow* row) { return (*row)[d].enough(); }))
+      distances.push_back(d);
+  return distances;
 }
 
-bool lower(const HeightCell& a, const HeightCell& b) { return a.mean_mm < b.mean_mm; }
-
-std::pair<double, double> range_over_distance(const HeightRow& row) {
-  const std::vector<HeightCell> cells = well_seen(row);
-  if (cells.empty()) return {0.0, 0.0};
-  const auto [low, high] = std::minmax_element(cells.begin(), cells.end(), lower);
-  return {low->mean_mm, high->mean_mm};
-}
-
-std::string heights_text(const HeightRow& row) {
+std::string distances_text(const std::vector<std::size_t>& distances) {
   std::vector<std::string> texts;
-  for (const HeightCell& cell : well_seen(row)) texts.push_back(fmt::format("{:.1f}", cell.mean_mm));
-  return fmt::format("{} mm from 200 mm on", fmt::join(texts, " → "));
+  for (const std::size_t d : distances) texts.push_back(fmt::format("{:g}", kPaperDistancesMm[d]));
+  return fmt::format("{} mm", fmt::join(texts, ", "));
 }
 
 /// "yes" or "no", and the numbers.
@@ -47,38 +43,79 @@ std::string few_points_text(const PaperHeights& heights) {
       texts.push_back(fmt::format("{} ({:.0f})", kPaperFillings[f].label(), cell.points));
   if (texts.empty()) return "measured";
   return fmt::format(
-      "for {} the near wall leaves fewer than two matching windows of 81 points; these heights are mixed "
+      "for {} the near wall leaves fewer than two matching windows of {} points; these heights are mixed "
       "with the walls and are left out of the statements above",
-      fmt::join(texts, ", "));
+      fmt::join(texts, ", "), kWindowPoints);
+}
+
+std::string rises_with_distance(const HeightRow& row) {
+  const std::vector<std::size_t> distances = where_enough({&row});
+  if (distances.size() < 2) return kNotSeen;
+  bool rises = true;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    rises = rises && (i == 0 || row[distances[i - 1]].mean_mm < row[distances[i]].mean_mm);
+    texts.push_back(fmt::format("{:.1f}", row[distances[i]].mean_mm));
+  }
+  return verdict(rises, fmt::format("{} mm at {}", fmt::join(texts, " → "), distances_text(distances)));
+}
+
+std::string rises_with_depth(const HeightRow& shallow, const HeightRow& middle, const HeightRow& deep) {
+  const std::vector<std::size_t> distances = where_enough({&shallow, &middle, &deep});
+  if (distances.empty()) return kNotSeen;
+  const bool rises = std::all_of(distances.begin(), distances.end(), [&](std::size_t d) {
+    return shallow[d].mean_mm < middle[d].mean_mm && middle[d].mean_mm < deep[d].mean_mm;
+  });
+  const std::size_t far = distances.back();
+  return verdict(rises,
+                 fmt::format("at {}; {:.1f} → {:.1f} → {:.1f} mm at {:g} mm", distances_text(distances),
+                             shallow[far].mean_mm, middle[far].mean_mm, deep[far].mean_mm, kPaperDistancesMm[far]));
+}
+
+/// How much higher at the nearest distance.
+std::string nearest_difference(const HeightRow& filled, const HeightRow& empty) {
+  if (!filled.front().enough() || !empty.front().enough()) return kNotSeen;
+  return fmt::format("{:.1f} mm", filled.front().mean_mm - empty.front().mean_mm);
+}
+
+/// How much higher at the distance where it is least, each distance by itself.
+std::string least_difference(const HeightRow& filled, const HeightRow& empty) {
+  const std::vector<std::size_t> distances = where_enough({&filled, &empty});
+  if (distances.empty()) return kNotSeen;
+  const auto difference = [&](std::size_t d) { return filled[d].mean_mm - empty[d].mean_mm; };
+  const std::size_t least = *std::min_element(
+      distances.begin(), distances.end(), [&](std::size_t a, std::size_t b) { return difference(a) < difference(b); });
+  return fmt::format("{:.1f} mm, at {:g} mm", difference(least), kPaperDistancesMm[least]);
+}
+
+std::string does_not_depend_on_distance(const HeightRow& row, double surface_mm) {
+  const std::vector<std::size_t> distances = where_enough({&row});
+  if (distances.size() < 2) return kNotSeen;
+  const auto [low, high] = std::minmax_element(distances.begin(), distances.end(), [&](std::size_t a, std::size_t b) {
+    return row[a].mean_mm < row[b].mean_mm;
+  });
+  return verdict(row[*high].mean_mm - row[*low].mean_mm < 1.0,
+                 fmt::format("{:.1f}–{:.1f} mm at {}, surface at {:g} mm", row[*low].mean_mm, row[*high].mean_mm,
+                             distances_text(distances), surface_mm));
 }
 
 std::vector<Fact> facts_of(const PaperHeights& heights) {
   const auto& cells = heights.rows;
   std::vector<Fact> facts;
-  for (const std::size_t f : kWater) {
-    const std::vector<HeightCell> seen = well_seen(heights.rows[f]);
+  for (const std::size_t f : kWater)
     facts.push_back({"The raised bottom rises with the distance, " + kPaperFillings[f].label(), "yes",
-                     verdict(std::is_sorted(seen.begin(), seen.end(), lower), heights_text(heights.rows[f]))});
-  }
-  bool deeper = true;
-  for (std::size_t d = 0; d < kSeenDistances; ++d)
-    deeper = deeper && cells[1][d].mean_mm < cells[2][d].mean_mm && cells[2][d].mean_mm < cells[3][d].mean_mm;
+                     rises_with_distance(cells[f])});
   facts.push_back({"It rises with the depth of the water at every distance", "yes",
-                   verdict(deeper, fmt::format("{:.1f} → {:.1f} → {:.1f} mm at 400 mm", cells[1][2].mean_mm,
-                                               cells[2][2].mean_mm, cells[3][2].mean_mm))});
-  const double empty_highest = range_over_distance(cells[0]).second;
-  facts.push_back({"10 mm of water against empty at 200 mm", "about 2 mm",
-                   fmt::format("{:.1f} mm", cells[1][0].mean_mm - cells[0][0].mean_mm)});
+                   rises_with_depth(cells[kWater[0]], cells[kWater[1]], cells[kWater[2]])});
+  facts.push_back(
+      {"10 mm of water against empty at 200 mm", "about 2 mm", nearest_difference(cells[kWater[0]], cells[kEmpty])});
   facts.push_back({"10 mm of water against empty, least over the distances", "at least about 1 mm",
-                   fmt::format("{:.1f} mm", range_over_distance(cells[1]).first - empty_highest)});
+                   least_difference(cells[kWater[0]], cells[kEmpty])});
   facts.push_back({"10 mm of milk tea against empty, least over the distances", "at least 7 mm",
-                   fmt::format("{:.1f} mm", range_over_distance(cells[4]).first - empty_highest)});
-  for (const std::size_t f : kMilkTea) {
-    const auto [low, high] = range_over_distance(cells[f]);
+                   least_difference(cells[kMilkTea[0]], cells[kEmpty])});
+  for (const std::size_t f : kMilkTea)
     facts.push_back({"The milk tea's height does not depend on the distance, " + kPaperFillings[f].label(), "yes",
-                     verdict(high - low < 1.0, fmt::format("{:.1f}–{:.1f} mm, surface at {:g} mm", low, high,
-                                                           kPaperBottomMm + kPaperFillings[f].fill_mm))});
-  }
+                     does_not_depend_on_distance(cells[f], kPaperBottomMm + kPaperFillings[f].fill_mm)});
   facts.push_back({"At 500 mm", "measured", few_points_text(heights)});
   std::vector<std::string> seen;
   for (std::size_t f = 0; f < cells.size(); ++f)
@@ -104,12 +141,12 @@ Table bars_of(const PaperHeights& heights) {
   for (std::size_t f = 0; f < kPaperFillings.size(); ++f) {
     std::vector<std::string> cells{kPaperFillings[f].label()};
     for (std::size_t d = 0; d < kSeenDistances; ++d) {
-      cells.push_back(mm(heights.rows[f][d].mean_mm));
+      cells.push_back(heights.rows[f][d].seen > 0 ? mm(heights.rows[f][d].mean_mm) : "");
       cells.push_back(mm(heights.rows[f][d].sd_mm));
     }
     cells.push_back(mm(kPaperBottomMm + kPaperFillings[f].fill_mm));
     const HeightCell& far = heights.rows[f][kSeenDistances - 1];
-    cells.push_back(far.enough() ? "" : mm(far.mean_mm + 1.0));
+    cells.push_back(far.enough() || far.seen == 0 ? "" : mm(far.mean_mm + 1.0));
     bars.add(cells);
   }
   return bars;
@@ -136,6 +173,11 @@ Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& hei
     }
   write_table(settings.folder / "fig5.csv", figure.table);
   write_table(settings.folder / "fig5_bars.csv", bars_of(heights));
+  const bool any_few = std::any_of(heights.rows.begin(), heights.rows.end(), [](const HeightRow& row) {
+    return row[kSeenDistances - 1].seen > 0 && !row[kSeenDistances - 1].enough();
+  });
+  constexpr const char* kFewPoints = R"(, \
+     '' using ($0+0.27):'few_500_mm' with points pt 2 ps 1 lw 2 lc rgb ink title 'few points left by the near wall')";
   draw(settings.folder, figure.name,
        fmt::format(R"(
 set title 'Measured height of the liquid''s surface or the raised bottom (simulated captures, {} each, ±1σ)'
@@ -153,9 +195,8 @@ array colour[4] = [0xC6DFF0, sky, blue, 0x003E63]
 plot for [i=1:4] 'fig5_bars.csv' using (column(2*i)):(column(2*i+1)):xtic(1) lc rgb colour[i] \
        title sprintf('%d mm', 100*i+100), \
      '' using ($0-0.42):'true_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red \
-       title 'true surface (empty: bottom)', \
-     '' using ($0+0.27):'few_500_mm' with points pt 2 ps 1 lw 2 lc rgb ink title 'few points left by the near wall')",
-                   settings.trials));
+       title 'true surface (empty: bottom)'{})",
+                   settings.trials, any_few ? kFewPoints : ""));
   return figure;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/gnuplot.h"
 #include "app/reproduce.h"
@@ -35,6 +36,45 @@ Prediction predict(double fill_mm, double distance_mm) {
           mm_from_metres(printed), mm_from_metres(theory::triangulate(setup).height)};
 }
 
+/// One more part of the plot command, for the depths of water of which some distance is as asked: gnuplot warns of
+/// empty series. `using_y` picks from a row what is drawn over the distance; the first depth carries the title.
+template <class Asked>
+std::string series(const std::array<HeightRow, kPaperFillings.size()>& rows, const Asked& asked,
+                   const std::string& using_y, const char* style, const char* title) {
+  std::vector<std::string> tens;
+  for (std::size_t f = 0; f < kPaperFillings.size(); ++f)
+    if (kPaperFillings[f].liquid == "water" && std::any_of(rows[f].begin(), rows[f].begin() + kSeenDistances, asked))
+      tens.push_back(fmt::format("{:g}", kPaperFillings[f].fill_mm / 10.0));
+  if (tens.empty()) return "";
+  return fmt::format(
+      ", \\\n     for [i in '{}'] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && {} \\\n       with {} "
+      "title (i eq '{}' ? '{}' : '')",
+      fmt::join(tens, " "), using_y, style, tens.front(), title);
+}
+
+/// What was measured, in the three ways that fig14.csv holds.
+std::string measured_series(const PaperHeights& heights) {
+  const std::string enough = fmt::format("column('points') >= {} ? column('simulated_mm') : NaN)", kPointsEnough);
+  const std::string few = fmt::format("column('points') < {} ? column('simulated_mm') : NaN)", kPointsEnough);
+  return series(
+             heights.rows, [](const HeightCell& cell) { return cell.enough(); }, enough,
+             "points pt 7 ps 1.9 lc rgb colour[int(i)]", "simulated measurement, ±1σ") +
+         series(
+             heights.rows, [](const HeightCell& cell) { return cell.enough() && cell.seen > 1; },
+             enough + ":'simulated_sd_mm'", "yerrorbars pt 0 lw 2 lc rgb colour[int(i)]", "") +
+         series(
+             heights.rows, [](const HeightCell& cell) { return cell.seen > 0 && !cell.enough(); }, few,
+             "points pt 2 ps 1.3 lw 2 lc rgb colour[int(i)]", "the same, few points left by the near wall") +
+         series(
+             heights.noise_free, [](const HeightCell& cell) { return cell.seen > 0; },
+             "1 ? column('geometric_mm') : NaN)", "points pt 4 ps 2.4 lw 1.8 lc rgb ink",
+             "simulated without matching and noise");
+}
+
+std::string worst_text(const std::optional<double>& worst_mm) {
+  return worst_mm ? fmt::format("{:.2f} mm", *worst_mm) : "not seen";
+}
+
 }  // namespace
 
 Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& heights) {
@@ -48,7 +88,8 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
       .table = Table({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm", "simulated_mm",
                       "simulated_sd_mm", "simulated_minus_exact_mm", "points", "geometric_mm"})};
   Table curves({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm"});
-  double closed_worst = 0.0, index_worst = 0.0, measured_worst = 0.0, geometric_worst = 0.0;
+  double closed_worst = 0.0, index_worst = 0.0, geometric_farthest_mm = 0.0;
+  std::optional<double> measured_worst, geometric_worst;
   for (std::size_t f = 0; f < kPaperFillings.size(); ++f) {
     if (kPaperFillings[f].liquid != "water") continue;
     const double fill = kPaperFillings[f].fill_mm;
@@ -63,10 +104,13 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
       closed_worst = std::max(closed_worst, std::abs(p.eq7 - p.exact_printed_index));
       index_worst = std::max(index_worst, std::abs(p.exact_sensor_index - p.exact_printed_index));
       const HeightCell& noise_free = heights.noise_free[f][d];
-      if (noise_free.seen > 0)
-        geometric_worst =
-            std::max(geometric_worst, std::abs(noise_free.mean_mm - kPaperBottomMm - p.exact_sensor_index));
-      if (cell.enough()) measured_worst = std::max(measured_worst, std::abs(measured - p.exact_sensor_index));
+      if (noise_free.seen > 0) {
+        const double difference = std::abs(noise_free.mean_mm - kPaperBottomMm - p.exact_sensor_index);
+        geometric_worst = std::max(geometric_worst.value_or(0.0), difference);
+        geometric_farthest_mm = std::max(geometric_farthest_mm, kPaperDistancesMm[d]);
+      }
+      if (cell.enough())
+        measured_worst = std::max(measured_worst.value_or(0.0), std::abs(measured - p.exact_sensor_index));
       figure.table.add({mm(fill), mm(kPaperDistancesMm[d]), mm(p.eq7), mm(p.exact_printed_index),
                         mm(p.exact_sensor_index), cell.seen > 0 ? mm(measured) : "",
                         cell.seen > 1 ? mm(cell.sd_mm) : "", cell.seen > 0 ? mm(measured - p.exact_sensor_index) : "",
@@ -76,7 +120,8 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
   }
   write_table(settings.folder / "fig14.csv", figure.table);
   write_table(settings.folder / "fig14_curves.csv", curves);
-  draw(settings.folder, figure.name, R"(
+  draw(settings.folder, figure.name,
+       R"(
 set title 'Height of the raised bottom over the distance of the cup'
 set xlabel 'horizontal distance of the cup from the sensor [mm]'
 set ylabel 'height of the raised bottom above the bottom [mm]'
@@ -88,20 +133,14 @@ do for [i=1:3] { set label i sprintf('water %d mm', 10*i) at 690,(i==1?4.35:i==2
 plot for [i=1:3] 'fig14_curves.csv' using 'distance_mm':(column('fill_mm') == 10*i ? column('eq7_mm') : NaN) \
        with lines lw 3 lc rgb colour[i] title (i == 2 ? 'Eq. 7, n = 1.333' : ''), \
      for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('exact_n830nm_mm') : NaN) \
-       with lines lw 2 dt 3 lc rgb ink title (i == 2 ? 'exact, n of water at 830 nm' : ''), \
-     for [i=1:3] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && column('points') >= 162 ? column('simulated_mm') : NaN) \
-       with points pt 7 ps 1.9 lc rgb colour[i] title (i == 2 ? 'simulated measurement, ±1σ' : ''), \
-     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i && column('points') >= 162 ? column('simulated_mm') : NaN):'simulated_sd_mm' \
-       with yerrorbars pt 0 lw 2 lc rgb colour[i] notitle, \
-     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i && column('points') < 162 ? column('simulated_mm') : NaN) \
-       with points pt 2 ps 1.3 lw 2 lc rgb colour[i] title (i == 2 ? 'the same, few points left by the near wall' : ''), \
-     for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('geometric_mm') : NaN) \
-       with points pt 4 ps 2.4 lw 1.8 lc rgb ink title (i == 2 ? 'simulated without matching and noise' : ''))");
+       with lines lw 2 dt 3 lc rgb ink title (i == 2 ? 'exact, n of water at 830 nm' : ''))" +
+           measured_series(heights));
   figure.facts = {
       {"Largest difference of measurement and theory", "approximately 1–2 mm",
-       fmt::format("{:.2f} mm (photometric capture against exact with n = {:.4f} at 830 nm, where enough is seen)",
-                   measured_worst, water_index_at_sensor())},
-      {"The same without matching and noise, at all distances", "–", fmt::format("{:.2f} mm", geometric_worst)},
+       fmt::format("{} (photometric capture against exact with n = {:.4f} at 830 nm, where enough is seen)",
+                   worst_text(measured_worst), water_index_at_sensor())},
+      {fmt::format("The same without matching and noise, to {:g} mm", geometric_farthest_mm), "–",
+       worst_text(geometric_worst)},
       {"Largest difference of Eq. 7 and exact triangulation, both with n = 1.333", "–",
        fmt::format("{:.2f} mm", closed_worst)},
       {"Largest effect of taking n at 830 nm instead of 1.333", "–", fmt::format("{:.2f} mm", index_worst)}};

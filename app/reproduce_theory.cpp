@@ -14,8 +14,9 @@
 namespace fathom {
 namespace {
 
-constexpr double kBaseline = 0.075, kHeight = kPaperHeightMm * kMetresPerMm;
-constexpr double kFieldOfViewDeg = 58.5, kMinimumRange = 0.5;  // as the paper prints them
+constexpr double kBaseline = 0.075;
+constexpr double kHeight = (kPaperHeightMm - kPaperBottomMm) * kMetresPerMm;  // of the sensor above the cup's bottom
+constexpr double kFieldOfViewDeg = 58.5, kMinimumRange = 0.5;                 // as the paper prints them
 
 std::string number(double value) { return fmt::format("{:.4f}", value + 0.0); }
 
@@ -135,8 +136,10 @@ Figure reproduce_fig13(const ReproduceSettings& settings) {
   for (int mm = 0; mm <= 1000; mm += 10)
     figure.table.add({number(mm), number(eq6(metres_from_mm(mm))), number(exact(metres_from_mm(mm)))});
   write_table(settings.folder / "fig13.csv", figure.table);
-  draw(settings.folder, figure.name, R"(
-set title 'Incidence angle of the beams over the distance of the cup (sensor 650 mm above the bottom)'
+  const std::string title = fmt::format(
+      "set title 'Incidence angle of the beams over the distance of the cup (sensor {:g} mm above the bottom)'",
+      mm_from_metres(kHeight));
+  draw(settings.folder, figure.name, title + R"(
 set xlabel 'horizontal distance of the bottom point from the sensor [mm]'
 set ylabel 'incidence angle [deg]'
 set xrange [0:1000]; set yrange [0:60]; set xtics 100; set ytics 10

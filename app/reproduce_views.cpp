@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "app/cup_height.h"
 #include "app/gnuplot.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kDistanceMm = 400.0;
 constexpr double kSliceHalfMetres = 0.012;  // a few columns of the image, so that the walls do not hide the inside
+constexpr double kShownHalfMm = 75.0;       // of the picture's width
 constexpr int kSamplesPerPixel = 4;
 
 struct View {
@@ -39,47 +41,77 @@ Table slice(const Image<CloudPoint>& cloud, const Rig& rig, const CupShape& cup)
   return table;
 }
 
-/// The cup's true walls and bottom, the liquid, and the points.
-std::string plot_of(const View& view, double measured_mm) {
-  const double surface = 7.0 + view.filling.fill_mm;
-  const bool filled = view.filling.fill_mm > 0.0;
+/// The cup's true walls and bottom, and the desk.
+std::string cup_plot(const CupShape& cup) {
+  const double inner = mm_from_metres(cup.inner_radius(cup.bottom())), outer = mm_from_metres(cup.outer.back().x());
+  return fmt::format(R"(
+set xrange [{near}:{far}]; set yrange [-8:100]; set xtics 25; set ytics 20
+set object 1 rectangle from {outer_near},0 to {outer_far},{bottom} fillcolor rgb wall fillstyle solid noborder back
+set object 2 rectangle from {outer_near},0 to {inner_near},{rim} fillcolor rgb wall fillstyle solid noborder back
+set object 3 rectangle from {inner_far},0 to {outer_far},{rim} fillcolor rgb wall fillstyle solid noborder back
+set arrow 1 from {near},0 to {far},0 nohead lw 2 lc rgb ink front
+set arrow 2 from {inner_near},{bottom} to {inner_far},{bottom} nohead lw 2.5 lc rgb green front
+set label 1 'desk' at {far}-2,3 right textcolor rgb ink
+set label 2 'true bottom {bottom:g} mm' at {outer_far}+4,{bottom}+9 left textcolor rgb green
+set arrow 3 from {outer_far}+3.5,{bottom}+8 to {inner_far}-2,{bottom}+0.6 lw 1.5 lc rgb green head filled size 2,18 front
+)",
+                     fmt::arg("near", kDistanceMm - kShownHalfMm), fmt::arg("far", kDistanceMm + kShownHalfMm),
+                     fmt::arg("inner_near", kDistanceMm - inner), fmt::arg("inner_far", kDistanceMm + inner),
+                     fmt::arg("outer_near", kDistanceMm - outer), fmt::arg("outer_far", kDistanceMm + outer),
+                     fmt::arg("bottom", mm_from_metres(cup.bottom())), fmt::arg("rim", mm_from_metres(cup.height())));
+}
+
+std::string liquid_plot(const PaperFilling& filling, const CupShape& cup) {
+  const double inner = mm_from_metres(cup.inner_radius(cup.bottom())), outer = mm_from_metres(cup.outer.back().x());
+  const double bottom = mm_from_metres(cup.bottom());
+  return fmt::format(
+      R"(set object 4 rectangle from {near},{bottom} to {far},{surface} fillcolor rgb {colour} fillstyle solid 1 noborder back
+set arrow 4 from {near},{surface} to {far},{surface} nohead lw 2.5 dt 2 lc rgb blue front
+set label 3 'true surface {surface:g} mm' at {outer}+4,{surface}+8 left textcolor rgb blue
+set arrow 5 from {outer}+3.5,{surface}+8 to {far}+0.5,{surface} lw 1.5 lc rgb blue head filled size 2,18 front
+)",
+      fmt::arg("near", kDistanceMm - inner), fmt::arg("far", kDistanceMm + inner),
+      fmt::arg("outer", kDistanceMm + outer), fmt::arg("bottom", bottom), fmt::arg("surface", bottom + filling.fill_mm),
+      fmt::arg("colour", filling.liquid == "water" ? "0xE3F1FA" : "0xF3E6D3"));
+}
+
+/// The mean height inside; of water also how far it lies above the true bottom.
+std::string measured_plot(const View& view, double measured_mm, double bottom_mm) {
+  std::string text = fmt::format(R"(set label 4 '{0} {1:.1f} mm' at {2}-37,{1}+10 left textcolor rgb red front
+set arrow 6 from {2}-5,{1}+7.5 to {2}+5,{1}+2 lw 1.5 lc rgb red head filled size 2,18 front
+)",
+                                 view.what, measured_mm, kDistanceMm);
+  if (view.filling.liquid == "water")
+    text += fmt::format(
+        R"(set arrow 7 from {0}+20,{1}+0.4 to {0}+20,{2}-0.8 heads filled size 1.6,18 lw 1.8 lc rgb ink front
+set label 5 '+{3:.1f} mm' at {0}+22,{1}+4.5 left textcolor rgb ink front
+)",
+        kDistanceMm, bottom_mm, measured_mm, measured_mm - bottom_mm);
+  return text;
+}
+
+/// The cup, the liquid, and the points of NAME.csv.
+std::string plot_of(const View& view, const CupShape& cup, const Table& points, std::optional<double> measured_mm) {
   std::string text = fmt::format(R"(
 set title '{}'
 set xlabel 'distance from the sensor y [mm]'
 set ylabel 'height above the desk z [mm]'
-set xrange [325:475]; set yrange [-8:100]; set xtics 25; set ytics 20
 set size ratio -1
 unset grid
 set key off
-wall = 0xF1ECE4
-set object 1 rectangle from 357,0 to 443,7 fillcolor rgb wall fillstyle solid noborder back
-set object 2 rectangle from 357,0 to 360,87 fillcolor rgb wall fillstyle solid noborder back
-set object 3 rectangle from 440,0 to 443,87 fillcolor rgb wall fillstyle solid noborder back
-set arrow 1 from 325,0 to 475,0 nohead lw 2 lc rgb ink front
-set arrow 2 from 360,7 to 440,7 nohead lw 2.5 lc rgb green front
-set label 1 'desk' at 473,3 right textcolor rgb ink
-set label 2 'true bottom 7 mm' at 447,16 left textcolor rgb green
-set arrow 3 from 446.5,15 to 438,7.6 lw 1.5 lc rgb green head filled size 2,18 front
-)",
+wall = 0xF1ECE4)",
                                  view.title);
-  if (filled)
-    text +=
-        fmt::format(R"(set object 4 rectangle from 360,7 to 440,{0} fillcolor rgb {1} fillstyle solid 1 noborder back
-set arrow 4 from 360,{0} to 440,{0} nohead lw 2.5 dt 2 lc rgb blue front
-set label 3 'true surface {0:g} mm' at 447,{2} left textcolor rgb blue
-set arrow 5 from 446.5,{2} to 440.5,{0} lw 1.5 lc rgb blue head filled size 2,18 front
-)",
-                    surface, view.filling.liquid == "water" ? "0xE3F1FA" : "0xF3E6D3", surface + 8.0);
-  if (filled && view.filling.liquid == "water")
-    text += fmt::format(R"(set arrow 7 from 420,7.4 to 420,{0} heads filled size 1.6,18 lw 1.8 lc rgb ink front
-set label 5 '+{1:.1f} mm' at 422,11.5 left textcolor rgb ink front
-)",
-                        measured_mm - 0.8, measured_mm - 7.0);
-  text += fmt::format(R"(set label 4 '{0} {1:.1f} mm' at 363,{2} left textcolor rgb red front
-set arrow 6 from 395,{3} to 405,{4} lw 1.5 lc rgb red head filled size 2,18 front
-plot '{5}.csv' using 'y_mm':(column('inside') == 0 ? column('z_mm') : NaN) with points pt 7 ps 0.45 lc rgb 0x9A9A9A, \
-     '' using 'y_mm':(column('inside') == 1 ? column('z_mm') : NaN) with points pt 7 ps 0.8 lc rgb red)",
-                      view.what, measured_mm, measured_mm + 10.0, measured_mm + 7.5, measured_mm + 2.0, view.name);
+  text += cup_plot(cup);
+  if (view.filling.fill_mm > 0.0) text += liquid_plot(view.filling, cup);
+  if (measured_mm) text += measured_plot(view, *measured_mm, mm_from_metres(cup.bottom()));
+  text += fmt::format(
+      "plot '{}.csv' using 'y_mm':(column('inside') == 0 ? column('z_mm') : NaN) with points pt 7 ps 0.45 "
+      "lc rgb 0x9A9A9A",
+      view.name);
+  bool any_inside = false;
+  for (std::size_t row = 0; row < points.rows(); ++row) any_inside = any_inside || points.text(row, "inside") == "1";
+  if (any_inside)
+    text += ", '' using 'y_mm':(column('inside') == 1 ? column('z_mm') : NaN) with points pt 7 ps 0.8 lc rgb red";
   return text;
 }
 
@@ -95,10 +127,11 @@ Figure reproduce_view(const View& view, const ReproduceSettings& settings) {
                 .facts = {},
                 .table = slice(cloud, setup.rig, cup)};
   write_table(settings.folder / (figure.name + ".csv"), figure.table);
-  const double measured_mm = height ? mm_from_metres(height->mean_m) : 0.0;
-  draw(settings.folder, figure.name, plot_of(view, measured_mm));
+  std::optional<double> measured_mm;
+  if (height) measured_mm = mm_from_metres(height->mean_m);
+  draw(settings.folder, figure.name, plot_of(view, cup, figure.table, measured_mm));
   figure.facts.push_back({"Mean height inside the cup above the desk", view.printed,
-                          height ? fmt::format("{:.1f} mm, {} points with σ = {:.1f} mm", measured_mm, height->points,
+                          height ? fmt::format("{:.1f} mm, {} points with σ = {:.1f} mm", *measured_mm, height->points,
                                                mm_from_metres(height->sd_m))
                                  : "nothing seen inside"});
   figure.table = Table({});  // thousands of points say nothing in a report
@@ -128,19 +161,19 @@ Figure reproduce_fig3(const ReproduceSettings& settings) {
 }
 
 Figure reproduce_fig4(const ReproduceSettings& settings) {
+  const PaperFilling filling{"water", 30.0};
   Figure figure = reproduce_view(
-      {"fig4",
-       "Fig. 4: cup with 30 mm of water, from the side",
+      {"fig4", "Fig. 4: cup with 30 mm of water, from the side",
        "Through clear water the bottom is measured, but raised: far above where it is, far below the surface.",
-       "\"raised from the desk plane\"",
-       "raised bottom",
-       {"water", 30.0}},
+       "\"raised from the desk plane\"", "raised bottom", filling},
       settings);
-  const double raised = theory::raised_height_at(
-      0.030,
-      {.h = metres_from_mm(kPaperHeightMm - 7.0), .b = 0.075, .d = metres_from_mm(kDistanceMm), .n = kPaperIndex});
-  figure.facts.push_back(
-      {"The true bottom (7 mm) and what Eq. 7 adds", "–", fmt::format("{:.1f} mm", 7.0 + mm_from_metres(raised))});
+  const double raised_m = theory::raised_height_at(metres_from_mm(filling.fill_mm),
+                                                   {.h = metres_from_mm(kPaperHeightMm - kPaperBottomMm),
+                                                    .b = paper_setup(filling, kDistanceMm).rig.sensor.baseline,
+                                                    .d = metres_from_mm(kDistanceMm),
+                                                    .n = kPaperIndex});
+  figure.facts.push_back({fmt::format("The true bottom ({:g} mm) and what Eq. 7 adds", kPaperBottomMm), "–",
+                          fmt::format("{:.1f} mm", kPaperBottomMm + mm_from_metres(raised_m))});
   return figure;
 }
 

@@ -73,7 +73,7 @@ std::function<void()> define_template(CLI::App& app, const CommonOptions& common
       ->check(CLI::PositiveNumber)
       ->type_name("MM");
   return [options, &common] {
-    if (common.output.empty()) throw Error("--output", "is needed: the folder for the template");
+    require_output(common);
     run_template(*options, common);
   };
 }

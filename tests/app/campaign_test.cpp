@@ -53,6 +53,23 @@ TEST_F(CampaignCommand, WritesWhatMeasureReads) {
     EXPECT_NEAR(heights.number(row, "height_mm"), expected[row], row < 4 ? 0.3 : 0.8) << row;
 }
 
+TEST_F(CampaignCommand, TheRigSaysHowTheSensorStandsAndHowWideTheCupIsAtOneHeight) {
+  Json spec = kSpec;
+  spec["sensor"] = {{"model", "xtion_pro_live"}, {"height_mm", 650}, {"pitch_deg", 58.4}, {"roll_deg", 5}};
+  spec["cup"] = {{"shape", "tapered_cup"}};
+  spec["fillings"] = {{{"liquid", "empty"}}};
+  spec["distance_mm"] = {400};
+  spec["trials"] = 1;
+  ASSERT_EQ(campaign(spec, "out").exit_code, 0);
+  const Json rig = read_json(folder / "out" / "rig.json");
+  constexpr double kTidied = 1e-6;  // the file's last decimal
+  EXPECT_NEAR(rig["sensor"]["pitch_deg"].get<double>(), 58.4, kTidied);
+  EXPECT_NEAR(rig["sensor"]["roll_deg"].get<double>(), 5.0, kTidied);
+  // Straight walls: inside from 26 mm at 4 mm to 38 mm at 90 mm, outside from 27 mm on the desk to 39 mm; at 45 mm.
+  EXPECT_NEAR(rig["cup"]["inner_radius_mm"].get<double>(), 26.0 + 12.0 * 41.0 / 86.0, kTidied);
+  EXPECT_NEAR(rig["cup"]["outer_radius_mm"].get<double>(), 27.0 + 12.0 * 45.0 / 90.0, kTidied);
+}
+
 TEST_F(CampaignCommand, EqualSeedsGiveEqualFilesOthersDoNot) {
   const std::string truth = "--truth " + (folder / "truth_").string();
   ASSERT_EQ(campaign(kSpec, "a", truth + "a.json").exit_code, 0);
@@ -76,6 +93,22 @@ TEST_F(CampaignCommand, TheTruthStaysOutOfTheFolder) {
   EXPECT_EQ(read_table(folder / "out" / "frames.csv").text(4, "fill_mm"), "30");
 }
 
+TEST_F(CampaignCommand, ATruthThatCannotBeWrittenLeavesNoFolder) {
+  const ProgramRun inside = campaign(kSpec, "out", "--truth " + (folder / "out" / "truth.json").string());
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_EQ(inside.err.rfind("--truth must lie outside the folder of -o", 0), 0u) << inside.err;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  EXPECT_EQ(campaign(kSpec, "out", "--truth " + (folder / "spec.json" / "truth.json").string()).exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(CampaignCommand, ARunThatWasCutShortBeforeItsFirstCloudGoesOn) {
+  ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
+  for (const char* later : {"clouds", "rig.json", "frames.csv"}) fs::remove_all(folder / "out" / later);
+  ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "out" / "clouds/000007.pcd"));
+}
+
 TEST_F(CampaignCommand, ARunThatWasCutShortGoesOn) {
   ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
   const std::string cloud = read_text(folder / "out" / "clouds/000003.pcd");
@@ -92,7 +125,8 @@ TEST_F(CampaignCommand, AFolderHoldsOneCampaign) {
   ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
   Json other = kSpec;
   other["trials"] = 3;
-  const ProgramRun run = campaign(other, "out");
+  const ProgramRun run = campaign(other, "out", "--truth " + (folder / "truth.json").string());
+  EXPECT_FALSE(fs::exists(folder / "truth.json"));
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_EQ(run.err, "error: " + (folder / "out" / "campaign.json").string() +
                          ": is of another spec, seed or program version; choose another folder\n");
