@@ -136,6 +136,7 @@ void claim_folder(const fs::path& folder, const Json& identity) {
   make_directory(folder);
   write_json(folder / "campaign.json", identity);
   make_directory(folder / "clouds");
+  remove_leftovers(folder / "clouds");
 }
 
 void require_truth_outside(const fs::path& truth, const fs::path& folder) {

@@ -23,15 +23,6 @@ double roll_of(const Eigen::Vector3d& right, const Eigen::Vector3d& forward) {
   return std::atan2(right.dot(forward.cross(level_right)), right.dot(level_right));
 }
 
-/// Of the cup's outside at a height above the desk, by linear interpolation of the profile.
-double outer_radius(const CupShape& cup, double height) {
-  const auto above = std::find_if(cup.outer.begin(), cup.outer.end(),
-                                  [height](const Eigen::Vector2d& point) { return point.y() >= height; });
-  if (above == cup.outer.begin() || above == cup.outer.end()) return cup.outer.back().x();
-  const Eigen::Vector2d below = *std::prev(above);
-  return std::lerp(below.x(), above->x(), (height - below.y()) / (above->y() - below.y()));
-}
-
 }  // namespace
 
 LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file) {
@@ -50,7 +41,7 @@ LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string
   nominal.cup_shape = cup.name;
   nominal.cup_height_m = cup.height();
   nominal.inner_radius_m = cup.inner_radius(kBandMiddleMetres);
-  nominal.outer_radius_m = outer_radius(cup, kBandMiddleMetres);
+  nominal.outer_radius_m = cup.outer_radius(kBandMiddleMetres);
   nominal.bottom_m = cup.bottom();
   return nominal;
 }

@@ -96,7 +96,7 @@ TEST_F(CampaignCommand, TheTruthStaysOutOfTheFolder) {
 TEST_F(CampaignCommand, ATruthThatCannotBeWrittenLeavesNoFolder) {
   const ProgramRun inside = campaign(kSpec, "out", "--truth " + (folder / "out" / "truth.json").string());
   EXPECT_EQ(inside.exit_code, 2);
-  EXPECT_EQ(inside.err.rfind("--truth must lie outside the folder of -o", 0), 0u) << inside.err;
+  EXPECT_EQ(inside.err.rfind("error: --truth must lie outside the folder of -o", 0), 0u) << inside.err;
   EXPECT_FALSE(fs::exists(folder / "out"));
   EXPECT_EQ(campaign(kSpec, "out", "--truth " + (folder / "spec.json" / "truth.json").string()).exit_code, 1);
   EXPECT_FALSE(fs::exists(folder / "out"));

@@ -5,14 +5,14 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/units.h"
+#include "tests/core/temporary_folder.h"
 
 namespace fathom {
 namespace {
 
-namespace fs = std::filesystem;
-
 LaboratoryRig read(const std::string& json) {
-  const fs::path path = fs::path(testing::TempDir()) / "rig_test.json";
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "rig_test.json";
   write_text(path, json);
   return read_rig(path);
 }
