@@ -8,6 +8,7 @@
 #include "sim/render/connection.h"
 #include "sim/render/radiance.h"
 #include "sim/render/truth.h"
+#include "sim/sensor/pixel_mean.h"
 
 namespace fathom {
 namespace {
@@ -35,14 +36,11 @@ Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& 
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
-        double sum = 0.0;
-        for (int j = 0; j < samples_across; ++j)
-          for (int i = 0; i < samples_across; ++i) {
-            const double x_px = (x + (i + 0.5) / samples_across) * px_per_ir_px;
-            const double y_px = (y - sensor.ir_first_row() + (j + 0.5) / samples_across) * px_per_ir_px;
-            sum += sample_radiance(world, rig, pattern, projector, {camera, rig.direction_in_world(x_px, y_px)});
-          }
-        image(x, y) = static_cast<float>(sum / (samples_across * samples_across));
+        const auto sample = [&](double dx, double dy) {
+          const double x_px = (x + dx) * px_per_ir_px, y_px = (y - sensor.ir_first_row() + dy) * px_per_ir_px;
+          return sample_radiance(world, rig, pattern, projector, {camera, rig.direction_in_world(x_px, y_px)});
+        };
+        image(x, y) = static_cast<float>(pixel_mean(samples_across, sample));
       }
   });
   return image;

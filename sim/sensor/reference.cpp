@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/simd.h"
+#include "sim/sensor/pixel_mean.h"
 
 namespace fathom {
 namespace {
@@ -156,15 +157,12 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
-        double sum = 0.0;
-        for (int j = 0; j < samples_across; ++j)
-          for (int i = 0; i < samples_across; ++i) {
-            const double x_px = (x + (i + 0.5) / samples_across) / scale - margin_px;
-            const double y_px = (y - sensor.ir_first_row() + (j + 0.5) / samples_across) / scale;
-            sum += pattern.intensity((x_px - sensor.principal_px.x()) / sensor.focal_px - parallax,
-                                     (y_px - sensor.principal_px.y()) / sensor.focal_px, sensor.focal_px);
-          }
-        image(x, y) = static_cast<float>(kBrightness * sum / (samples_across * samples_across));
+        const auto sample = [&](double dx, double dy) {
+          const double x_px = (x + dx) / scale - margin_px, y_px = (y - sensor.ir_first_row() + dy) / scale;
+          return pattern.intensity((x_px - sensor.principal_px.x()) / sensor.focal_px - parallax,
+                                   (y_px - sensor.principal_px.y()) / sensor.focal_px, sensor.focal_px);
+        };
+        image(x, y) = static_cast<float>(kBrightness * pixel_mean(samples_across, sample));
       }
   });
   return image;
