@@ -39,6 +39,22 @@ struct Likeness {
   float correlation() const { return both / std::sqrt(seen * predicted + 1e-6f); }
 };
 
+/// At most kMost values, in place: edges are settled a hundred thousand times a frame.
+template <class Value, std::size_t kMost>
+class Few {
+ public:
+  void push_back(const Value& value) { values_[size_++] = value; }
+  bool empty() const { return size_ == 0; }
+  auto begin() { return values_.begin(); }
+  auto begin() const { return values_.begin(); }
+  auto end() { return values_.begin() + size_; }
+  auto end() const { return values_.begin() + size_; }
+
+ private:
+  std::array<Value, kMost> values_;
+  std::size_t size_ = 0;
+};
+
 /// A surface near a pixel, extended to the pixel.
 struct LocalSurface {
   float disparity, slope_x, slope_y;
@@ -94,9 +110,9 @@ class EdgeSettler {
     constexpr float kExplained = 0.5f;
     std::optional<LocalSurface> best;
     float best_correlation = kExplained;
-    std::vector<LocalSurface> surfaces = surfaces_around(x, y);
+    Few<LocalSurface, kAround.size()> surfaces = surfaces_around(x, y);
     if (surfaces.empty()) return best;
-    const std::vector<Neighbour> neighbours = clean_neighbours(x, y);
+    const Neighbours neighbours = clean_neighbours(x, y);
     for (LocalSurface& surface : surfaces) {
       fit(neighbours, surface);
       const Likeness found = likeness(x, y, surface);
@@ -118,9 +134,9 @@ class EdgeSettler {
 
   /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
   /// window.
-  std::vector<LocalSurface> surfaces_around(int x, int y) const {
+  Few<LocalSurface, kAround.size()> surfaces_around(int x, int y) const {
     constexpr float kDifferent = 0.6f;  // [px]
-    std::vector<LocalSurface> surfaces;
+    Few<LocalSurface, kAround.size()> surfaces;
     for (const auto& [dx, dy] : kAround) {
       const int i = x + dx, j = y + dy;
       if (!inside(i, j) || !estimates_.valid(i, j)) continue;
@@ -144,12 +160,14 @@ class EdgeSettler {
   struct Neighbour {
     float dx, dy, disparity;
   };
+  static constexpr int kFar = 9, kStride = 3;  // [px]
+  static constexpr int kAlong = 2 * kFar / kStride + 1;
+  using Neighbours = Few<Neighbour, kAlong * kAlong>;
 
   /// Those neighbours whose windows meet one surface only: windows that reach over an edge are pulled by the other
   /// surface's dots.
-  std::vector<Neighbour> clean_neighbours(int x, int y) const {
-    constexpr int kFar = 9, kStride = 3;
-    std::vector<Neighbour> neighbours;
+  Neighbours clean_neighbours(int x, int y) const {
+    Neighbours neighbours;
     for (int dy = -kFar; dy <= kFar; dy += kStride)
       for (int dx = -kFar; dx <= kFar; dx += kStride)
         if (inside(x + dx, y + dy) && !is_edge(x + dx, y + dy) && estimates_.valid(x + dx, y + dy))
@@ -158,7 +176,7 @@ class EdgeSettler {
   }
 
   /// Fits a surface to those clean neighbours that lie on it; leaves it as it is where they are too few.
-  static void fit(const std::vector<Neighbour>& neighbours, LocalSurface& surface) {
+  static void fit(const Neighbours& neighbours, LocalSurface& surface) {
     for (const float same_surface :
          {0.6f, 0.15f, 0.05f}) {  // [px]; the later rounds leave out what lies beyond a crease
       constexpr int kEnough = 6;

@@ -46,10 +46,14 @@ struct Estimates {
   bool valid(int x, int y) const { return disparity(x, y) == disparity(x, y); }
 };
 
-/// Disparity of every pixel's best window, interpolated from the scores [px]; NaN without a peak inside the range.
+/// Every second row is searched: its windows hold eight of the nine rows of the one below.
+inline constexpr int kSearchStep = 2;
+
+/// Disparity of the best window of every pixel of every kSearchStep-th row, interpolated from the scores [px]; NaN
+/// without a peak inside the range.
 Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference);
 
-/// Sub-pixel disparity at the centroid of each window, with gain, bias and correlation.
+/// Sub-pixel disparity at the centroid of each window, with gain, bias and correlation, from what the search found.
 Estimates refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
                  const Image<float>& coarse);
 

@@ -56,54 +56,6 @@ Image<float> convolved(const Image<float>& image, const std::array<float, kTaps>
   return result;
 }
 
-/// One value per column: products of r and g summed over the window's rows.
-struct ColumnMoments {
-  std::vector<float> r, g, rr, rg, gg, gg_y;
-  explicit ColumnMoments(int width) : r(width), g(width), rr(width), rg(width), gg(width), gg_y(width) {}
-  void clear() {
-    for (auto* moment : {&r, &g, &rr, &rg, &gg, &gg_y}) std::fill(moment->begin(), moment->end(), 0.0f);
-  }
-};
-
-FATHOM_SIMD_CLONES
-void add_moments(const float* __restrict reference, const float* __restrict gradient, float row, float* __restrict r,
-                 float* __restrict g, float* __restrict rr, float* __restrict rg, float* __restrict gg,
-                 float* __restrict gg_y, int width) {
-  for (int x = 0; x < width; ++x) {
-    const float a = reference[x], b = gradient[x];
-    r[x] += a, g[x] += b, rr[x] += a * a, rg[x] += a * b, gg[x] += b * b, gg_y[x] += row * (b * b);
-  }
-}
-
-/// Sums of a window's columns for every first column; with `weighted` each column counts by its place in the window.
-FATHOM_SIMD_CLONES
-void slide_refine_window(const float* __restrict column, float* __restrict sums, int count, bool weighted) {
-  for (int x = 0; x < count; ++x) {
-    float sum = 0.0f;
-    for (int i = 0; i < kRefineColumns; ++i) sum += weighted ? static_cast<float>(i) * column[x + i] : column[x + i];
-    sums[x] = sum;
-  }
-}
-
-/// Moments of all windows of one row and phase.
-void row_moments(const Image<float>& shifted, const Image<float>& gradient, int first_row, ColumnMoments& columns,
-                 ColumnMoments& windows, std::vector<float>& gg_x, WindowMoments* result, int count) {
-  columns.clear();
-  for (int j = 0; j < kRefineRows; ++j)
-    add_moments(shifted.row(first_row + j), gradient.row(first_row + j), static_cast<float>(j), columns.r.data(),
-                columns.g.data(), columns.rr.data(), columns.rg.data(), columns.gg.data(), columns.gg_y.data(),
-                shifted.width());
-  slide_refine_window(columns.r.data(), windows.r.data(), count, false);
-  slide_refine_window(columns.g.data(), windows.g.data(), count, false);
-  slide_refine_window(columns.rr.data(), windows.rr.data(), count, false);
-  slide_refine_window(columns.rg.data(), windows.rg.data(), count, false);
-  slide_refine_window(columns.gg.data(), windows.gg.data(), count, false);
-  slide_refine_window(columns.gg_y.data(), windows.gg_y.data(), count, false);
-  slide_refine_window(columns.gg.data(), gg_x.data(), count, true);
-  for (int x = 0; x < count; ++x)
-    result[x] = {windows.r[x], windows.g[x], windows.rr[x], windows.rg[x], windows.gg[x], gg_x[x], windows.gg_y[x]};
-}
-
 /// Adds a row to the sums of its columns and of their squares.
 FATHOM_SIMD_CLONES
 void add_rows(const float* __restrict row, float* __restrict sums, float* __restrict squares, int width) {
@@ -224,18 +176,6 @@ Reference memorise(const SensorModel& sensor, const Image<float>& image, int mar
     reference.shifted.push_back(convolved(paired, kernel(phase, lanczos)));
     reference.gradient.push_back(convolved(paired, kernel(phase, lanczos_slope)));
   }
-  reference.moment_columns = paired.width() - kRefineColumns + 1;
-  reference.moments.resize(static_cast<std::size_t>(sensor.height) * kPhases * reference.moment_columns);
-  parallel_ranges(sensor.height, [&](int begin, int end) {
-    ColumnMoments columns(paired.width()), windows(paired.width());
-    std::vector<float> gg_x(paired.width());
-    for (int row = begin; row < end; ++row)
-      for (int phase = 0; phase < kPhases; ++phase) {
-        const std::size_t first = (static_cast<std::size_t>(row) * kPhases + phase) * reference.moment_columns;
-        row_moments(reference.shifted[phase], reference.gradient[phase], refine_first_row(sensor, row), columns,
-                    windows, gg_x, reference.moments.data() + first, reference.moment_columns);
-      }
-  });
   return reference;
 }
 

@@ -17,13 +17,6 @@ inline constexpr int kPhases = 4;
 inline constexpr int kRefineColumns = 16;  ///< infrared pixels
 inline constexpr int kRefineRows = 7;      ///< row pairs
 
-/// Sums over one window of the reference r and its derivative g [1/px]: all that a match needs and that does not depend
-/// on the live image.
-struct WindowMoments {
-  float r, g, rr, rg, gg;
-  float gg_x, gg_y;  ///< gg weighted by column and by row, both counted from 0
-};
-
 /// Rows of the infrared image are added in pairs before refinement: disparity lies along the rows, so this halves the
 /// work and loses nothing but noise.
 struct Reference {
@@ -31,12 +24,6 @@ struct Reference {
   Image<std::int16_t> search;          ///< halved and locally normalised, (width + 2 margin) × (ir_height / 2)
   std::vector<Image<float>> shifted;   ///< [phase] rows in pairs, at x + phase / kPhases infrared pixels
   std::vector<Image<float>> gradient;  ///< [phase] its derivative along x [1/infrared px]
-  std::vector<WindowMoments> moments;  ///< by window row (one per depth row), phase and first column
-  int moment_columns = 0;
-
-  const WindowMoments& moments_at(int depth_row, int phase, int first_column) const {
-    return moments[(static_cast<std::size_t>(depth_row) * kPhases + phase) * moment_columns + first_column];
-  }
 };
 
 /// The ideal image of a plane at sensor.reference, facing the camera, of even brightness; wider than the camera's image

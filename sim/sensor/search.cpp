@@ -91,18 +91,18 @@ class BandSearch {
         best_(count_),
         best_index_(count_) {}
 
+  /// Searches `disparity`'s rows begin … end − 1, which are every kSearchStep-th of the depth image.
   void run(int begin, int end, Image<float>& disparity) {
     const int half_rows = matcher_.window_rows / 2;
-    const int first_row = sensor_.ir_first_row() / 2;
+    int centre = sensor_.ir_first_row() / 2 + begin * kSearchStep;
     for (Row& row : sums_) std::fill(row.begin(), row.end(), std::int16_t{0});
+    for (int j = -half_rows; j <= half_rows; ++j) add_row(centre + j);
     for (int y = begin; y < end; ++y) {
-      const int centre = first_row + y;
-      if (y == begin)
-        for (int j = -half_rows; j <= half_rows; ++j) add_row(centre + j);
-      else
-        exchange_rows(centre + half_rows, centre - half_rows - 1);
       score_rows();
       for (int x = 0; x < disparity.width(); ++x) disparity(x, y) = peak(x);
+      if (y + 1 == end) break;
+      for (int step = 0; step < kSearchStep; ++step, ++centre)
+        exchange_rows(centre + half_rows + 1, centre - half_rows);
     }
   }
 
@@ -162,13 +162,13 @@ class BandSearch {
 Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference) {
   const Image<std::int16_t> live =
       padded(locally_normalised(columns_in_pairs(paired), sensor.matcher), sensor.matcher.window_columns / 2);
-  Image<float> disparity(sensor.width, sensor.height);
-  constexpr int kBandRows = 60;
-  const int bands = (sensor.height + kBandRows - 1) / kBandRows;
+  Image<float> disparity(sensor.width, (sensor.height + kSearchStep - 1) / kSearchStep);
+  constexpr int kBandRows = 30;
+  const int bands = (disparity.height() + kBandRows - 1) / kBandRows;
   parallel_ranges(bands, [&](int begin, int end) {
     for (int band = begin; band < end; ++band) {
       BandSearch search(sensor, live, reference);
-      search.run(band * kBandRows, std::min((band + 1) * kBandRows, sensor.height), disparity);
+      search.run(band * kBandRows, std::min((band + 1) * kBandRows, disparity.height()), disparity);
     }
   });
   return disparity;
