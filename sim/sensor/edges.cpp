@@ -62,12 +62,15 @@ struct LocalSurface {
   bool own;  ///< found by the pixel's own window
 };
 
-/// Marks the pixels of a row whose windows may meet more than one surface: the disparity over ±kReach is not straight,
-/// or much more is left unexplained than in a neighbour's window, because of foreign dots.
+enum Surroundings : std::uint8_t { kClean, kCrease, kEdge };
+
+/// Says of the pixels of a row what their windows meet. An edge: the disparity over ±kReach is far from straight, or
+/// much more is left unexplained than in a neighbour's window, because of foreign dots. A crease: it bends.
 FATHOM_SIMD_CLONES
-void mark_edges(const float* disparity, const float* correlation, std::ptrdiff_t stride, std::uint8_t* edges, int begin,
-                int end) {
-  constexpr float kBend = 0.8f;  // [px]
+void mark_surroundings(const float* disparity, const float* correlation, std::ptrdiff_t stride, std::uint8_t* marks,
+                       int begin, int end) {
+  constexpr float kBreak = 0.8f;  // [px]
+  constexpr float kBend = 0.2f;   // [px]; 2 to 3 times the noise of such a difference
 #pragma GCC ivdep
   for (int x = begin; x < end; ++x) {
     const float* d = disparity + x;
@@ -77,8 +80,9 @@ void mark_edges(const float* disparity, const float* correlation, std::ptrdiff_t
     const float best_across = c[-kReach] > c[kReach] ? c[-kReach] : c[kReach];
     const float best_down = c[-kReach * stride] > c[kReach * stride] ? c[-kReach * stride] : c[kReach * stride];
     const float best = best_across > best_down ? best_across : best_down;
-    const bool plain = (across < kBend) & (down < kBend) & (1.0f - c[0] < 2.0f * (1.0f - best) + 0.15f);
-    edges[x] = plain ? 0 : 1;
+    const bool whole = (across < kBreak) & (down < kBreak) & (1.0f - c[0] < 2.0f * (1.0f - best) + 0.15f);
+    const bool straight = (across < kBend) & (down < kBend);
+    marks[x] = whole ? (straight ? kClean : kCrease) : kEdge;
   }
 }
 
@@ -90,20 +94,20 @@ class EdgeSettler {
         paired_(paired),
         reference_(reference),
         estimates_(estimates),
-        edges_(sensor.width, sensor.height),
+        marks_(sensor.width, sensor.height),
         noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kOwnColumns *
                       kOwnRows) {
     // The image's own border is no edge between surfaces.
     const int margin = sensor.matcher.window_columns / 4 + kReach;
-    parallel_ranges(edges_.height() - 2 * kReach, [&](int begin, int end) {
+    parallel_ranges(marks_.height() - 2 * kReach, [&](int begin, int end) {
       for (int y = begin + kReach; y < end + kReach; ++y)
-        mark_edges(estimates.disparity.row(y), estimates.correlation.row(y), edges_.width(), edges_.row(y), margin,
-                   edges_.width() - margin);
+        mark_surroundings(estimates.disparity.row(y), estimates.correlation.row(y), marks_.width(), marks_.row(y),
+                          margin, marks_.width() - margin);
     });
   }
 
   /// Whether the windows around the pixel meet more than one surface.
-  bool is_edge(int x, int y) const { return edges_(x, y) != 0; }
+  bool is_edge(int x, int y) const { return marks_(x, y) == kEdge; }
 
   /// The surface whose dots are most like those at the pixel; nothing when none is.
   std::optional<LocalSurface> settle(int x, int y) const {
@@ -129,7 +133,7 @@ class EdgeSettler {
   /// Inside the image and not in its border, where nothing is matched.
   bool inside(int x, int y) const {
     const int border = sensor_.matcher.window_columns / 4;
-    return x >= border && x < edges_.width() - border && y >= 0 && y < edges_.height();
+    return x >= border && x < marks_.width() - border && y >= 0 && y < marks_.height();
   }
 
   /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
@@ -164,13 +168,13 @@ class EdgeSettler {
   static constexpr int kAlong = 2 * kFar / kStride + 1;
   using Neighbours = Few<Neighbour, kAlong * kAlong>;
 
-  /// Those neighbours whose windows meet one surface only: windows that reach over an edge are pulled by the other
-  /// surface's dots.
+  /// Those neighbours whose windows meet one straight surface only: windows that reach over an edge or a crease are
+  /// pulled by the other side's dots, and a fit carries their errors far.
   Neighbours clean_neighbours(int x, int y) const {
     Neighbours neighbours;
     for (int dy = -kFar; dy <= kFar; dy += kStride)
       for (int dx = -kFar; dx <= kFar; dx += kStride)
-        if (inside(x + dx, y + dy) && !is_edge(x + dx, y + dy) && estimates_.valid(x + dx, y + dy))
+        if (inside(x + dx, y + dy) && marks_(x + dx, y + dy) == kClean && estimates_.valid(x + dx, y + dy))
           neighbours.push_back({static_cast<float>(dx), static_cast<float>(dy), estimates_.disparity(x + dx, y + dy)});
     return neighbours;
   }
@@ -226,7 +230,7 @@ class EdgeSettler {
   const Image<float>& paired_;
   const Reference& reference_;
   const Estimates& estimates_;
-  Image<std::uint8_t> edges_;
+  Image<std::uint8_t> marks_;
   float noise_energy_;
 };
 
