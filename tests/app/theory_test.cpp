@@ -67,8 +67,10 @@ TEST(TheoryCommand, RefusesImpossibleValuesAsBadUsage) {
 TEST(TheoryCommand, KeepsItsTableInTheFolderOfTheResults) {
   const TemporaryFolder folder;
   const std::string options = " --fill-mm 30 --distance-mm 400 -o " + (folder / "new").string();
-  EXPECT_EQ(run_program("theory" + options).text, read_text(folder / "new" / "theory.csv"));
-  EXPECT_EQ(run_program("theory --json" + options).text, read_text(folder / "new" / "theory.json"));
+  const Outcome table = run_program("theory" + options);
+  EXPECT_EQ(table.text, read_text(folder / "new" / "theory.csv"));
+  const Outcome json = run_program("theory --json" + options);
+  EXPECT_EQ(json.text, read_text(folder / "new" / "theory.json"));
 }
 
 TEST(Commands, OnesThatDoNotExistAreNamedBesideThoseThatDo) {
