@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 struct CampaignOptions {
   fs::path spec;
   fs::path truth;
-  int spp = 4;
+  int spp = kDefaultSamplesPerPixel;
 };
 
 /// What randomness is for, so that no two uses share a stream.
@@ -77,12 +77,14 @@ Setup setup_of(const CampaignSpec& spec, const Placement& placement) {
   return {.scene = {.desk = spec.desk, .cups = {std::move(cup)}, .objects = {}}, .rig = spec.rig, .source = {}};
 }
 
-/// Shoots the trials that are not there yet.
+/// Shoots the trials whose clouds are not there yet, or not whole: somebody may have copied the folder halfway.
 int shoot(const CampaignSpec& spec, const Placement& placement, const CampaignOptions& options,
           const CommonOptions& common) {
   std::vector<int> missing;
+  const SensorModel& sensor = spec.rig.sensor;
   for (int trial = 0; trial < spec.trials; ++trial)
-    if (!fs::exists(common.output / cloud_file(spec, placement, trial))) missing.push_back(trial);
+    if (!is_whole_pcd(common.output / cloud_file(spec, placement, trial), sensor.width, sensor.height))
+      missing.push_back(trial);
   if (missing.empty()) return 0;
   const std::uint64_t seed = Rng(common.seed, Draw::camera, placement.number).bits();
   Camera camera(setup_of(spec, placement), spec.mode, options.spp, seed);

@@ -12,13 +12,14 @@
 namespace fathom {
 namespace {
 
-std::map<std::string, Medium> media_from_json(const JsonReader& json) {
+std::map<std::string, Medium> media_from_json(const JsonReader& json, double wavelength_nm) {
   if (!json.value().is_object()) json.fail("must be an object of liquids by name");
   std::map<std::string, Medium> media;
   for (const auto& [name, medium] : json.value().items()) {
     if (name == "empty" || name == "none") json.fail_at(name, "is a reserved name and no liquid");
     if (name.find_first_of(",\"\n") != std::string::npos) json.fail_at(name, "must be a name without , and \"");
     media[name] = medium_from_json(json.at(name));
+    require_index(json.at(name), media[name], wavelength_nm);
   }
   return media;
 }
@@ -37,21 +38,28 @@ CampaignFilling filling_from_json(const JsonReader& json, const std::map<std::st
     json.fail_at("liquid", unknown_name("liquid", filling.liquid, names));
   }
   filling.medium = medium->second;
-  filling.fill = metres_from_mm(json.number("fill_mm", kPositive));
+  filling.fill = json.metres("fill_mm", kPositive);
   if (filling.fill > deepest)
     json.fail_at("fill_mm", fmt::format("must be at most {:g}, the depth of the cup", mm_from_metres(deepest)));
   return filling;
 }
 
-std::vector<double> lengths(const JsonReader& json) {
-  std::vector<double> result = json.numbers();
+/// Places of a cup along one axis of the desk, which reaches from `low` to `high` [m].
+std::vector<double> places(const JsonReader& json, double low, double high) {
+  std::vector<double> result;
+  for (const JsonReader& item : json.items()) {
+    result.push_back(metres_from_mm(item.number()));
+    if (result.back() < low || result.back() > high)
+      item.fail(fmt::format("must be a place on the desk, from {:g} to {:g}, got {}", mm_from_metres(low),
+                            mm_from_metres(high), item.value().dump()));
+  }
   if (result.empty()) json.fail("must hold at least one length");
-  for (double& value : result) value = metres_from_mm(value);
   return result;
 }
 
-double sigma(const JsonReader& json, std::string_view key, double otherwise_m) {
-  return metres_from_mm(json.number_or(key, mm_from_metres(otherwise_m), kNonNegative));
+/// 1 σ of a length that cannot vary by more than `most` [m].
+double sigma(const JsonReader& json, std::string_view key, double otherwise_m, double most) {
+  return json.metres_or(key, otherwise_m, {0.0, mm_from_metres(most)});
 }
 
 }  // namespace
@@ -69,19 +77,23 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   if (!spec.desk) json.fail_at("desk", "is what heights are measured from and cannot be null");
   json.at("cup").allow_only({"shape"});
   spec.cup = cup_shape_from_json(json.at("cup").at("shape"));
-  const std::map<std::string, Medium> media = media_from_json(json.at("liquids"));
+  const std::map<std::string, Medium> media = media_from_json(json.at("liquids"), spec.rig.sensor.wavelength_nm);
   for (const JsonReader& item : json.at("fillings").items())
     spec.fillings.push_back(filling_from_json(item, media, spec.deepest_fill()));
   if (spec.fillings.empty()) json.fail_at("fillings", "must hold at least one filling");
-  spec.distances = lengths(json.at("distance_mm"));
-  spec.laterals = json.has("lateral_mm") ? lengths(json.at("lateral_mm")) : std::vector<double>{0.0};
+  const Eigen::Vector2d low = spec.desk->centre - 0.5 * spec.desk->size,
+                        high = spec.desk->centre + 0.5 * spec.desk->size;
+  spec.distances = places(json.at("distance_mm"), low.y(), high.y());
+  spec.laterals = json.has("lateral_mm") ? places(json.at("lateral_mm"), low.x(), high.x()) : std::vector<double>{0.0};
   spec.pours = json.integer_or("pours", spec.pours, 1, kMany);
   spec.placements = json.integer_or("placements", spec.placements, 1, kMany);
   spec.trials = json.integer_or("trials", spec.trials, 1, kMany);
   if (json.has("mode") && json.at("mode").choice(modes, "mode") == 1) spec.mode = CaptureMode::geometric;
   spec.nominal = nominal_rig(spec.rig, spec.cup, path.string());
-  spec.nominal.fill_sigma_m = sigma(json, "fill_sigma_mm", spec.nominal.fill_sigma_m);
-  spec.nominal.placement_sigma_m = sigma(json, "placement_sigma_mm", spec.nominal.placement_sigma_m);
+  spec.nominal.fill_sigma_m = sigma(json, "fill_sigma_mm", spec.nominal.fill_sigma_m, spec.deepest_fill());
+  // `measure` looks for a cup no farther than its radius from where it should stand.
+  spec.nominal.placement_sigma_m =
+      sigma(json, "placement_sigma_mm", spec.nominal.placement_sigma_m, spec.nominal.outer_radius_m);
   for (const auto& [name, medium] : spec.source["liquids"].items()) spec.nominal.liquids[name] = medium;
   return spec;
 }

@@ -23,7 +23,7 @@ namespace {
 struct CaptureOptions {
   std::filesystem::path scene;
   std::string mode = "photometric";
-  int spp = 4;
+  int spp = kDefaultSamplesPerPixel;
   int frames = 1;
 };
 
@@ -61,12 +61,15 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   write_truth(common.output, camera.truth());
   Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
+  int without_depth = 0;
   for (int i = 0; i < options.frames; ++i) {
     const std::filesystem::path folder =
         options.frames == 1 ? common.output : common.output / fmt::format("frame_{:04}", i);
     make_directory(folder);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
     write_frame(folder, frame, camera.truth(), setup.rig.sensor.noise.bits);
+    const auto& depths = frame.depth.pixels();
+    without_depth += std::none_of(depths.begin(), depths.end(), [](float depth) { return depth > 0.0f; });
     if (i == 0) rows = summary(frame, camera.truth());
     progress.step();
   }
@@ -78,6 +81,9 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["seed"] = common.seed;
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_json(common.output / "run.json", record);  // last: its presence says that the capture is complete
+  if (without_depth > 0)
+    fmt::print(stderr, "warning: {}: {} of {} frames have no pixel with a depth; is anything lit and in range?\n",
+               options.scene.string(), without_depth, options.frames);
   fmt::print("{}", format_rows(rows, common.json));
 }
 

@@ -22,19 +22,20 @@ inline constexpr std::array kCommands{
             "  fathom capture scenes/paper_water.json --mode geometric -o out/exact",
             define_capture},
     Command{"theory", "The paper's Eq. 7 and the exact triangulation of the raised bottom, as CSV",
-            "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50\n  fathom theory "
-            "--max-skew",
+            "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50 -o out/theory\n"
+            "  fathom theory --max-skew",
             define_theory},
     Command{"detect", "Finds cups on a desk and the liquids in them, in measured or simulated clouds",
             "  fathom detect cloud.pcd\n  fathom detect cloud.pcd --height-mm 650 --pitch-deg 58.4 --json\n"
-            "  fathom detect shot1.pcd shot2.ply --config detector.json",
+            "  fathom detect shot1.pcd shot2.ply --config detector.json -o out/detected",
             define_detect},
     Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
             define_campaign},
-    Command{"measure", "Fills the height columns of a measurement directory: writes DIR/heights.csv",
-            "  fathom measure out/paper", define_measure},
+    Command{"measure",
+            "Fills the height columns of a measurement directory: writes heights.csv there, or to the folder of -o",
+            "  fathom measure out/paper\n  fathom measure out/paper -o out/heights", define_measure},
     Command{
         "reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
         "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce all --trials 10 -o out/paper_figures",
@@ -43,7 +44,7 @@ inline constexpr std::array kCommands{
             "  fathom template cloud.pcd -o templates --name my_mug\n"
             "  fathom template cloud.pcd -o templates --name tall_mug --liquid-threshold-mm 6",
             define_template},
-    Command{"list", "The libraries of media, cups and sensors, with units and sources",
+    Command{"list", "The libraries of media, cups, sensors and effects, with units and sources",
             "  fathom list media\n  fathom list cups --json", define_list},
 };
 

@@ -1,5 +1,7 @@
 #include "app/cup_height.h"
 
+#include <optional>
+
 #include "detector/paper.h"
 
 namespace fathom {
@@ -18,26 +20,30 @@ std::optional<Candidate> candidate_at(const DeskView& view, const Eigen::Vector2
 
 }  // namespace
 
-std::optional<InteriorHeight> height_in_cup(const Cloud& cloud, const LaboratoryRig& rig,
-                                            const Eigen::Vector2d& cup_in_world) {
+std::string_view name_of(NoHeight reason) {
+  switch (reason) {
+    case NoHeight::no_desk:
+      return "no desk is seen";
+    case NoHeight::no_cup:
+      return "no cup is seen where it should stand";
+    case NoHeight::too_little_inside:
+      break;
+  }
+  return "too few points are seen inside the cup";
+}
+
+std::variant<InteriorHeight, NoHeight> height_in_cup(const Cloud& cloud, const LaboratoryRig& rig,
+                                                     const Eigen::Vector2d& cup_in_world) {
   const auto found = view_of_desk(cloud, DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}, PlaneSearch{});
   const DeskView* view = std::get_if<DeskView>(&found);
-  if (!view) return std::nullopt;
+  if (!view) return NoHeight::no_desk;
   // The world's origin is below the middle of the baseline, the desk frame's below the camera at its left end.
   const Eigen::Vector2d cup_in_desk = cup_in_world + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
   const std::optional<Candidate> cup = candidate_at(*view, cup_in_desk, rig.outer_radius_m);
-  return cup ? interior_height(view->points, *cup->circle, InteriorSettings{}) : std::nullopt;
-}
-
-Cloud cloud_from_image(const Image<CloudPoint>& image) {
-  Cloud cloud{.points = {}, .intensity = {}, .width = image.width(), .height = image.height()};
-  cloud.points.reserve(image.size());
-  cloud.intensity.reserve(image.size());
-  for (const CloudPoint& point : image.pixels()) {
-    cloud.points.emplace_back(point.x, point.y, point.z);
-    cloud.intensity.push_back(point.intensity);
-  }
-  return cloud;
+  if (!cup) return NoHeight::no_cup;
+  const std::optional<InteriorHeight> height = interior_height(view->points, *cup->circle, InteriorSettings{});
+  if (!height) return NoHeight::too_little_inside;
+  return *height;
 }
 
 }  // namespace fathom

@@ -1,21 +1,23 @@
 // The measurement of the paper's section III: the height of what is seen in a cup that stands at a known place.
 #pragma once
 
-#include <optional>
+#include <string_view>
+#include <variant>
 
 #include "app/rig.h"
-#include "core/cloud_file.h"
 #include "detector/cloud.h"
 #include "detector/liquid.h"
 
 namespace fathom {
 
-/// Mean height above the fitted desk of the points inside the cup that is nearest to `cup_in_world` [m], if it is
-/// nearer than its outer radius. Nothing when there is no desk, no such cup, or when too little is seen inside.
-std::optional<InteriorHeight> height_in_cup(const Cloud& cloud, const LaboratoryRig& rig,
-                                            const Eigen::Vector2d& cup_in_world);
+/// Why a cloud gives no height.
+enum class NoHeight { no_desk, no_cup, too_little_inside };
 
-/// A simulated cloud as the detector takes it.
-Cloud cloud_from_image(const Image<CloudPoint>& image);
+std::string_view name_of(NoHeight reason);  ///< "no desk is seen", …
+
+/// Mean height above the fitted desk of the points inside the cup that is nearest to `cup_in_world` [m], if it is
+/// nearer than its outer radius.
+std::variant<InteriorHeight, NoHeight> height_in_cup(const Cloud& cloud, const LaboratoryRig& rig,
+                                                     const Eigen::Vector2d& cup_in_world);
 
 }  // namespace fathom

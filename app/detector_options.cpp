@@ -2,16 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/number_option.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/units.h"
 
 namespace fathom {
 namespace {
-
-void read_mm(const JsonReader& json, std::string_view key, double& metres, Range range = kPositive) {
-  metres = metres_from_mm(json.number_or(key, mm_from_metres(metres), range));
-}
 
 void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m) {
   if (!json.has(key)) return;
@@ -24,24 +21,24 @@ void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, 
 PaperConfig read_paper_config(const JsonReader& json) {
   constexpr int kMany = 1'000'000;
   PaperConfig config;
-  read_mm(json, "plane_threshold_mm", config.plane.threshold_m);
+  config.plane.threshold_m = json.metres_or("plane_threshold_mm", config.plane.threshold_m, kPositive);
   config.plane.planes_max = json.integer_or("planes_max", config.plane.planes_max, 1, 100);
   config.plane.share_min = json.number_or("plane_share_min", config.plane.share_min, {0.0, 1.0, true});
   config.plane.iterations_max = json.integer_or("plane_iterations_max", config.plane.iterations_max, 1, kMany);
   config.plane.prior_angle_max_rad = radians_from_deg(
       json.number_or("prior_angle_max_deg", deg_from_radians(config.plane.prior_angle_max_rad), {0.0, 180.0, true}));
-  read_mm(json, "prior_height_max_mm", config.plane.prior_height_max_m);
-  read_mm(json, "height_max_mm", config.height_max_m);
-  read_mm(json, "cluster_distance_mm", config.cluster_distance_m);
+  config.plane.prior_height_max_m = json.metres_or("prior_height_max_mm", config.plane.prior_height_max_m, kPositive);
+  config.height_max_m = json.metres_or("height_max_mm", config.height_max_m, kPositive);
+  config.cluster_distance_m = json.metres_or("cluster_distance_mm", config.cluster_distance_m, kPositive);
   config.cluster_points_min = json.integer_or("cluster_points_min", config.cluster_points_min, 1, kMany);
   read_mm_range(json, "width_mm", config.cup.width_min_m, config.cup.width_max_m);
-  read_mm(json, "top_min_mm", config.cup.top_min_m, kNonNegative);
+  config.cup.top_min_m = json.metres_or("top_min_mm", config.cup.top_min_m, kNonNegative);
   read_mm_range(json, "band_mm", config.cup.band_low_m, config.cup.band_high_m);
-  read_mm(json, "circle_rms_max_mm", config.cup.circle_rms_max_m);
+  config.cup.circle_rms_max_m = json.metres_or("circle_rms_max_mm", config.cup.circle_rms_max_m, kPositive);
   read_mm_range(json, "radius_mm", config.cup.radius_min_m, config.cup.radius_max_m);
-  read_mm(json, "icp_score_max_mm", config.icp.score_max_m);
+  config.icp.score_max_m = json.metres_or("icp_score_max_mm", config.icp.score_max_m, kPositive);
   config.icp.iterations_max = json.integer_or("icp_iterations_max", config.icp.iterations_max, 1, kMany);
-  read_mm(json, "interior_margin_mm", config.interior.margin_m, kNonNegative);
+  config.interior.margin_m = json.metres_or("interior_margin_mm", config.interior.margin_m, kNonNegative);
   config.interior.points_min = json.integer_or("interior_points_min", config.interior.points_min, 2, kMany);
   return config;
 }
@@ -55,11 +52,11 @@ std::optional<DeskPrior> DeskOptions::prior() const {
 
 void add_desk_options(CLI::App& app, DeskOptions& options) {
   CLI::Option* height = app.add_option("--height-mm", options.height_mm, "Height of the sensor above the desk")
-                            ->check(CLI::Range(1.0, 1e5))
+                            ->check(number_within({1.0, 1e5}))
                             ->type_name("MM");
   CLI::Option* pitch =
       app.add_option("--pitch-deg", options.pitch_deg, "0: the sensor looks horizontally, 90: straight down")
-          ->check(CLI::Range(-90.0, 90.0))
+          ->check(number_within({-90.0, 90.0}))
           ->type_name("DEG")
           ->each([&options](const std::string&) { options.given = true; });
   height->needs(pitch);

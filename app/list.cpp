@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/results.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "sim/scene/library.h"
@@ -13,29 +14,34 @@
 namespace fathom {
 namespace {
 
-void run(const std::string& library, bool as_json) {
+/// The effects that `effects` of a scene can switch on. There is none yet, and so nothing to print.
+std::string effects_text(bool as_json) { return as_json ? "[]\n" : ""; }
+
+std::string library_text(const std::string& library, bool as_json) {
   Json entries = Json::object();
   for (const std::string& name : library_names(library))
     entries[name] = read_json(data_directory() / library / (name + ".json"));
-  if (as_json) {
-    fmt::print("{}\n", entries.dump(2));
-    return;
-  }
+  if (as_json) return entries.dump(2) + "\n";
+  std::string text;
   for (const auto& [name, entry] : entries.items()) {
-    fmt::print("{}\n", name);
+    text += name + "\n";
     for (const auto& [key, value] : entry.items())
-      fmt::print("  {:<22} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+      text += fmt::format("  {:<22} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
   }
+  return text;
 }
 
 }  // namespace
 
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common) {
   const auto library = std::make_shared<std::string>();
-  app.add_option("library", *library, "media, cups or sensors")
+  app.add_option("library", *library, "media, cups, sensors or effects")
       ->required()
-      ->check(CLI::IsMember({"media", "cups", "sensors"}));
-  return [library, &common] { run(*library, common.json); };
+      ->check(CLI::IsMember({"media", "cups", "sensors", "effects"}));
+  return [library, &common] {
+    const bool effects = *library == "effects";
+    print_results(common, *library, ".txt", effects ? effects_text(common.json) : library_text(*library, common.json));
+  };
 }
 
 }  // namespace fathom

@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "app/commands.h"
 #include "core/error.h"
@@ -24,6 +26,21 @@ std::string on_one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
   return text;
+}
+
+/// The word that should be a command must be one: CLI11 would only say that it did not expect it.
+void check_command(int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const fathom::Command& command : fathom::kCommands) names.emplace_back(command.name);
+  if (argc < 2) throw fathom::UsageError(fmt::format("a command is missing, choose from {}", fmt::join(names, ", ")));
+  const std::string word = argv[1];
+  if (word.starts_with('-') || std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw fathom::UsageError(fathom::unknown_name("command", word, names));
+}
+
+int bad_usage(const std::string& what) {
+  fmt::print(stderr, "error: {}\nRun with --help for more information.\n", on_one_line(what));
+  return kBadUsage;
 }
 
 void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
@@ -56,9 +73,12 @@ int main(int argc, char** argv) {
   }
 
   try {
+    check_command(argc, argv);
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : kBadUsage;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const std::exception& problem) {
+    return bad_usage(problem.what());
   }
   try {
     const auto threads =
@@ -68,8 +88,7 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw fathom::Error("stdout", "cannot be written");
     return 0;
   } catch (const fathom::UsageError& problem) {
-    fmt::print(stderr, "error: {}\nRun with --help for more information.\n", problem.what());
-    return kBadUsage;
+    return bad_usage(problem.what());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n");
   } catch (const std::exception& problem) {

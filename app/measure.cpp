@@ -4,11 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <map>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/cup_height.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/progress.h"
 #include "core/rows.h"
 #include "core/table.h"
@@ -48,6 +51,14 @@ Cloud read_cloud_of(const Table& frames, std::size_t row, const std::filesystem:
   }
 }
 
+/// One line, with the first few frames by name.
+void warn(NoHeight reason, const std::vector<std::string>& frames) {
+  constexpr std::size_t kNamed = 5;
+  fmt::print(stderr, "warning: {} frames have no height because {}: {}{}\n", frames.size(), name_of(reason),
+             fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
+             frames.size() > kNamed ? ", …" : "");
+}
+
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
   const LaboratoryRig rig = read_rig(folder / "rig.json");
   Table frames = read_table(folder / "frames.csv");
@@ -56,6 +67,7 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
     if (!frames.has(column)) frames.add_column(column);
 
   int clouds = 0, measured = 0;
+  std::map<NoHeight, std::vector<std::string>> frames_without;
   Progress progress("measure", frames.rows(), common.quiet);
   for (std::size_t row = 0; row < frames.rows(); ++row, progress.step()) {
     if (frames.text(row, "cloud").empty()) continue;
@@ -64,14 +76,21 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
     ++clouds;
     const Eigen::Vector2d place(metres_from_mm(frames.number(row, "lateral_mm")),
                                 metres_from_mm(frames.number(row, "distance_mm")));
-    const std::optional<InteriorHeight> height = height_in_cup(read_cloud_of(frames, row, folder), rig, place);
-    if (!height) continue;
+    const auto found = height_in_cup(read_cloud_of(frames, row, folder), rig, place);
+    if (const NoHeight* reason = std::get_if<NoHeight>(&found)) {
+      frames_without[*reason].push_back(frames.text(row, "frame"));
+      continue;
+    }
+    const InteriorHeight& height = std::get<InteriorHeight>(found);
     ++measured;
-    frames.set(row, "height_mm", fmt::format("{:.4f}", mm_from_metres(height->mean_m)));
-    frames.set(row, "height_sd_mm", fmt::format("{:.4f}", mm_from_metres(height->sd_m)));
-    frames.set(row, "points", fmt::format("{}", height->points));
+    frames.set(row, "height_mm", fmt::format("{:.4f}", mm_from_metres(height.mean_m)));
+    frames.set(row, "height_sd_mm", fmt::format("{:.4f}", mm_from_metres(height.sd_m)));
+    frames.set(row, "points", fmt::format("{}", height.points));
   }
-  write_table(folder / "heights.csv", frames);
+  const std::filesystem::path output = common.output.empty() ? folder : common.output;
+  make_directory(output);
+  write_table(output / "heights.csv", frames);
+  for (const auto& [reason, numbers] : frames_without) warn(reason, numbers);
   fmt::print("{}", format_rows({{"clouds_with_cup", static_cast<double>(clouds), ""},
                                 {"heights_measured", static_cast<double>(measured), ""}},
                                common.json));

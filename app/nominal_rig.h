@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-/// The rig without any liquids. A measurement directory cannot say that a sensor looks aside: throws Error, as coming
-/// from `file`, when the rig has a yaw.
+/// The rig without any liquids. A measurement directory names its sensor's model and cannot say that the sensor looks
+/// aside: throws Error, as coming from `file`, when the rig has no model or a yaw.
 LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file);
 
 /// rig.json, as read_rig reads it.

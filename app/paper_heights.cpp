@@ -12,18 +12,17 @@
 namespace fathom {
 namespace {
 
-constexpr int kSamplesPerPixel = 4;
-
 HeightCell measure_cell(const PaperFilling& filling, double distance_mm, CaptureMode mode, int trials,
                         std::uint64_t seed) {
   const Setup setup = paper_setup(filling, distance_mm);
   const LaboratoryRig rig = paper_rig(setup);
-  Camera camera(setup, mode, kSamplesPerPixel, seed);
+  Camera camera(setup, mode, kDefaultSamplesPerPixel, seed);
   HeightCell cell;
   double sum = 0.0, squares = 0.0;
   for (int trial = 0; trial < trials; ++trial) {
     const Cloud cloud = cloud_from_image(camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
-    const auto height = height_in_cup(cloud, rig, {0.0, metres_from_mm(distance_mm)});
+    const auto found = height_in_cup(cloud, rig, {0.0, metres_from_mm(distance_mm)});
+    const InteriorHeight* height = std::get_if<InteriorHeight>(&found);
     if (!height) continue;
     ++cell.seen;
     cell.points += static_cast<double>(height->points) / trials;

@@ -43,6 +43,9 @@ Figure reproduce_fig13(const ReproduceSettings& settings);  ///< Eq. 6 over the 
 /// Eq. 7, exact and measured.
 Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& heights);
 
+/// A length in the figures' tables: three decimals, no "-0.000".
+std::string mm_text(double mm);
+
 /// report.html: pictures, facts and tables in one file.
 void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures, int trials);
 

@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kEmpty = 0;
 constexpr std::array<std::size_t, 3> kWater{1, 2, 3}, kMilkTea{4, 5, 6};
 
-std::string mm(double value) { return fmt::format("{:.3f}", value + 0.0); }
-
 constexpr const char* kNotSeen = "not seen";
 
 /// The distances that a statement about these fillings may rest on.
@@ -141,12 +139,12 @@ Table bars_of(const PaperHeights& heights) {
   for (std::size_t f = 0; f < kPaperFillings.size(); ++f) {
     std::vector<std::string> cells{kPaperFillings[f].label()};
     for (std::size_t d = 0; d < kSeenDistances; ++d) {
-      cells.push_back(heights.rows[f][d].seen > 0 ? mm(heights.rows[f][d].mean_mm) : "");
-      cells.push_back(mm(heights.rows[f][d].sd_mm));
+      cells.push_back(heights.rows[f][d].seen > 0 ? mm_text(heights.rows[f][d].mean_mm) : "");
+      cells.push_back(mm_text(heights.rows[f][d].sd_mm));
     }
-    cells.push_back(mm(kPaperBottomMm + kPaperFillings[f].fill_mm));
+    cells.push_back(mm_text(kPaperBottomMm + kPaperFillings[f].fill_mm));
     const HeightCell& far = heights.rows[f][kSeenDistances - 1];
-    cells.push_back(far.enough() || far.seen == 0 ? "" : mm(far.mean_mm + 1.0));
+    cells.push_back(far.enough() || far.seen == 0 ? "" : mm_text(far.mean_mm + 1.0));
     bars.add(cells);
   }
   return bars;
@@ -167,8 +165,8 @@ Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& hei
     for (std::size_t d = 0; d < kPaperDistancesMm.size(); ++d) {
       const HeightCell& cell = heights.rows[f][d];
       figure.table.add({kPaperFillings[f].liquid, fmt::format("{:g}", kPaperFillings[f].fill_mm),
-                        fmt::format("{:g}", kPaperDistancesMm[d]), cell.seen > 0 ? mm(cell.mean_mm) : "",
-                        cell.seen > 1 ? mm(cell.sd_mm) : "", fmt::format("{:.1f}", cell.points),
+                        fmt::format("{:g}", kPaperDistancesMm[d]), cell.seen > 0 ? mm_text(cell.mean_mm) : "",
+                        cell.seen > 1 ? mm_text(cell.sd_mm) : "", fmt::format("{:.1f}", cell.points),
                         fmt::format("{}", cell.seen)});
     }
   write_table(settings.folder / "fig5.csv", figure.table);

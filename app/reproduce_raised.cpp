@@ -14,8 +14,6 @@
 namespace fathom {
 namespace {
 
-std::string mm(double value) { return fmt::format("{:.3f}", value + 0.0); }
-
 /// The closed and the exact height of the raised bottom above the bottom [mm].
 struct Prediction {
   double eq7, exact_printed_index, exact_sensor_index;
@@ -95,7 +93,8 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
     const double fill = kPaperFillings[f].fill_mm;
     for (int distance = 100; distance <= 700; distance += 10) {
       const Prediction p = predict(fill, distance);
-      curves.add({mm(fill), mm(distance), mm(p.eq7), mm(p.exact_printed_index), mm(p.exact_sensor_index)});
+      curves.add({mm_text(fill), mm_text(distance), mm_text(p.eq7), mm_text(p.exact_printed_index),
+                  mm_text(p.exact_sensor_index)});
     }
     for (std::size_t d = 0; d < kSeenDistances; ++d) {
       const Prediction p = predict(fill, kPaperDistancesMm[d]);
@@ -111,11 +110,12 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
       }
       if (cell.enough())
         measured_worst = std::max(measured_worst.value_or(0.0), std::abs(measured - p.exact_sensor_index));
-      figure.table.add({mm(fill), mm(kPaperDistancesMm[d]), mm(p.eq7), mm(p.exact_printed_index),
-                        mm(p.exact_sensor_index), cell.seen > 0 ? mm(measured) : "",
-                        cell.seen > 1 ? mm(cell.sd_mm) : "", cell.seen > 0 ? mm(measured - p.exact_sensor_index) : "",
+      figure.table.add({mm_text(fill), mm_text(kPaperDistancesMm[d]), mm_text(p.eq7), mm_text(p.exact_printed_index),
+                        mm_text(p.exact_sensor_index), cell.seen > 0 ? mm_text(measured) : "",
+                        cell.seen > 1 ? mm_text(cell.sd_mm) : "",
+                        cell.seen > 0 ? mm_text(measured - p.exact_sensor_index) : "",
                         fmt::format("{:.1f}", cell.points),
-                        noise_free.seen > 0 ? mm(noise_free.mean_mm - kPaperBottomMm) : ""});
+                        noise_free.seen > 0 ? mm_text(noise_free.mean_mm - kPaperBottomMm) : ""});
     }
   }
   write_table(settings.folder / "fig14.csv", figure.table);

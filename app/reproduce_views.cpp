@@ -18,7 +18,6 @@ namespace {
 constexpr double kDistanceMm = 400.0;
 constexpr double kSliceHalfMetres = 0.012;  // a few columns of the image, so that the walls do not hide the inside
 constexpr double kShownHalfMm = 75.0;       // of the picture's width
-constexpr int kSamplesPerPixel = 4;
 
 struct View {
   const char *name, *title, *sentence, *printed, *what;
@@ -118,9 +117,10 @@ wall = 0xF1ECE4)",
 Figure reproduce_view(const View& view, const ReproduceSettings& settings) {
   const Setup setup = paper_setup(view.filling, kDistanceMm);
   const CupShape& cup = setup.scene.cups.front().shape;
-  Camera camera(setup, CaptureMode::photometric, kSamplesPerPixel, settings.seed);
+  Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, settings.seed);
   const Image<CloudPoint> cloud = camera.shoot(0).cloud;
-  const auto height = height_in_cup(cloud_from_image(cloud), paper_rig(setup), {0.0, metres_from_mm(kDistanceMm)});
+  const auto found = height_in_cup(cloud_from_image(cloud), paper_rig(setup), {0.0, metres_from_mm(kDistanceMm)});
+  const InteriorHeight* height = std::get_if<InteriorHeight>(&found);
   Figure figure{.name = view.name,
                 .title = view.title,
                 .sentence = view.sentence,
@@ -133,7 +133,7 @@ Figure reproduce_view(const View& view, const ReproduceSettings& settings) {
   figure.facts.push_back({"Mean height inside the cup above the desk", view.printed,
                           height ? fmt::format("{:.1f} mm, {} points with σ = {:.1f} mm", *measured_mm, height->points,
                                                mm_from_metres(height->sd_m))
-                                 : "nothing seen inside"});
+                                 : std::string(name_of(std::get<NoHeight>(found)))});
   figure.table = Table({});  // thousands of points say nothing in a report
   return figure;
 }

@@ -5,10 +5,6 @@
 namespace fathom {
 namespace {
 
-double read_mm(const JsonReader& json, std::string_view key, double otherwise_m, Range range = kPositive) {
-  return metres_from_mm(json.number_or(key, mm_from_metres(otherwise_m), range));
-}
-
 double read_deg(const JsonReader& json, std::string_view key, Range range) {
   return radians_from_deg(json.number_or(key, 0.0, range));
 }
@@ -26,10 +22,10 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   json.allow_only(
       {"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "sigma"});
   rig.sensor_model = json.text("model");
-  rig.height_m = metres_from_mm(json.number("height_mm", kPositive));
+  rig.height_m = json.metres("height_mm", kPositive);
   rig.pitch_rad = radians_from_deg(json.number("pitch_deg", {-90.0, 90.0}));
   rig.roll_rad = read_deg(json, "roll_deg", {-180.0, 180.0});
-  rig.baseline_m = read_mm(json, "baseline_mm", rig.baseline_m);
+  rig.baseline_m = json.metres_or("baseline_mm", rig.baseline_m, kPositive);
   rig.focal_px = json.number_or("focal_px", rig.focal_px, kPositive);
   rig.disparity_offset_px = json.number_or("disparity_offset_px", rig.disparity_offset_px);
   read_sigma(json, {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"}, rig.sigma);
@@ -38,10 +34,10 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
 void read_cup(const JsonReader& json, LaboratoryRig& rig) {
   json.allow_only({"shape", "height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm", "sigma"});
   rig.cup_shape = json.text_or("shape", rig.cup_shape);
-  rig.cup_height_m = read_mm(json, "height_mm", rig.cup_height_m);
-  rig.inner_radius_m = read_mm(json, "inner_radius_mm", rig.inner_radius_m);
-  rig.outer_radius_m = read_mm(json, "outer_radius_mm", rig.outer_radius_m);
-  rig.bottom_m = read_mm(json, "bottom_mm", rig.bottom_m, kNonNegative);
+  rig.cup_height_m = json.metres_or("height_mm", rig.cup_height_m, kPositive);
+  rig.inner_radius_m = json.metres_or("inner_radius_mm", rig.inner_radius_m, kPositive);
+  rig.outer_radius_m = json.metres_or("outer_radius_mm", rig.outer_radius_m, kPositive);
+  rig.bottom_m = json.metres_or("bottom_mm", rig.bottom_m, kNonNegative);
   if (rig.inner_radius_m > rig.outer_radius_m) json.fail_at("inner_radius_mm", "must not be above outer_radius_mm");
   if (rig.bottom_m >= rig.cup_height_m) json.fail_at("bottom_mm", "must be below height_mm");
   read_sigma(json, {"height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm"}, rig.sigma);
@@ -66,8 +62,8 @@ LaboratoryRig read_rig(const std::filesystem::path& path) {
   read_sensor(json.at("sensor"), rig);
   read_cup(json.at("cup"), rig);
   read_liquids(json.at("liquids"), rig);
-  rig.fill_sigma_m = read_mm(json, "fill_sigma_mm", rig.fill_sigma_m, kNonNegative);
-  rig.placement_sigma_m = read_mm(json, "placement_sigma_mm", rig.placement_sigma_m, kNonNegative);
+  rig.fill_sigma_m = json.metres_or("fill_sigma_mm", rig.fill_sigma_m, kNonNegative);
+  rig.placement_sigma_m = json.metres_or("placement_sigma_mm", rig.placement_sigma_m, kNonNegative);
   return rig;
 }
 

@@ -6,8 +6,10 @@
 
 #include "app/commands.h"
 #include "app/detector_options.h"
+#include "app/number_option.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "core/rows.h"
 #include "core/units.h"
 #include "detector/paper.h"
@@ -33,8 +35,25 @@ Candidate only_candidate(const DeskView& view, const std::string& file) {
   return std::move(cups.front());
 }
 
+/// A simulated cloud has the record of its capture beside it, or above its frame's folder.
+void require_empty_cups(const std::filesystem::path& cloud) {
+  const std::filesystem::path folder = std::filesystem::absolute(cloud).parent_path();
+  for (const std::filesystem::path& record : {folder / "run.json", folder.parent_path() / "run.json"}) {
+    if (!std::filesystem::is_regular_file(record)) continue;
+    const Json json = read_json(record);
+    const JsonReader reader(json, record.string());
+    if (!reader.has("scene")) return;
+    for (const JsonReader& cup : reader.at("scene").items_or_none("cups"))
+      if (cup.number_or("fill_mm", 0.0) > 0.0)
+        cup.fail_at("liquid",
+                    fmt::format("the cup of {} holds a liquid, a template needs an empty one", cloud.string()));
+    return;
+  }
+}
+
 void run_template(const TemplateOptions& options, const CommonOptions& common) {
   const std::string file = options.cloud.string();
+  require_empty_cups(options.cloud);
   const auto found = view_of_desk(read_cloud(options.cloud), options.desk.prior(), PlaneSearch{});
   if (const NoDesk* none = std::get_if<NoDesk>(&found)) throw Error(file, none->why);
   const DeskView& view = std::get<DeskView>(found);
@@ -70,7 +89,7 @@ std::function<void()> define_template(CLI::App& app, const CommonOptions& common
   add_desk_options(app, options->desk);
   app.add_option("--liquid-threshold-mm", options->liquid_threshold_mm,
                  "A mean height inside above this is a liquid; default: 2 mm above the bottom that is seen")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(kPositive))
       ->type_name("MM");
   return [options, &common] {
     require_output(common);

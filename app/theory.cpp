@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "core/error.h"
+#include "app/number_option.h"
+#include "app/results.h"
 #include "core/json.h"
 #include "core/rows.h"
 #include "core/units.h"
@@ -39,28 +40,14 @@ constexpr std::array kColumns{"fill_mm", "distance_mm", "lateral_mm", "incidence
                               "eq7_mm",  "exact_mm",    "epipolar_px"};
 using TheoryRow = std::array<double, kColumns.size()>;
 
-void check(bool allowed, const char* option, double value, const std::string& must) {
-  if (!allowed) throw Error(option, fmt::format("must be {}, got {}", must, value));
-}
+constexpr Range kUpToOneKilometre{0.0, 1e6, true};
 
-void check(const TheoryOptions& options) {
-  constexpr double kFarMm = 1e6;
-  const auto inside = [](double value, double low, double high) { return value >= low && value <= high; };
-  check(inside(options.index, 1.0, 10.0), "--index", options.index, "from 1 to 10");
-  check(options.height_mm > 0.0 && options.height_mm <= kFarMm, "--height-mm", options.height_mm,
-        "above 0 and at most 1e6");
-  check(options.baseline_mm > 0.0 && options.baseline_mm <= kFarMm, "--baseline-mm", options.baseline_mm,
-        "above 0 and at most 1e6");
-  if (options.pitch_deg)
-    check(inside(*options.pitch_deg, 0.0, 90.0), "--pitch-deg", *options.pitch_deg,
-          "from 0 (horizontal) to 90 (straight down)");
-  for (const double fill : options.fill_mm)
-    check(fill >= 0.0 && fill < options.height_mm, "--fill-mm", fill,
-          fmt::format("at least 0 and below the sensor's height {}", options.height_mm));
-  for (const double distance : options.distance_mm)
-    check(inside(distance, 0.0, kFarMm), "--distance-mm", distance, "from 0 to 1e6");
-  for (const double lateral : options.lateral_mm)
-    check(inside(lateral, -kFarMm, kFarMm), "--lateral-mm", lateral, "from -1e6 to 1e6");
+/// What no single option can know.
+void check_fills(const TheoryOptions& options) {
+  for (const double fill_mm : options.fill_mm)
+    if (fill_mm >= options.height_mm)
+      throw UsageError(
+          fmt::format("--fill-mm: must be below the sensor's height {}, got {}", options.height_mm, fill_mm));
 }
 
 TheoryRow theory_row(const TheoryOptions& options, double fill_mm, double distance_mm, double lateral_mm) {
@@ -107,7 +94,7 @@ std::string json(const std::vector<TheoryRow>& rows) {
 }
 
 std::string theory_text(const TheoryOptions& options, bool as_json) {
-  check(options);
+  check_fills(options);
   if (options.max_skew) {
     const double skew =
         theory::skew_at_field_edge(metres_from_mm(options.baseline_mm), radians_from_deg(kPaperFieldOfViewDeg),
@@ -125,20 +112,31 @@ std::string theory_text(const TheoryOptions& options, bool as_json) {
 
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<TheoryOptions>();
-  const auto add_list = [&app](const char* name, std::vector<double>& values, const char* what) {
-    app.add_option(name, values, what)->delimiter(',')->capture_default_str();
+  const auto add_list = [&app](const char* name, std::vector<double>& values, const char* what, Range range) {
+    app.add_option(name, values, what)->delimiter(',')->check(number_within(range))->capture_default_str();
   };
-  add_list("--fill-mm", options->fill_mm, "Depths of the liquid");
-  add_list("--distance-mm", options->distance_mm, "Horizontal distances of the bottom point from the sensor");
-  add_list("--lateral-mm", options->lateral_mm, "Positions of the bottom point to the sensor's right");
-  app.add_option("--height-mm", options->height_mm, "Height of the sensor above the bottom")->capture_default_str();
-  app.add_option("--index", options->index, "Index of the liquid relative to air")->capture_default_str();
+  add_list("--fill-mm", options->fill_mm, "Depths of the liquid", kNonNegative);
+  add_list("--distance-mm", options->distance_mm, "Horizontal distances of the bottom point from the sensor",
+           {0.0, 1e6});
+  add_list("--lateral-mm", options->lateral_mm, "Positions of the bottom point to the sensor's right", {-1e6, 1e6});
+  app.add_option("--height-mm", options->height_mm, "Height of the sensor above the bottom")
+      ->check(number_within(kUpToOneKilometre))
+      ->capture_default_str();
+  app.add_option("--index", options->index, "Index of the liquid relative to air")
+      ->check(number_within({1.0, 10.0}))
+      ->capture_default_str();
   app.add_option("--pitch-deg", options->pitch_deg,
-                 "Of the sensor below the horizontal; without it the sensor aims at (0, distance, 0)");
-  app.add_option("--baseline-mm", options->baseline_mm, "Distance of camera and projector")->capture_default_str();
+                 "0: the sensor looks horizontally, 90: straight down; without it, it aims at (0, distance, 0)")
+      ->check(number_within({0.0, 90.0}));
+  app.add_option("--baseline-mm", options->baseline_mm, "Distance of camera and projector")
+      ->check(number_within(kUpToOneKilometre))
+      ->capture_default_str();
   app.add_flag("--max-skew", options->max_skew,
                "Only the largest difference of the two incidence angles at the paper's 58.5 deg and 500 mm (Fig. 12)");
-  return [options, &common] { fmt::print("{}", theory_text(*options, common.json)); };
+  return [options, &common] {
+    const std::string text = theory_text(*options, common.json);
+    print_results(common, options->max_skew ? "max_skew" : "theory", options->max_skew ? ".txt" : ".csv", text);
+  };
 }
 
 }  // namespace fathom

@@ -22,16 +22,8 @@ struct Stages {
 };
 
 Cloud captured_cloud() {
-  Camera camera(paper_water(), CaptureMode::photometric, kSamplesAcross * kSamplesAcross, 1);
-  const Image<CloudPoint> shot = camera.shoot(0).cloud;
-  Cloud cloud;
-  cloud.width = shot.width();
-  cloud.height = shot.height();
-  for (const CloudPoint& point : shot.pixels()) {
-    cloud.points.emplace_back(point.x, point.y, point.z);
-    cloud.intensity.push_back(point.intensity);
-  }
-  return cloud;
+  Camera camera(paper_water(), CaptureMode::photometric, kDefaultSamplesPerPixel, 1);
+  return cloud_from_image(camera.shoot(0).cloud);
 }
 
 Stages prepare_stages() {

@@ -24,6 +24,9 @@ if(FATHOM_SANITIZE)
     $<BUILD_INTERFACE:-fsanitize=${FATHOM_SANITIZE};-fno-omit-frame-pointer;-fno-sanitize-recover=all>)
   target_link_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-fsanitize=${FATHOM_SANITIZE}>)
 endif()
+if(FATHOM_FUZZ)
+  target_compile_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-fsanitize=fuzzer-no-link>)
+endif()
 
 # fathom_module(NAME SOURCES... [PUBLIC targets...] [PRIVATE targets...]): one static library, exported as Fathom::NAME.
 function(fathom_module name)

@@ -7,21 +7,37 @@
 #include "core/files.h"
 
 namespace fathom {
+namespace {
+
+std::string header_of(int width, int height) {
+  return fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\n"
+      "COUNT 1 1 1 1\nWIDTH {}\nHEIGHT {}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+      width, height, static_cast<std::size_t>(width) * height);
+}
+
+}  // namespace
 
 void write_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud) {
   static_assert(sizeof(CloudPoint) == 16, "the binary body is the array itself");
-  const std::string header = fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\n"
-      "COUNT 1 1 1 1\nWIDTH {}\nHEIGHT {}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
-      cloud.width(), cloud.height(), cloud.size());
   write_atomically(path, [&](const std::filesystem::path& beside) {
     std::ofstream file(beside, std::ios::binary);
-    file << header;
+    file << header_of(cloud.width(), cloud.height());
     file.write(reinterpret_cast<const char*>(cloud.pixels().data()),
                static_cast<std::streamsize>(cloud.size() * sizeof(CloudPoint)));
     file.close();
     if (!file) throw std::runtime_error("disk full or not writable");
   });
+}
+
+bool is_whole_pcd(const std::filesystem::path& path, int width, int height) {
+  const std::string expected = header_of(width, height);
+  std::string found(expected.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(found.data(), static_cast<std::streamsize>(found.size()));
+  return file && found == expected &&
+         std::filesystem::file_size(path) ==
+             expected.size() + sizeof(CloudPoint) * static_cast<std::size_t>(width) * height;
 }
 
 }  // namespace fathom

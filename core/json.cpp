@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/units.h"
 
 namespace fathom {
 namespace {
@@ -15,15 +15,6 @@ namespace {
 std::string shown(const Json& value) {
   std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   return text.size() > 40 ? text.substr(0, 37) + "..." : text;
-}
-
-std::string allowed(Range range) {
-  const bool low = range.low > -1e300, high = range.high < 1e300;
-  if (low && high)
-    return fmt::format("a number {} {} and at most {}", range.open_low ? "above" : "from", range.low, range.high);
-  if (low) return fmt::format("a number {} {}", range.open_low ? "above" : "of at least", range.low);
-  if (high) return fmt::format("a number of at most {}", range.high);
-  return "a number";
 }
 
 /// Line and column (from 1) of a byte position.
@@ -68,10 +59,9 @@ std::vector<JsonReader> JsonReader::items() const {
 }
 
 double JsonReader::number(Range range) const {
-  if (!value_->is_number()) fail(fmt::format("must be {}, got {}", allowed(range), shown(*value_)));
+  if (!value_->is_number()) fail(fmt::format("must be {}, got {}", range.text(), shown(*value_)));
   const double number = value_->get<double>();
-  const bool inside = number <= range.high && (range.open_low ? number > range.low : number >= range.low);
-  if (!std::isfinite(number) || !inside) fail(fmt::format("must be {}, got {}", allowed(range), shown(*value_)));
+  if (!range.contains(number)) fail(fmt::format("must be {}, got {}", range.text(), shown(*value_)));
   return number;
 }
 
@@ -92,6 +82,12 @@ std::vector<double> JsonReader::numbers(Range range) const {
   std::vector<double> result;
   for (const JsonReader& item : items()) result.push_back(item.number(range));
   return result;
+}
+
+double JsonReader::metres(std::string_view key, Range range_mm) const { return metres_from_mm(number(key, range_mm)); }
+
+double JsonReader::metres_or(std::string_view key, double otherwise_m, Range range_mm) const {
+  return has(key) ? metres(key, range_mm) : otherwise_m;
 }
 
 Eigen::Vector2d JsonReader::vector2() const {

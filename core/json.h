@@ -12,18 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "core/range.h"
+
 namespace fathom {
 
 using Json = nlohmann::ordered_json;
-
-/// Allowed values of a number; `open_low` excludes the lower end.
-struct Range {
-  double low = -1e300;
-  double high = 1e300;
-  bool open_low = false;
-};
-inline constexpr Range kPositive{0.0, 1e300, true};
-inline constexpr Range kNonNegative{0.0, 1e300, false};
 
 /// A JSON value that knows where it stands. All readers throw Error: "scene.json: /cups/0/fill_mm: must be …".
 class JsonReader {
@@ -57,6 +50,9 @@ class JsonReader {
   double number_or(std::string_view key, double otherwise, Range range = {}) const {
     return has(key) ? at(key).number(range) : otherwise;
   }
+  /// A length that stands in the file in mm.
+  double metres(std::string_view key, Range range_mm = {}) const;
+  double metres_or(std::string_view key, double otherwise_m, Range range_mm = {}) const;
   std::string text(std::string_view key) const { return at(key).text(); }
   std::string text_or(std::string_view key, std::string otherwise) const {
     return has(key) ? at(key).text() : std::move(otherwise);

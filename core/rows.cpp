@@ -7,18 +7,32 @@
 #include "core/json.h"
 
 namespace fathom {
+namespace {
+
+std::string text_of(double number) { return fmt::format("{:>12.6g}", number); }
+std::string text_of(const std::string& text) { return fmt::format("{:>12}", text); }
+
+std::string text_of(const Row& row) {
+  return std::visit([](const auto& value) { return text_of(value); }, row.value);
+}
+
+Json json_of(const Row& row) {
+  return std::visit([](const auto& value) { return Json(value); }, row.value);
+}
+
+}  // namespace
 
 std::string format_rows(const std::vector<Row>& rows, bool json) {
   if (json) {
     Json object = Json::object();
-    for (const Row& row : rows) object[row.name] = {{"value", row.value}, {"unit", row.unit}};
+    for (const Row& row : rows) object[row.name] = {{"value", json_of(row)}, {"unit", row.unit}};
     return object.dump(2) + "\n";
   }
   std::size_t width = 0;
   for (const Row& row : rows) width = std::max(width, row.name.size());
   std::string text;
   for (const Row& row : rows)
-    text += fmt::format("{:<{}}  {:>12.6g}{}{}\n", row.name, width, row.value, row.unit.empty() ? "" : " ", row.unit);
+    text += fmt::format("{:<{}}  {}{}{}\n", row.name, width, text_of(row), row.unit.empty() ? "" : " ", row.unit);
   return text;
 }
 

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace fathom {
 
 struct Row {
   std::string name;
-  double value;
-  std::string unit;  ///< "" for a plain number
+  std::variant<double, std::string> value;
+  std::string unit = "";  ///< "" for a plain number or a text
 };
 
 /// Aligned rows, or with `json` one object {"name": {"value": v, "unit": "u"}, …}. Ends with a newline.

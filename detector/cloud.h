@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/cloud_file.h"
+
 namespace fathom {
 
 using Points = std::vector<Eigen::Vector3f>;
@@ -14,6 +16,9 @@ struct Cloud {
   int width = 0;
   int height = 0;  ///< 1: not organised
 };
+
+/// A simulated cloud as a detector takes it.
+Cloud cloud_from_image(const Image<CloudPoint>& image);
 
 /// The measured points only, in the cloud's order.
 Points finite_points(const Cloud& cloud);

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "detector/cloud_text.h"
 
 namespace fathom {
 namespace {
@@ -25,25 +26,19 @@ constexpr std::uint64_t kMostPoints = 200'000'000;  // 20 times the largest scan
 /// Takes header lines off the front of a file's content.
 struct HeaderLines {
   std::string_view rest;
+  std::uint64_t line = 1;  ///< number of the next one
 
   std::optional<Words> next() {
     if (rest.empty()) return std::nullopt;
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::istringstream line{std::string(rest.substr(0, std::min<std::size_t>(end, 4096)))};
+    std::istringstream words_in_line{std::string(rest.substr(0, std::min<std::size_t>(end, 4096)))};
     rest.remove_prefix(std::min(end + 1, rest.size()));
+    ++line;
     Words words;
-    for (std::string word; line >> word;) words.push_back(word);
+    for (std::string word; words_in_line >> word;) words.push_back(word);
     return words;
   }
 };
-
-/// Damaged bytes must not reach a terminal.
-std::string printable(std::string word) {
-  word.resize(std::min<std::size_t>(word.size(), 40));
-  std::replace_if(
-      word.begin(), word.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
-  return word;
-}
 
 std::uint64_t whole_number(const std::string& file, const std::string& where, const std::string& word) {
   const bool digits = !word.empty() && word.size() <= 12 && word.find_first_not_of("0123456789") == std::string::npos;
@@ -110,6 +105,7 @@ void check_pcd(const std::string& file, HeaderLines lines) {
   const std::string& encoding = entries["DATA"][0];
   if (encoding == "ascii") {
     need_body(file, lines.rest.size() + 1, 2 * points * point_values);  // a digit and a separator each
+    check_text_points(file, {lines.rest, lines.line, points, point_values});
   } else if (encoding == "binary") {
     need_body(file, lines.rest.size(), points * point_bytes);
   } else if (encoding == "binary_compressed") {
@@ -132,7 +128,7 @@ void check_ply(const std::string& file, HeaderLines lines) {
                                                           {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
   std::string encoding, element;
   std::optional<std::uint64_t> vertices;
-  std::uint64_t others = 0, vertex_bytes = 0;
+  std::uint64_t others = 0, lines_before = 0, vertex_bytes = 0;
   Words names;
   for (;;) {
     const std::optional<Words> words = lines.next();
@@ -146,7 +142,7 @@ void check_ply(const std::string& file, HeaderLines lines) {
       element = (*words)[1];
       const std::uint64_t count = whole_number(file, "element " + printable(element), (*words)[2]);
       if (element == "vertex")
-        vertices = count;
+        vertices = count, lines_before = others;
       else
         others += count;
     } else if (key == "property" && words->size() == 3) {
@@ -167,6 +163,7 @@ void check_ply(const std::string& file, HeaderLines lines) {
   const bool ascii = encoding == "ascii";
   need_body(file, lines.rest.size() + (ascii ? 1 : 0),
             *vertices * (ascii ? 2 * names.size() : vertex_bytes) + others);  // any other element takes a byte or more
+  if (ascii) check_text_points(file, {lines.rest, lines.line, *vertices, names.size(), lines_before});
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ Eigen::Vector2i size_from_json(const JsonReader& json) {
 
 /// Everything but the pose.
 void read_model(const JsonReader& json, SensorModel& sensor) {
-  sensor.baseline = metres_from_mm(json.number_or("baseline_mm", mm_from_metres(sensor.baseline), kPositive));
+  sensor.baseline = json.metres_or("baseline_mm", sensor.baseline, kPositive);
   sensor.wavelength_nm = json.number_or("wavelength_nm", sensor.wavelength_nm, kPositive);
   if (json.has("ir_size_px")) {
     const Eigen::Vector2i size = size_from_json(json.at("ir_size_px"));
@@ -100,9 +100,9 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
                     sensor.ir_width, sensor.ir_height, sensor.width, sensor.height));
   sensor.focal_px = json.number_or("focal_px", sensor.focal_px, kPositive);
   if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2();
-  sensor.reference = metres_from_mm(json.number_or("reference_mm", mm_from_metres(sensor.reference), kPositive));
-  sensor.near = metres_from_mm(json.number_or("near_mm", mm_from_metres(sensor.near), kPositive));
-  sensor.far = metres_from_mm(json.number_or("far_mm", mm_from_metres(sensor.far), kPositive));
+  sensor.reference = json.metres_or("reference_mm", sensor.reference, kPositive);
+  sensor.near = json.metres_or("near_mm", sensor.near, kPositive);
+  sensor.far = json.metres_or("far_mm", sensor.far, kPositive);
   if (sensor.far <= sensor.near) json.fail_at("far_mm", "must be above near_mm");
   sensor.radiant_dn_mm2 = json.number_or("radiant_dn_mm2", sensor.radiant_dn_mm2, kPositive);
   if (json.has("noise")) sensor.noise = noise_from_json(json.at("noise"));
@@ -115,7 +115,7 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
 }
 
 Pose pose_from_json(const JsonReader& json, double baseline) {
-  const double height = metres_from_mm(json.number("height_mm", kPositive));
+  const double height = json.metres("height_mm", kPositive);
   const Eigen::Vector3d midpoint(0.0, 0.0, height);
   const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, {-180.0, 180.0}));
   if (json.has("aim_mm") == json.has("pitch_deg")) json.fail("needs either aim_mm or pitch_deg beside height_mm");
@@ -128,22 +128,23 @@ Pose pose_from_json(const JsonReader& json, double baseline) {
   return camera_pose(midpoint, std::atan2(-forward.z(), horizontal), yaw, roll, baseline);
 }
 
+/// Level, to the right of the direction: the camera's x axis if it were not rolled.
+Eigen::Vector3d level_right(const Eigen::Vector3d& forward) {
+  const double horizontal = forward.head<2>().norm();
+  if (horizontal < 1e-12) return Eigen::Vector3d::UnitX();
+  return {forward.y() / horizontal, -forward.x() / horizontal, 0.0};
+}
+
 /// Pitch and roll, or the aim where the sensor looks to the side.
 void add_direction(const Eigen::Matrix3d& world_from_camera, const Eigen::Vector3d& midpoint_in_world, Json& json) {
-  const Eigen::Vector3d right = world_from_camera.col(0), forward = world_from_camera.col(2);
-  const double horizontal = forward.head<2>().norm();
-  // Looking straight up or down, the yaw cannot be told from the roll and counts as none.
-  const bool vertical = horizontal < 1e-12;
-  const Eigen::Vector3d level_right =
-      vertical ? Eigen::Vector3d::UnitX() : Eigen::Vector3d(forward.y() / horizontal, -forward.x() / horizontal, 0.0);
-  const double roll = std::atan2(right.dot(forward.cross(level_right)), right.dot(level_right));
-  if (vertical || level_right == Eigen::Vector3d::UnitX()) {
-    json["pitch_deg"] = deg_from_radians(std::atan2(-forward.z(), horizontal));
+  const Eigen::Vector3d forward = world_from_camera.col(2);
+  if (level_right(forward) == Eigen::Vector3d::UnitX()) {
+    json["pitch_deg"] = deg_from_radians(std::atan2(-forward.z(), forward.head<2>().norm()));
   } else {
     const Eigen::Vector3d aim_mm = (midpoint_in_world + forward) / kMetresPerMm;
     json["aim_mm"] = {aim_mm.x(), aim_mm.y(), aim_mm.z()};
   }
-  json["roll_deg"] = deg_from_radians(roll);
+  json["roll_deg"] = deg_from_radians(roll_of(world_from_camera));
 }
 
 }  // namespace
@@ -164,6 +165,12 @@ Pose camera_pose(const Eigen::Vector3d& midpoint_in_world, double pitch, double 
                                Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
   world_from_camera.translation() = midpoint_in_world - 0.5 * baseline * world_from_camera.linear().col(0);
   return world_from_camera;
+}
+
+double roll_of(const Eigen::Matrix3d& world_from_camera) {
+  const Eigen::Vector3d right = world_from_camera.col(0), forward = world_from_camera.col(2);
+  const Eigen::Vector3d level = level_right(forward);
+  return std::atan2(right.dot(forward.cross(level)), right.dot(level));
 }
 
 Rig rig_from_json(const JsonReader& json) {

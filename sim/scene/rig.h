@@ -70,6 +70,10 @@ struct Rig {
 /// A pose from the baseline's midpoint: `pitch` below the horizontal, `yaw` to the left of +y, `roll` clockwise.
 Pose camera_pose(const Eigen::Vector3d& midpoint_in_world, double pitch, double yaw, double roll, double baseline);
 
+/// How a camera without the yaw of its direction is turned about its optical axis, clockwise: from the horizontal to
+/// the camera's right. Looking straight up or down, the yaw cannot be told from the roll and counts as none.
+double roll_of(const Eigen::Matrix3d& world_from_camera);
+
 /// The "sensor" of a scene file: a model's name with or without changes, and the pose.
 Rig rig_from_json(const JsonReader& json);
 

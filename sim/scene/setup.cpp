@@ -1,15 +1,39 @@
 #include "sim/scene/setup.h"
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 
 namespace fathom {
+namespace {
+
+/// What no part of the scene knows by itself, so that mistakes show with their place in the file.
+void check(const JsonReader& root, const Setup& setup) {
+  const std::vector<JsonReader> cups = root.items_or_none("cups"), objects = root.items_or_none("objects");
+  for (std::size_t i = 0; i < cups.size(); ++i)
+    if (const auto& filling = setup.scene.cups[i].filling)
+      require_index(cups[i].at("liquid"), filling->medium, setup.rig.sensor.wavelength_nm);
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (const std::filesystem::path& gltf = setup.scene.objects[i].gltf; !std::filesystem::is_regular_file(gltf))
+      objects[i].fail_at("gltf", fmt::format("there is no file {}", gltf.string()));
+}
+
+}  // namespace
+
+void require_index(const JsonReader& json, const Medium& medium, double wavelength_nm) {
+  if (wavelength_nm < medium.wavelength_min_nm || wavelength_nm > medium.wavelength_max_nm)
+    json.fail(fmt::format("the index of {} is known from {} to {} nm, the sensor works at {} nm", medium.name,
+                          medium.wavelength_min_nm, medium.wavelength_max_nm, wavelength_nm));
+}
 
 Setup setup_from_json(const Json& json, const std::string& file) {
   const JsonReader root(json, file);
   root.allow_only({"$schema", "sensor", "desk", "cups", "objects", "effects"});
   if (!root.items_or_none("effects").empty())
     root.fail_at("effects", "names an effect, but this version has none to switch on; leave the list empty");
-  return {scene_from_json(root), rig_from_json(root.at("sensor")), json};
+  Setup setup{scene_from_json(root), rig_from_json(root.at("sensor")), json};
+  check(root, setup);
+  return setup;
 }
 
 Setup read_setup(const std::filesystem::path& path) {

@@ -18,4 +18,7 @@ struct Setup {
 Setup read_setup(const std::filesystem::path& path);
 Setup setup_from_json(const Json& json, const std::string& file);
 
+/// Throws Error, as coming from `json`, when the medium's numbers do not hold at the sensor's wavelength.
+void require_index(const JsonReader& json, const Medium& medium, double wavelength_nm);
+
 }  // namespace fathom

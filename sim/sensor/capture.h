@@ -11,6 +11,8 @@
 
 namespace fathom {
 
+inline constexpr int kDefaultSamplesPerPixel = 4;  ///< of the infrared image, on a square grid
+
 enum class CaptureMode {
   geometric,   ///< every pixel's exact refracted triangulation, no images
   photometric  ///< infrared image → matching → depth

@@ -121,6 +121,17 @@ TEST_F(CampaignCommand, ARunThatWasCutShortGoesOn) {
   EXPECT_TRUE(fs::exists(folder / "out" / "frames.csv"));
 }
 
+TEST_F(CampaignCommand, ACloudThatIsNotWholeIsShotAgain) {
+  ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
+  const fs::path file = folder / "out" / "clouds/000003.pcd";
+  const std::string cloud = read_text(file);
+  for (const std::string& damaged : {cloud.substr(0, cloud.size() / 2), cloud + "more", std::string()}) {
+    write_text(file, damaged);
+    EXPECT_EQ(Json::parse(campaign(kSpec, "out", "--json").out)["frames_shot_now"]["value"], 1.0);
+    EXPECT_EQ(read_text(file), cloud);
+  }
+}
+
 TEST_F(CampaignCommand, AFolderHoldsOneCampaign) {
   ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
   Json other = kSpec;
@@ -146,6 +157,17 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   EXPECT_EQ(error_of(with("/fillings/1/fill_mm", 81)),
             "/fillings/1/fill_mm: must be at most 80, the depth of the cup\n");
   EXPECT_EQ(error_of(with("/fillings/0/fill_mm", 5)), "/fillings/0/fill_mm: cannot stand beside \"empty\"\n");
+  EXPECT_EQ(error_of(with("/distance_mm", {300, 1e9})),
+            "/distance_mm/1: must be a place on the desk, from 0 to 1000, got 1000000000.0\n");
+  EXPECT_EQ(error_of(with("/lateral_mm", {-701})),
+            "/lateral_mm/0: must be a place on the desk, from -700 to 700, got -701\n");
+  EXPECT_EQ(error_of(with("/fill_sigma_mm", 1e9)), "/fill_sigma_mm: must be a number from 0 to 80, got 1000000000.0\n");
+  EXPECT_EQ(error_of(with("/placement_sigma_mm", 44)), "/placement_sigma_mm: must be a number from 0 to 43, got 44\n");
+  EXPECT_EQ(error_of(with("/sensor", {{"height_mm", 650}, {"pitch_deg", 58}})),
+            "/sensor/model: is missing: a measurement's rig names its sensor, choose from kinect_v1, xtion_pro_live; "
+            "other keys change it\n");
+  EXPECT_EQ(error_of(with("/sensor/wavelength_nm", 2000)),
+            "/liquids/water: the index of water is known from 182 to 1129 nm, the sensor works at 2000 nm\n");
   EXPECT_EQ(error_of(with("/distance_mm", Json::array())), "/distance_mm: must hold at least one length\n");
   EXPECT_EQ(error_of(with("/sensor/aim_mm", {50, 400, 0})),
             "/sensor/aim_mm: must lie straight ahead (x = 0, y ≥ 0): a measurement's rig knows no yaw\n");

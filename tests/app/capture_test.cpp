@@ -106,6 +106,15 @@ TEST_F(CaptureCommand, GeometricModeMakesNoImages) {
   EXPECT_TRUE(std::filesystem::exists(out / "cloud.pcd"));
 }
 
+TEST_F(CaptureCommand, AShotOfNothingSaysSo) {
+  write_json(scene_, {{"sensor", small_scene()["sensor"]}, {"desk", nullptr}});
+  const ProgramRun run =
+      run_fathom(fmt::format("capture {} -o {} --mode geometric", scene_.string(), (folder_ / "out").string()));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "warning: " + scene_.string() +
+                         ": 1 of 1 frames have no pixel with a depth; is anything lit and in range?\n");
+}
+
 TEST_F(CaptureCommand, BlackSurfacesAreHoles) {
   Json scene = small_scene();
   scene["desk"]["albedo"] = 0.0;
@@ -128,10 +137,11 @@ TEST_F(CaptureCommand, MistakesAreAnsweredInOneLineAndLeaveNothing) {
       {"{", "line 1"},
       {R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650}})", "/sensor: needs either aim_mm or pitch_deg"},
       {R"({"sensor": {"height_mm": 650, "pitch_deg": 60}, "cup": []})", "/cup: unknown key 'cup'"},
-      {R"({"sensor": {"height_mm": 650, "pitch_deg": 60}, "objects": [{"gltf": "none.glb"}]})", "no such file"},
+      {R"({"sensor": {"height_mm": 650, "pitch_deg": 60}, "objects": [{"gltf": "none.glb"}]})",
+       "scene.json: /objects/0/gltf: there is no file "},
       {R"({"sensor": {"height_mm": 650, "pitch_deg": 60, "wavelength_nm": 2000},
            "cups": [{"shape": "paper_cup", "position_mm": [0, 300], "liquid": "water", "fill_mm": 3}]})",
-       "known from 182 to 1129 nm"},
+       "scene.json: /cups/0/liquid: the index of water is known from 182 to 1129 nm, the sensor works at 2000 nm"},
   };
   for (const auto& [scene, message] : mistakes) {
     write_text(scene_, scene);

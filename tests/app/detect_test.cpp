@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <sstream>
 
 #include "core/cloud_file.h"
 #include "core/files.h"
@@ -56,7 +58,38 @@ TEST_F(DetectCommand, JsonHasTheKeysThatOthersRelyOn) {
 TEST_F(DetectCommand, ACloudThatCannotBeReadCostsNoneBeforeIt) {
   const ProgramRun run = run_fathom("detect " + empty + " " + (folder / "missing.pcd").string());
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.out.find("1 segments"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.rfind("cloud ", 0), 0u) << run.out;
+  EXPECT_NE(run.out.find("\ncups "), std::string::npos) << run.out;
+}
+
+TEST_F(DetectCommand, RowsAreNameValueUnit) {
+  const ProgramRun run = run_fathom("detect " + filled + " --config " + config + " -o " + (folder / "kept").string());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::map<std::string, std::pair<std::string, std::string>> rows;  // name → value, unit
+  std::istringstream lines(run.out);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name;
+    words >> name;
+    words >> rows[name].first >> rows[name].second;
+  }
+  EXPECT_EQ(rows.at("cloud").first, filled);
+  EXPECT_NEAR(std::stod(rows.at("desk_height").first), 650.0, 0.1);
+  EXPECT_EQ(rows.at("desk_height").second, "mm");
+  EXPECT_EQ(rows.at("cups").first, "1");
+  EXPECT_EQ(rows.at("cup0_liquid").first, "yes");
+  EXPECT_NEAR(std::stod(rows.at("cup0_surface").first), 27.0, 0.1);
+  EXPECT_EQ(rows.at("cup0_center_z").second, "m");
+  EXPECT_EQ(read_text(folder / "kept" / "detection.txt"), run.out);
+}
+
+TEST_F(DetectCommand, ATemplateOfASimulatedCupThatIsNotEmptyIsRefused) {
+  write_text(folder / "run.json", R"({"scene": {"cups": [{"shape": "paper_cup", "liquid": "water", "fill_mm": 30}]}})");
+  const ProgramRun run = run_fathom("template " + filled + " --name full -o " + folder.string());
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.err, "error: " + (folder / "run.json").string() + ": /scene/cups/0/liquid: the cup of " + filled +
+                         " holds a liquid, a template needs an empty one\n");
+  EXPECT_FALSE(fs::exists(folder / "full.json"));
 }
 
 TEST_F(DetectCommand, ATemplateNeedsAFolder) {
@@ -90,6 +123,14 @@ TEST_F(DetectCommand, AGapInTheRulesOfUseIsBadUsage) {
   EXPECT_EQ(run_fathom("detect").exit_code, 2);
   EXPECT_EQ(run_fathom("detect " + empty + " --height-mm 650").exit_code, 2);
   EXPECT_EQ(run_fathom("template " + empty + " -o " + folder.string() + " --name a/b").exit_code, 2);
+  const ProgramRun no_number = run_fathom("detect " + empty + " --height-mm nan --pitch-deg 58");
+  EXPECT_EQ(no_number.exit_code, 2);
+  EXPECT_EQ(no_number.err.rfind("error: --height-mm: must be a number from 1 to 100000, got 'nan'\n", 0), 0u)
+      << no_number.err;
+  const ProgramRun none =
+      run_fathom("template " + empty + " -o " + folder.string() + " --name a --liquid-threshold-mm 0");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err.rfind("error: --liquid-threshold-mm: must be a number above 0, got '0'\n", 0), 0u) << none.err;
 }
 
 TEST_F(DetectCommand, MistakesAreOneLineThatNamesTheFile) {

@@ -58,6 +58,14 @@ TEST_F(MeasureCommand, FillsTheHeightsOfEveryFrameWithACup) {
   EXPECT_EQ(table.text(2, "height_mm"), "") << "no cup on a bare desk";
   EXPECT_EQ(table.text(3, "height_mm"), "") << "no cup within its own radius of where it should stand";
   EXPECT_EQ(table.text(3, "cloud"), "clouds/filled.pcd");
+  EXPECT_EQ(run.err, "warning: 1 frames have no height because no cup is seen where it should stand: 3\n");
+}
+
+TEST_F(MeasureCommand, AFolderForTheResultsKeepsTheMeasurementsAsTheyAre) {
+  write_text(folder / "frames.csv", std::string(kHeader) + "\n0,0,0,0,0,0,empty,0,400,-37.5,clouds/empty.pcd\n");
+  ASSERT_EQ(run_fathom("measure " + folder.string() + " -o " + (folder / "out").string()).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "out" / "heights.csv"));
+  EXPECT_FALSE(fs::exists(folder / "heights.csv"));
 }
 
 TEST_F(MeasureCommand, AHeightWithoutACloudStaysAsItIs) {

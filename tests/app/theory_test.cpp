@@ -1,10 +1,12 @@
-// `fathom theory` as users run it.
+// `fathom theory` as users run it, and what holds for every command.
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "core/files.h"
 #include "core/json.h"
 #include "tests/app/run_fathom.h"
+#include "tests/core/temporary_folder.h"
 
 namespace fathom {
 namespace {
@@ -48,15 +50,46 @@ TEST(TheoryCommand, PrintsTheLargestSkew) {
               0.005);
 }
 
-TEST(TheoryCommand, RefusesImpossibleValuesInOneLine) {
-  for (const std::string arguments : {"--index 0.9", "--index nan", "--fill-mm -1", "--fill-mm 10,650", "--height-mm 0",
-                                      "--baseline-mm 0", "--pitch-deg 91", "--distance-mm -1", "--lateral-mm inf"}) {
+TEST(TheoryCommand, RefusesImpossibleValuesAsBadUsage) {
+  for (const std::string arguments :
+       {"--index 0.9", "--index nan", "--fill-mm -1", "--fill-mm 10,nan", "--fill-mm 10,650", "--height-mm 0",
+        "--height-mm nan", "--baseline-mm 0", "--pitch-deg 91", "--distance-mm -1", "--lateral-mm inf"}) {
     const Outcome result = run_program("theory " + arguments);
-    EXPECT_EQ(result.exit_code, 1) << arguments;
+    EXPECT_EQ(result.exit_code, 2) << arguments;
     const std::string option = arguments.substr(0, arguments.find(' '));
     EXPECT_EQ(result.text.rfind("error: " + option + ": must be ", 0), 0u) << result.text;
-    EXPECT_EQ(result.text.find('\n'), result.text.size() - 1) << result.text;
   }
+  EXPECT_EQ(run_program("theory --height-mm -inf").text,
+            "error: --height-mm: must be a number above 0 and at most 1000000, got '-inf'\n"
+            "Run with --help for more information.\n");
+}
+
+TEST(TheoryCommand, KeepsItsTableInTheFolderOfTheResults) {
+  const TemporaryFolder folder;
+  const std::string options = " --fill-mm 30 --distance-mm 400 -o " + (folder / "new").string();
+  const Outcome table = run_program("theory" + options);
+  EXPECT_EQ(table.text, read_text(folder / "new" / "theory.csv"));
+  const Outcome json = run_program("theory --json" + options);
+  EXPECT_EQ(json.text, read_text(folder / "new" / "theory.json"));
+}
+
+TEST(Commands, OnesThatDoNotExistAreNamedBesideThoseThatDo) {
+  const Outcome result = run_program("theroy --fill-mm 30");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.text.rfind("error: unknown command 'theroy', choose from capture, theory, detect, ", 0), 0u)
+      << result.text;
+  EXPECT_EQ(run_program("").text.rfind("error: a command is missing, choose from capture, ", 0), 0u);
+  EXPECT_EQ(run_program("--help").exit_code, 0);
+  EXPECT_EQ(run_program("--version").exit_code, 0);
+}
+
+TEST(ListCommand, KnowsEveryLibrary) {
+  for (const char* library : {"media", "cups", "sensors"})
+    EXPECT_FALSE(Json::parse(run_program(std::string("list --json ") + library).text).empty()) << library;
+  EXPECT_EQ(run_program("list effects --json").text, "[]\n");  // none can be switched on
+  const Outcome effects = run_program("list effects");
+  EXPECT_EQ(effects.exit_code, 0);
+  EXPECT_EQ(effects.text, "");
 }
 
 TEST(TheoryCommand, AnswersBadUsageWithTwo) {

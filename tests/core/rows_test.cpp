@@ -22,5 +22,13 @@ TEST(Rows, AreOneJsonObjectWithEveryDigit) {
                                                "points_in_cup": {"value": 1234.0, "unit": ""}})"));
 }
 
+TEST(Rows, HoldTextsToo) {
+  const std::vector<Row> rows{{"liquid", "yes"}, {"why", "because it is higher than the bottom"}};
+  EXPECT_EQ(format_rows(rows, false),
+            "liquid           yes\n"
+            "why     because it is higher than the bottom\n");
+  EXPECT_EQ(Json::parse(format_rows(rows, true))["liquid"]["value"], "yes");
+}
+
 }  // namespace
 }  // namespace fathom

@@ -165,6 +165,23 @@ TEST_F(CloudFiles, PlyHeadersAreChecked) {
   EXPECT_EQ(error_of("ply\nformat ascii 1.0\n"), "header: ends before its line end_header");
 }
 
+TEST_F(CloudFiles, WordsWhereNumbersBelongNameTheirLine) {
+  const std::string pcd =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  EXPECT_EQ(error_of(pcd + "1 2 3\n\n+4 -nan 6e0\n"), "");
+  EXPECT_EQ(error_of(pcd + "1 2 3\n4 five 6\n"), "line 11: must hold numbers, got 'five'");
+  EXPECT_EQ(error_of(pcd + "1 2 3\n4 5,0 6\n"), "line 11: must hold numbers, got '5,0'");
+  EXPECT_EQ(error_of(pcd + "1.00 2.00 3.00\n4 5\n"), "line 11: must hold 3 numbers, has 2");
+  EXPECT_EQ(error_of(pcd + "1.000000 2.000000 3.000000\n"),
+            "is truncated: the header promises 2 points, the file has 1");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement camera 1\nproperty float focal\nelement vertex 1\nproperty float x\nproperty "
+      "float "
+      "y\nproperty float z\nend_header\n";
+  EXPECT_EQ(error_of(ply + "525\n1 2 3\n"), "");
+  EXPECT_EQ(error_of(ply + "525\n1 2 three\n"), "line 11: must hold numbers, got 'three'");
+}
+
 /// Files cut off anywhere and files with flipped bytes: an Error or a cloud, nothing else.
 TEST_F(CloudFiles, DamageNeverCrashes) {
   pcl::PointCloud<pcl::PointXYZI> cloud(20, 10);

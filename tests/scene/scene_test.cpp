@@ -81,7 +81,7 @@ TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
       {"/sensor/matcher", R"({"window_rows": 8})", "/sensor/matcher/window_rows: must be odd"},
       {"/sensor/matcher", R"({"disparity_max_px": -40})", "/sensor/matcher/disparity_max_px: must be above"},
       {"/sensor/pattern", R"({"dots_per_tile": 30000})", "/sensor/pattern/dots_per_tile: must be a whole number"},
-      {"/desk/albedo", "1.5", "/desk/albedo: must be a number from 0 and at most 1"},
+      {"/desk/albedo", "1.5", "/desk/albedo: must be a number from 0 to 1"},
       {"/desk/size_mm", "[1000, 0]", "/desk/size_mm: must be two lengths above 0"},
       {"/cups", "{}", "/cups: must be a list"},
       {"/cups/0/shape", "\"glass\"", "/cups/0/shape: unknown cup shape 'glass', choose from mug, paper_cup, tapered"},
