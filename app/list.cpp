@@ -8,15 +8,22 @@
 #include "app/commands.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/units.h"
 #include "sim/scene/library.h"
+#include "sim/scene/scene.h"
 
 namespace fathom {
 namespace {
 
 void run(const std::string& library, bool as_json) {
   Json entries = Json::object();
-  for (const std::string& name : library_names(library))
+  for (const std::string& name : library_names(library)) {
     entries[name] = read_json(data_directory() / library / (name + ".json"));
+    if (library != "cups") continue;
+    const Json as_shape = name;
+    const CupShape shape = cup_shape_from_json(JsonReader(as_shape, "list"));
+    entries[name]["capacity_ml"] = ml_from_cubic_metres(shape.volume(shape.height() - shape.bottom()));
+  }
   if (as_json) {
     fmt::print("{}\n", entries.dump(2));
     return;

@@ -149,6 +149,8 @@ void Cavity::find_columns() {
         columns_.push_back({at, *bottom, grid_.edge(2, k), label == k ? std::int16_t{0} : label});
         floor_ = std::min(floor_, *bottom);
       }
+  // Low tops first: the lines that start far up run down along walls, which the liquid need not have climbed.
+  std::stable_sort(columns_.begin(), columns_.end(), [](const Column& a, const Column& b) { return a.top < b.top; });
   // Corners below all columns: the lowest point of a vault.
   for (const Triangle& triangle : triangles_)
     for (const Eigen::Vector3d& corner : triangle) {
@@ -208,14 +210,28 @@ Cavity::Slice Cavity::slice(double low, double high) const {
   return result;
 }
 
+std::vector<double> Cavity::first_levels() const {
+  constexpr int kSlices = 16;
+  constexpr double kSame = 1e-6;  // [m]
+  std::vector<double> levels;
+  for (int i = 0; i <= kSlices; ++i) levels.push_back(floor_ + depth() * i / kSlices);
+  for (const auto& [a, b, c] : triangles_)
+    if (a.z() == b.z() && b.z() == c.z() && a.z() > floor_ + kSame && a.z() < rim_ - kSame) levels.push_back(a.z());
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end(), [](double x, double y) { return y - x < kSame; }),
+               levels.end());
+  levels.back() = rim_;
+  return levels;
+}
+
 void Cavity::add_slices(Slice whole) {
-  // A hundred-thousandth of a cavity as wide as this slice; a step in the walls is found to 1/1000 of the slices.
+  // A hundred-thousandth of a cavity as wide as this slice; a step in the walls is found to 1/10 000 of the depth.
   const double tolerance = 1e-5 * depth() / (whole.high - whole.low);
-  const double middle = 0.5 * (whole.low + whole.high);
+  const double middle = 0.6 * whole.low + 0.4 * whole.high;  // halves would see a step in some places as the whole does
   Slice lower = slice(whole.low, middle), upper = slice(middle, whole.high);
   const auto agree = [&](int layer) {  // on what is filled when the liquid has risen to that layer
-    const double halves = lower.volume(layer) + upper.volume(layer);
-    return std::fabs(halves - whole.volume(layer)) <= tolerance * halves;
+    const double parts = lower.volume(layer) + upper.volume(layer);
+    return std::fabs(parts - whole.volume(layer)) <= tolerance * parts;
   };
   if ((agree(top_layer_) && agree(layer_at(whole.high))) || middle - whole.low < 1e-4 * depth()) {
     slices_.push_back(std::move(lower));
@@ -275,13 +291,8 @@ std::optional<Cavity> find_cavity(std::span<const Mesh> meshes) {
   if (!cavity.label_voxels()) return std::nullopt;
   cavity.find_columns();
   cavity.find_rim();
-  constexpr int kSlices = 16;
-  double below = cavity.floor_;
-  for (int i = 1; i <= kSlices; ++i) {
-    const double above = cavity.floor_ + cavity.depth() * i / kSlices;
-    cavity.add_slices(cavity.slice(below, above));
-    below = above;
-  }
+  const std::vector<double> levels = cavity.first_levels();
+  for (std::size_t i = 1; i < levels.size(); ++i) cavity.add_slices(cavity.slice(levels[i - 1], levels[i]));
   return cavity;
 }
 

@@ -62,6 +62,7 @@ class Cavity {
   std::vector<Segment> walls(double level) const;
   PlaneCells section(double level, std::span<const Segment> walls) const;
   Slice slice(double low, double high) const;
+  std::vector<double> first_levels() const;
   void add_slices(Slice whole);
 
   std::vector<Triangle> triangles_;  ///< in the grid's frame

@@ -48,46 +48,47 @@ class Decomposition {
     for (std::size_t i = 1; i < ys.size(); ++i) add_slab(row, ys[i - 1], ys[i], segments);
   }
 
-  void mark(std::span<const InsidePoint> points) {
-    for (const InsidePoint& point : points)
-      if (Cell* cell = cell_at(point.at); cell && cell->layer == kWall) cell->layer = point.layer;
-  }
-
-  /// Liquid spreads from the cavity's cells into those that hold no voxel, and leaks into the open.
-  void spread() {
-    std::vector<std::vector<std::pair<std::size_t, Eigen::Vector2d>>> neighbours(cells_.size());  // and the common edge
+  /// Finds which cells touch, after the last row.
+  void connect() {
+    slabs_.push_back(cells_.size());
+    neighbours_.resize(cells_.size());
     for (std::size_t s = 1; s + 1 < slabs_.size(); ++s) {
       std::size_t a = slabs_[s - 1], b = slabs_[s];
       while (a < slabs_[s] && b < slabs_[s + 1]) {
         const double left = std::max(cells_[a].left[1], cells_[b].left[0]);
         const double right = std::min(cells_[a].right[1], cells_[b].right[0]);
         if (right - left > kTouching) {
-          neighbours[a].emplace_back(b, Eigen::Vector2d(left, right));
-          neighbours[b].emplace_back(a, Eigen::Vector2d(left, right));
+          neighbours_[a].push_back({b, left, right});
+          neighbours_[b].push_back({a, left, right});
         }
         cells_[a].right[1] < cells_[b].right[0] ? ++a : ++b;
       }
     }
-    std::vector<std::size_t> wet;
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-      if (cells_[i].layer >= 0) wet.push_back(i);
-    while (!wet.empty()) {
-      const std::size_t at = wet.back();
-      wet.pop_back();
-      for (const auto& [next, edge] : neighbours[at]) {
-        if (cells_[next].layer == kOutside)
-          add_leak(edge.y() - edge.x(), {0.5 * edge.sum(), cells_[at].y[next > at ? 1 : 0]});
-        if (cells_[next].layer != kWall) continue;
-        cells_[next].layer = cells_[at].layer;
-        wet.push_back(next);
-      }
+  }
+
+  /// Liquid spreads from the cavity's voxels, then from points where it has not come yet.
+  void fill(std::span<const InsidePoint> points) {
+    for (std::size_t i = 0, count = cells_.size(); i < count; ++i)
+      if (cells_[i].layer >= 0) wet_.push_back(i);
+    spread();
+    for (const InsidePoint& point : points) {
+      const std::optional<std::size_t> cell = cell_at(point.at);
+      if (!cell || cells_[*cell].layer != kWall) continue;
+      cells_[*cell].layer = point.layer;
+      wet_.push_back(*cell);
+      spread();
     }
   }
 
   PlaneCells result() && { return {std::move(cells_), leak_}; }
-  void close() { slabs_.push_back(cells_.size()); }
 
  private:
+  /// A cell and the edge that it has in common with another.
+  struct Neighbour {
+    std::size_t cell;
+    double left, right;
+  };
+
   void add_slab(int row, double low, double high, const std::vector<Segment>& segments) {
     slabs_.push_back(cells_.size());
     const double middle = 0.5 * (low + high);
@@ -133,19 +134,34 @@ class Decomposition {
     cells_.push_back(cell);
   }
 
-  Cell* cell_at(const Eigen::Vector2d& point) {
+  /// From wet cells into those that hold no voxel; towards those outside it leaks.
+  void spread() {
+    while (!wet_.empty()) {
+      const std::size_t at = wet_.back();
+      wet_.pop_back();
+      for (const auto& [next, left, right] : neighbours_[at]) {
+        if (cells_[next].layer == kOutside)
+          add_leak(right - left, {0.5 * (left + right), cells_[at].y[next > at ? 1 : 0]});
+        if (cells_[next].layer != kWall) continue;
+        cells_[next].layer = cells_[at].layer;
+        wet_.push_back(next);
+      }
+    }
+  }
+
+  std::optional<std::size_t> cell_at(const Eigen::Vector2d& point) const {
     // Cells stand in the order of y, then x; those of equal y form a slab.
     const auto slab = std::upper_bound(slabs_.begin(), slabs_.end() - 1, point.y(),
                                        [&](double y, std::size_t first) { return y < cells_[first].y[0]; });
-    if (slab == slabs_.begin()) return nullptr;
+    if (slab == slabs_.begin()) return std::nullopt;
     for (std::size_t i = *(slab - 1); i < *slab; ++i) {
-      Cell& cell = cells_[i];
+      const Cell& cell = cells_[i];
       const double t = (point.y() - cell.y[0]) / (cell.y[1] - cell.y[0]);
       if (point.x() >= cell.left[0] + t * (cell.left[1] - cell.left[0]) &&
           point.x() <= cell.right[0] + t * (cell.right[1] - cell.right[0]))
-        return &cell;
+        return i;
     }
-    return nullptr;
+    return std::nullopt;
   }
 
   void add_leak(double width, const Eigen::Vector2d& at) {
@@ -159,6 +175,8 @@ class Decomposition {
   std::span<const std::int16_t> labels_;
   std::vector<Cell> cells_;
   std::vector<std::size_t> slabs_;  ///< each one's first cell, and one beyond the last
+  std::vector<std::vector<Neighbour>> neighbours_;
+  std::vector<std::size_t> wet_;
   Leak leak_;
 };
 
@@ -187,9 +205,8 @@ PlaneCells plane_cells(const VoxelGrid& grid, std::span<const std::int16_t> labe
   }
   Decomposition plane(grid, labels);
   for (int row = 0; row < grid.count.y(); ++row) plane.add_row(row, by_row[row]);
-  plane.close();
-  plane.mark(inside);
-  plane.spread();
+  plane.connect();
+  plane.fill(inside);
   return std::move(plane).result();
 }
 

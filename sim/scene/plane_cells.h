@@ -42,9 +42,10 @@ struct PlaneCells {
 };
 
 /// The cells of the plane between the segments, each labelled by the voxels and points in it: `labels` of the grid's
-/// layer [count.x · count.y]. Small cells without either are the cavity's when they are open towards it. A cell that
-/// reaches from the cavity through a crack to voxels that are not the cavity's is cut in the middle of the wall.
-/// Segments of constant y separate nothing: callers turn the plane so that there are none.
+/// layer [count.x · count.y]. Cells without a
+/// voxel are the cavity's when they are open towards it, the cells of voxels first, then those of the points in their
+/// order. A cell that reaches from the cavity through a crack to voxels that are not the cavity's is cut in the middle
+/// of the wall. Segments of constant y separate nothing: callers turn the plane so that there are none.
 PlaneCells plane_cells(const VoxelGrid& grid, std::span<const std::int16_t> labels, std::span<const Segment> segments,
                        std::span<const InsidePoint> inside);
 
