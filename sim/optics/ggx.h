@@ -1,8 +1,7 @@
 // Reflection at rough glaze: microfacets of Trowbridge and Reitz's distribution ("GGX").
 //
 // Directions are unit vectors in the surface's frame, z its normal, and point away from the surface. The roughness α is
-// the root of twice the mean square slope's scale: slopes follow P(s) = α² / (π (α² + |s|²)²). α below kSmooth is a
-// mirror.
+// the scale of the facets' slopes s, which follow α² / (π (α² + |s|²)²). α below kSmooth is a mirror.
 #pragma once
 
 #include <Eigen/Core>
