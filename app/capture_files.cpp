@@ -8,6 +8,7 @@
 #include "core/image_file.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "sim/scene/cup.h"
 
 namespace fathom {
 namespace {
@@ -78,11 +79,16 @@ void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& tr
 
 Json run_record(const Setup& setup, const Camera& camera) {
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
-  Json media = Json::object();
+  Json media = Json::object(), cups = Json::object();
   for (std::size_t i = 0; i < setup.scene.cups.size(); ++i) {
     const Cup& cup = setup.scene.cups[i];
     if (!cup.filling) continue;
     const Medium& medium = cup.filling->medium;
+    cups["cup " + std::to_string(i) + " " + cup_name(cup)] = {
+        {"cavity_depth_mm", mm_from_metres(cup_depth(cup))},
+        {"cavity_ml", ml_from_cubic_metres(cup_capacity(cup))},
+        {"fill_mm", mm_from_metres(cup.filling->depth)},
+        {"fill_ml", ml_from_cubic_metres(cup_volume(cup, cup.filling->depth))}};
     media["cup " + std::to_string(i) + " " + medium.name] = {{"index", medium.n(wavelength_nm)},
                                                              {"absorption_per_mm", medium.absorption * kMetresPerMm},
                                                              {"scattering_per_mm", medium.scattering * kMetresPerMm},
@@ -95,6 +101,7 @@ Json run_record(const Setup& setup, const Camera& camera) {
   const CaptureStatistics& s = camera.statistics();
   return {{"scene", setup.source},
           {"sensor", json_from_rig(setup.rig)},
+          {"cups", cups},
           {"media", media},
           {"objects", objects},
           {"approximations", camera.geometry().approximations},

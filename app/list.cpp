@@ -9,7 +9,9 @@
 #include "app/results.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/units.h"
 #include "sim/scene/library.h"
+#include "sim/scene/scene.h"
 
 namespace fathom {
 namespace {
@@ -19,8 +21,13 @@ std::string effects_text(bool as_json) { return as_json ? "[]\n" : ""; }
 
 std::string library_text(const std::string& library, bool as_json) {
   Json entries = Json::object();
-  for (const std::string& name : library_names(library))
+  for (const std::string& name : library_names(library)) {
     entries[name] = read_json(data_directory() / library / (name + ".json"));
+    if (library != "cups") continue;
+    const Json as_shape = name;
+    const CupShape shape = cup_shape_from_json(JsonReader(as_shape, "list"));
+    entries[name]["capacity_ml"] = ml_from_cubic_metres(shape.volume(shape.height() - shape.bottom()));
+  }
   if (as_json) return entries.dump(2) + "\n";
   std::string text;
   for (const auto& [name, entry] : entries.items()) {

@@ -32,7 +32,9 @@ Setup paper_setup(const PaperFilling& filling, double distance_mm) {
       kName);
 }
 
-LaboratoryRig paper_rig(const Setup& setup) { return nominal_rig(setup.rig, setup.scene.cups.front().shape, kName); }
+LaboratoryRig paper_rig(const Setup& setup) {
+  return nominal_rig(setup.rig, std::get<CupShape>(setup.scene.cups.front().shape), kName);
+}
 
 double water_index_at_sensor() {
   const Setup setup = paper_setup({"water", 10.0}, 400.0);

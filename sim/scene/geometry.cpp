@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/scene/cup_mesh.h"
-#include "sim/scene/gltf.h"
+#include "sim/scene/cup.h"
 
 namespace fathom {
 namespace {
@@ -22,13 +21,11 @@ void add_desk(const Desk& desk, Geometry& geometry) {
   geometry.surfaces.push_back({add_object(geometry, "desk"), std::move(mesh), Diffuse{desk.albedo}});
 }
 
-void add_filling(const Cup& cup, const Pose& world_from_cup, const std::string& prefix, double wavelength_nm,
-                 Geometry& geometry) {
+void add_filling(const Cup& cup, const std::string& prefix, double wavelength_nm, Geometry& geometry) {
   const Medium& medium = cup.filling->medium;
-  const double level = cup.shape.bottom() + cup.filling->depth;
+  const double level = liquid_level(cup);
   const double n = medium.n(wavelength_nm);
-  Mesh mesh = liquid_disc(cup.shape, level);
-  mesh.transform(world_from_cup);
+  Mesh mesh = liquid_surface(cup);
   const int object = add_object(geometry, prefix + medium.name);
   if (!medium.scatters()) {
     geometry.surfaces.push_back({object, std::move(mesh), LiquidSurface{level, n, medium.absorption}});
@@ -42,14 +39,11 @@ void add_filling(const Cup& cup, const Pose& world_from_cup, const std::string& 
 }
 
 void add_cup(const Cup& cup, std::size_t index, double wavelength_nm, Geometry& geometry) {
-  const Pose world_from_cup = Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0) *
-                              Eigen::AngleAxisd(cup.yaw, Eigen::Vector3d::UnitZ());
   const std::string prefix = fmt::format("cup {} ", index);
-  Mesh mesh = cup_mesh(cup.shape);
-  mesh.transform(world_from_cup);
-  geometry.surfaces.push_back(
-      {add_object(geometry, prefix + cup.shape.name), std::move(mesh), Diffuse{cup.shape.albedo}});
-  if (cup.filling) add_filling(cup, world_from_cup, prefix, wavelength_nm, geometry);
+  const int object = add_object(geometry, prefix + cup_name(cup));
+  for (GltfPart& part : cup_parts(cup))
+    geometry.surfaces.push_back({object, std::move(part.mesh), Diffuse{part.albedo}});
+  if (cup.filling) add_filling(cup, prefix, wavelength_nm, geometry);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/units.h"
 #include "sim/scene/library.h"
@@ -101,26 +102,6 @@ CupShape shape_from_object(const JsonReader& json) {
   return shape;
 }
 
-Cup cup_from_json(const JsonReader& json) {
-  json.allow_only({"shape", "position_mm", "yaw_deg", "liquid", "fill_mm"});
-  Cup cup;
-  cup.shape = cup_shape_from_json(json.at("shape"));
-  cup.position = json.at("position_mm").vector2() * kMetresPerMm;
-  cup.yaw = radians_from_deg(json.number_or("yaw_deg", 0.0));
-  if (!json.has("liquid")) {
-    if (json.has("fill_mm")) json.fail_at("fill_mm", "needs a liquid");
-    return cup;
-  }
-  const double depth_limit = cup.shape.height() - cup.shape.bottom();
-  Filling filling;
-  filling.medium = medium_from_json(json.at("liquid"));
-  filling.depth = metres_from_mm(json.number("fill_mm", kNonNegative));
-  if (filling.depth > depth_limit)
-    json.fail_at("fill_mm", fmt::format("must be at most {:g}, the depth of the cup", mm_from_metres(depth_limit)));
-  if (filling.depth > 0.0) cup.filling = std::move(filling);
-  return cup;
-}
-
 Object object_from_json(const JsonReader& json) {
   json.allow_only({"gltf", "position_mm", "rotation_deg"});
   Object object;
@@ -128,12 +109,7 @@ Object object_from_json(const JsonReader& json) {
   const Eigen::Vector3d position = json.has("position_mm")
                                        ? Eigen::Vector3d(json.at("position_mm").vector3() * kMetresPerMm)
                                        : Eigen::Vector3d::Zero();
-  const Eigen::Vector3d angles = json.has("rotation_deg") ? json.at("rotation_deg").vector3() : Eigen::Vector3d::Zero();
-  // About the fixed world axes x, then y, then z.
-  object.world_from_object = Eigen::Translation3d(position) *
-                             Eigen::AngleAxisd(radians_from_deg(angles.z()), Eigen::Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(radians_from_deg(angles.y()), Eigen::Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(radians_from_deg(angles.x()), Eigen::Vector3d::UnitX());
+  object.world_from_object = Eigen::Translation3d(position) * rotation_from_json(json);
   return object;
 }
 
@@ -172,11 +148,31 @@ void set_index(const JsonReader& json, Medium& medium) {
 double CupShape::inner_radius(double height_above_desk) const { return radius_at(inner, height_above_desk); }
 double CupShape::outer_radius(double height_above_desk) const { return radius_at(outer, height_above_desk); }
 
+double CupShape::volume(double depth) const {
+  const double level = bottom() + depth;
+  double volume = 0.0;
+  for (std::size_t i = 1; i < inner.size() && inner[i - 1].y() < level; ++i) {
+    const double low = inner[i - 1].x(), high = inner[i].y() > level ? inner_radius(level) : inner[i].x();
+    const double height = std::min(inner[i].y(), level) - inner[i - 1].y();
+    volume += std::numbers::pi / 3.0 * height * (low * low + low * high + high * high);  // a frustum
+  }
+  return volume;
+}
+
+bool names_gltf(const std::string& file) { return file.ends_with(".gltf") || file.ends_with(".glb"); }
+
+Eigen::Quaterniond rotation_from_json(const JsonReader& json) {
+  if (!json.has("rotation_deg")) return Eigen::Quaterniond::Identity();
+  const Eigen::Vector3d angles = json.at("rotation_deg").vector3();
+  return Eigen::AngleAxisd(radians_from_deg(angles.z()), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(radians_from_deg(angles.y()), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(radians_from_deg(angles.x()), Eigen::Vector3d::UnitX());
+}
+
 CupShape cup_shape_from_json(const JsonReader& json) {
   if (!json.value().is_string()) return shape_from_object(json);
   const std::string name = json.text();
-  if (name.ends_with(".gltf") || name.ends_with(".glb"))
-    json.fail("glTF cups cannot be filled yet; name a shape of scenes/cups or describe one by its profile");
+  if (names_gltf(name)) json.fail("must be a body of revolution: a name of scenes/cups or a profile, no glTF file");
   const std::filesystem::path file = library_file("cups", "cup shape", name, json.file(), json.pointer());
   const Json text = read_json(file);
   CupShape shape = shape_from_object(JsonReader(text, file.string()));

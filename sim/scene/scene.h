@@ -4,13 +4,17 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/json.h"
 #include "core/pose.h"
 #include "sim/optics/medium.h"
+#include "sim/scene/cavity.h"
+#include "sim/scene/gltf.h"
 
 namespace fathom {
 
@@ -42,16 +46,25 @@ struct CupShape {
   /// Radii at a height above the desk [m], by linear interpolation of the profiles.
   double inner_radius(double height_above_desk) const;
   double outer_radius(double height_above_desk) const;
+  /// Volume [m³] of a liquid of a depth [m] above the inner bottom's centre: the integral of π r² over the profile.
+  double volume(double depth) const;
+};
+
+/// A cup from a glTF file, placed in the world.
+struct MeshCup {
+  std::string name;                      ///< the file's
+  std::vector<GltfPart> parts;           ///< in the world
+  std::shared_ptr<const Cavity> cavity;  ///< of the parts, where a liquid is asked for
 };
 
 struct Filling {
   Medium medium;
-  double depth = 0.0;  ///< of the liquid above the inner bottom's centre
+  double depth = 0.0;  ///< of the liquid above the cavity's lowest point; of a CupShape the inner bottom's centre
 };
 
 struct Cup {
-  CupShape shape;
-  Eigen::Vector2d position{0.0, 0.4};  ///< of the axis on the desk
+  std::variant<CupShape, MeshCup> shape;
+  Eigen::Vector2d position{0.0, 0.4};  ///< of the axis, or the glTF file's origin, on the desk
   double yaw = 0.0;                    ///< direction of the handle, from +x towards +y
   std::optional<Filling> filling;
 };
@@ -70,7 +83,12 @@ struct Scene {
 /// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes and media
 /// come from scenes/cups and scenes/media; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);
+Cup cup_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
 Medium medium_from_json(const JsonReader& json);
+/// The member rotation_deg: angles about the world's fixed axes x, then y, then z; none without it.
+Eigen::Quaterniond rotation_from_json(const JsonReader& json);
+/// Whether a file's name ends as a glTF file's.
+bool names_gltf(const std::string& file);
 
 }  // namespace fathom

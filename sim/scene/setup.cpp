@@ -7,14 +7,18 @@
 namespace fathom {
 namespace {
 
-/// What no part of the scene knows by itself, so that mistakes show with their place in the file.
-void check(const JsonReader& root, const Setup& setup) {
-  const std::vector<JsonReader> cups = root.items_or_none("cups"), objects = root.items_or_none("objects");
+/// The scene's media must be known at the sensor's wavelength.
+void require_indices(const JsonReader& root, const Setup& setup) {
+  const std::vector<JsonReader> cups = root.items_or_none("cups");
   for (std::size_t i = 0; i < cups.size(); ++i)
     if (const auto& filling = setup.scene.cups[i].filling)
       require_index(cups[i].at("liquid"), filling->medium, setup.rig.sensor.wavelength_nm);
+}
+
+void require_files(const JsonReader& root, const Scene& scene) {
+  const std::vector<JsonReader> objects = root.items_or_none("objects");
   for (std::size_t i = 0; i < objects.size(); ++i)
-    if (const std::filesystem::path& gltf = setup.scene.objects[i].gltf; !std::filesystem::is_regular_file(gltf))
+    if (const std::filesystem::path& gltf = scene.objects[i].gltf; !std::filesystem::is_regular_file(gltf))
       objects[i].fail_at("gltf", fmt::format("there is no file {}", gltf.string()));
 }
 
@@ -32,7 +36,7 @@ Setup setup_from_json(const Json& json, const std::string& file) {
   if (!root.items_or_none("effects").empty())
     root.fail_at("effects", "names an effect, but this version has none to switch on; leave the list empty");
   Setup setup{scene_from_json(root), rig_from_json(root.at("sensor")), json};
-  check(root, setup);
+  require_indices(root, setup);
   return setup;
 }
 
@@ -41,7 +45,9 @@ Setup read_setup(const std::filesystem::path& path) {
   if (extension == ".gltf" || extension == ".glb")
     throw Error(path.string(),
                 "glTF scenes cannot be read yet; write a scene file (*.json) that names it under \"objects\"");
-  return setup_from_json(read_json(path), path.string());
+  Setup setup = setup_from_json(read_json(path), path.string());
+  require_files(JsonReader(setup.source, path.string()), setup.scene);
+  return setup;
 }
 
 }  // namespace fathom

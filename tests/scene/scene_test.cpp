@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "sim/scene/geometry.h"
 #include "sim/scene/library.h"
 #include "sim/scene/setup.h"
@@ -52,6 +54,25 @@ TEST(Scene, DeskCanBeLeftOutOnlyByName) {
   EXPECT_FALSE(changed("/desk", "null").scene.desk);
 }
 
+TEST(Scene, AVolumeIsPouredToItsDepth) {
+  const auto poured = [](const char* shape, double ml) {
+    Json scene = good_scene();
+    Json& cup = scene["cups"][0];
+    cup.erase("fill_mm");
+    cup["fill_ml"] = ml;
+    cup["shape"] = shape;
+    return setup_from_json(scene, "scene.json").scene.cups[0];
+  };
+  // π 40² mm² · 30 mm; depths are bisected to a nanometre.
+  EXPECT_NEAR(poured("paper_cup", 150.79644737).filling->depth, 0.030, 2e-9);
+  // A frustum of radii 26 and 32 mm, half-way up the taper of 86 mm: π/3 · 43 (26² + 26 · 32 + 32²).
+  EXPECT_NEAR(
+      poured("tapered_cup", std::numbers::pi / 3.0 * 43.0 * (26 * 26 + 26 * 32 + 32 * 32) * 1e-3).filling->depth, 0.043,
+      2e-9);
+  EXPECT_FALSE(poured("paper_cup", 0.0).filling);
+  expect_error([&] { poured("paper_cup", 403.0); }, {"/cups/0/fill_ml: must be at most 402.124, what the cup holds"});
+}
+
 TEST(Scene, AnEmptyFillIsAnEmptyCup) { EXPECT_FALSE(changed("/cups/0/fill_mm", "0").scene.cups[0].filling); }
 
 struct Refusal {
@@ -85,13 +106,14 @@ TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
       {"/desk/size_mm", "[1000, 0]", "/desk/size_mm: must be two lengths above 0"},
       {"/cups", "{}", "/cups: must be a list"},
       {"/cups/0/shape", "\"glass\"", "/cups/0/shape: unknown cup shape 'glass', choose from mug, paper_cup, tapered"},
-      {"/cups/0/shape", "\"cup.glb\"", "/cups/0/shape: glTF cups cannot be filled yet"},
       {"/cups/0/position_mm", nullptr, "/cups/0/position_mm: is missing"},
       {"/cups/0/liquid", "\"wtaer\"", "/cups/0/liquid: unknown liquid 'wtaer', choose from barley_tea, milk_tea"},
       {"/cups/0/liquid", nullptr, "/cups/0/fill_mm: needs a liquid"},
       {"/cups/0/liquid", R"({"absorption_per_mm": 1})", "/cups/0/liquid/index: is missing"},
       {"/cups/0/liquid", R"({"index": 0.9})", "/cups/0/liquid/index: must be a number from 1"},
       {"/cups/0/fill_mm", nullptr, "/cups/0/fill_mm: is missing"},
+      {"/cups/0/fill_ml", "30", "/cups/0/fill_ml: cannot stand beside fill_mm"},
+      {"/cups/0/rotation_deg", "[0, 10, 0]", "/cups/0/rotation_deg: is for cups from glTF files"},
       {"/cups/0/fill_mm", "81", "/cups/0/fill_mm: must be at most 80, the depth of the cup"},
       {"/objects/0/gltf", nullptr, "/objects/0/gltf: is missing"},
   };

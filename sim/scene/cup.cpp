@@ -1,0 +1,79 @@
+#include "sim/scene/cup.h"
+
+#include <cassert>
+
+#include "sim/scene/cup_mesh.h"
+
+namespace fathom {
+namespace {
+
+Pose world_from_shape(const Cup& cup) {
+  return Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0) *
+         Eigen::AngleAxisd(cup.yaw, Eigen::Vector3d::UnitZ());
+}
+
+const Cavity& cavity(const MeshCup& mesh) {
+  assert(mesh.cavity);
+  return *mesh.cavity;
+}
+
+double depth(const CupShape& shape) { return shape.height() - shape.bottom(); }
+double depth(const MeshCup& mesh) { return cavity(mesh).depth(); }
+
+double volume(const CupShape& shape, double depth) { return shape.volume(depth); }
+double volume(const MeshCup& mesh, double depth) { return cavity(mesh).volume(cavity(mesh).floor() + depth); }
+
+double depth_of(const CupShape& shape, double wanted) {
+  double low = 0.0, high = depth(shape);
+  while (high - low > 1e-9) {  // a nanometre
+    const double middle = 0.5 * (low + high);
+    (shape.volume(middle) < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+double depth_of(const MeshCup& mesh, double wanted) { return cavity(mesh).level_of(wanted) - cavity(mesh).floor(); }
+
+double floor_of(const CupShape& shape) { return shape.bottom(); }
+double floor_of(const MeshCup& mesh) { return cavity(mesh).floor(); }
+
+}  // namespace
+
+const std::string& cup_name(const Cup& cup) {
+  return std::visit([](const auto& shape) -> const std::string& { return shape.name; }, cup.shape);
+}
+
+std::vector<GltfPart> cup_parts(const Cup& cup) {
+  if (const auto* mesh = std::get_if<MeshCup>(&cup.shape)) return mesh->parts;
+  const CupShape& shape = std::get<CupShape>(cup.shape);
+  GltfPart part{cup_mesh(shape), shape.albedo};
+  part.mesh.transform(world_from_shape(cup));
+  return {std::move(part)};
+}
+
+double cup_depth(const Cup& cup) {
+  return std::visit([](const auto& shape) { return depth(shape); }, cup.shape);
+}
+
+double cup_capacity(const Cup& cup) { return cup_volume(cup, cup_depth(cup)); }
+
+double cup_volume(const Cup& cup, double depth) {
+  return std::visit([&](const auto& shape) { return volume(shape, depth); }, cup.shape);
+}
+
+double depth_of_volume(const Cup& cup, double wanted) {
+  return std::visit([&](const auto& shape) { return depth_of(shape, wanted); }, cup.shape);
+}
+
+double liquid_level(const Cup& cup) {
+  return std::visit([&](const auto& shape) { return floor_of(shape) + cup.filling->depth; }, cup.shape);
+}
+
+Mesh liquid_surface(const Cup& cup) {
+  const double level = liquid_level(cup);
+  if (const auto* mesh = std::get_if<MeshCup>(&cup.shape)) return cavity(*mesh).surface(level);
+  Mesh disc = liquid_disc(std::get<CupShape>(cup.shape), level);
+  disc.transform(world_from_shape(cup));
+  return disc;
+}
+
+}  // namespace fathom

@@ -1,0 +1,27 @@
+// Cups of every kind as the rest of the program needs them: bodies, how much they hold, the surface of what is in them.
+#pragma once
+
+#include "sim/scene/scene.h"
+
+namespace fathom {
+
+/// "paper_cup", "mug.glb"
+const std::string& cup_name(const Cup& cup);
+
+/// The cup's meshes in the world.
+std::vector<GltfPart> cup_parts(const Cup& cup);
+
+/// Greatest depth of a liquid [m], its volume [m³], and the volume at any depth. A cup from a mesh must have its
+/// cavity.
+double cup_depth(const Cup& cup);
+double cup_capacity(const Cup& cup);
+double cup_volume(const Cup& cup, double depth);
+/// The depth [m] at which a cup holds `volume` [m³], from 0 to its capacity; see Cavity::level_of.
+double depth_of_volume(const Cup& cup, double volume);
+
+/// Height [m] of the liquid's surface above the desk, and the surface itself in the world, drawn half-way into the
+/// wall. The cup must have a filling.
+double liquid_level(const Cup& cup);
+Mesh liquid_surface(const Cup& cup);
+
+}  // namespace fathom

@@ -1,0 +1,113 @@
+// Reading of a scene's cups, and of what is poured into them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/units.h"
+#include "sim/scene/cup.h"
+
+namespace fathom {
+namespace {
+
+/// Reads and places a glTF cup: turned, then put down with its lowest point on the desk, or at the height that a third
+/// number of the position gives.
+MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
+  const JsonReader shape = json.at("shape"), position = json.at("position_mm");
+  const std::filesystem::path file = std::filesystem::path(json.file()).parent_path() / shape.text();
+  MeshCup cup{file.filename().string(), read_gltf(file), nullptr};
+  const Pose turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * rotation_from_json(json));
+  double lowest = std::numeric_limits<double>::infinity();
+  for (GltfPart& part : cup.parts) {
+    part.mesh.transform(turn);
+    for (const Eigen::Vector3d& vertex : part.mesh.vertices) lowest = std::min(lowest, vertex.z());
+  }
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  if (position.value().is_array() && position.value().size() == 3)
+    place = position.vector3() * kMetresPerMm;
+  else
+    place.head<2>() = position.vector2() * kMetresPerMm;
+  for (GltfPart& part : cup.parts)
+    part.mesh.transform(Pose(Eigen::Translation3d(place - lowest * Eigen::Vector3d::UnitZ())));
+  return cup;
+}
+
+void find_cavity_of(const JsonReader& json, MeshCup& cup) {
+  std::vector<Mesh> meshes;
+  for (const GltfPart& part : cup.parts) meshes.push_back(part.mesh);
+  const std::optional<Cavity> cavity = find_cavity(meshes);
+  if (!cavity)
+    json.fail_at("shape",
+                 fmt::format("{} holds no liquid; a cup must be open above and have no opening wider than 1 mm below",
+                             cup.name));
+  cup.cavity = std::make_shared<const Cavity>(*cavity);
+}
+
+/// " (it spills at x 40.0, y 400.0, z 87.0 mm)" for meshes.
+std::string where_it_spills(const Cup& cup) {
+  const auto* mesh = std::get_if<MeshCup>(&cup.shape);
+  if (!mesh) return "";
+  const Eigen::Vector3d spill = mesh->cavity->spill() / kMetresPerMm;
+  return fmt::format(" (it spills at x {:.1f}, y {:.1f}, z {:.1f} mm)", spill.x(), spill.y(), spill.z());
+}
+
+double depth_from_json(const JsonReader& json, const Cup& cup) {
+  if (json.has("fill_ml") && json.has("fill_mm")) json.fail_at("fill_ml", "cannot stand beside fill_mm");
+  if (!json.has("fill_ml")) {
+    constexpr double kRounding = 1e-8;  // [m]; rims of meshes are known to a nanometre
+    const double limit = cup_depth(cup), depth = metres_from_mm(json.number("fill_mm", kNonNegative));
+    if (depth > limit + kRounding)
+      json.fail_at("fill_mm", fmt::format("must be at most {:.6g}, the depth of the cup{}", mm_from_metres(limit),
+                                          where_it_spills(cup)));
+    return std::min(depth, limit);
+  }
+  constexpr double kSame = 5e-3;  // of a volume: more has flowed over an inner rim
+  const double limit = cup_capacity(cup), volume = cubic_metres_from_ml(json.number("fill_ml", kNonNegative));
+  if (volume > limit)
+    json.fail_at("fill_ml", fmt::format("must be at most {:.6g}, what the cup holds{}", ml_from_cubic_metres(limit),
+                                        where_it_spills(cup)));
+  if (volume == 0.0) return 0.0;
+  const double depth = depth_of_volume(cup, volume);
+  if (std::fabs(cup_volume(cup, depth) - volume) > kSame * volume)
+    json.fail_at("fill_ml", fmt::format("must not be reached while the liquid flows over an inner rim, {:.4g} mm deep",
+                                        mm_from_metres(depth)));
+  return depth;
+}
+
+void pour(const JsonReader& json, Cup& cup) {
+  Filling filling;
+  filling.medium = medium_from_json(json.at("liquid"));
+  filling.depth = depth_from_json(json, cup);
+  if (filling.depth == 0.0) return;
+  cup.filling = std::move(filling);
+  if (liquid_surface(cup).triangles.empty())
+    json.fail_at(json.has("fill_ml") ? "fill_ml" : "fill_mm", "is too little to have a surface in this cup");
+}
+
+}  // namespace
+
+Cup cup_from_json(const JsonReader& json) {
+  json.allow_only({"shape", "position_mm", "rotation_deg", "yaw_deg", "liquid", "fill_mm", "fill_ml"});
+  const JsonReader shape = json.at("shape");
+  const bool is_mesh = shape.value().is_string() && names_gltf(shape.text());
+  Cup cup;
+  cup.yaw = radians_from_deg(json.number_or("yaw_deg", 0.0));
+  if (is_mesh) {
+    cup.shape = mesh_cup_from_json(json, cup.yaw);
+  } else {
+    cup.shape = cup_shape_from_json(shape);
+    cup.position = json.at("position_mm").vector2() * kMetresPerMm;
+    if (json.has("rotation_deg")) json.fail_at("rotation_deg", "is for cups from glTF files; others have yaw_deg");
+  }
+  if (!json.has("liquid")) {
+    for (const char* key : {"fill_mm", "fill_ml"})
+      if (json.has(key)) json.fail_at(key, "needs a liquid");
+    return cup;
+  }
+  if (is_mesh) find_cavity_of(json, std::get<MeshCup>(cup.shape));
+  pour(json, cup);
+  return cup;
+}
+
+}  // namespace fathom
