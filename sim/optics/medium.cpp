@@ -21,14 +21,6 @@ double index_at(const SellmeierIndex& sellmeier, double wavelength_nm) {
   return std::sqrt(n_squared);
 }
 
-/// Reflectance of an interface for diffuse light, ∫ R(cos θ) 2 cos θ d cos θ, by the midpoint rule in cos²θ.
-double hemispherical_reflectance(double n_from, double n_to) {
-  constexpr int kSteps = 2000;
-  double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) sum += fresnel_reflectance(std::sqrt((i + 0.5) / kSteps), n_from, n_to);
-  return sum / kSteps;
-}
-
 }  // namespace
 
 double Medium::n(double wavelength_nm) const {
