@@ -16,7 +16,7 @@ struct SamplingPlan {
   double relative_error = 0.002;  ///< standard error over value
   double absolute_error = 1e-6;   ///< a smaller standard error is good enough, whatever the value
   std::uint64_t most_work = 2'000'000'000;  ///< gives up beyond, in the units that the sampler counts
-  std::function<void(std::uint64_t done, std::uint64_t expected)> report;  ///< progress in samples; may be empty
+  std::function<void(std::uint64_t done, std::uint64_t expected)> report{};  ///< progress in samples; may be empty
 };
 
 struct SamplingResult {
