@@ -67,10 +67,9 @@ struct Scene {
   std::vector<Object> objects;
 };
 
-/// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes and media
-/// come from scenes/cups and scenes/media; relative glTF paths are relative to the scene file.
+/// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes come from
+/// scenes/cups; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
-Medium medium_from_json(const JsonReader& json);
 
 }  // namespace fathom
