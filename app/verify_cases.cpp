@@ -91,7 +91,7 @@ const std::vector<Case>& published_cases() {
        }},
       {"slab n 1, albedo 0.9, thickness 2, g 0.75",
        {{"reflectance", 0.09739, 5e-6}, {"transmittance", 0.66096, 5e-6}},
-       "van de Hulst 1980, Multiple Light Scattering, table 35",
+       "van de Hulst 1980, Multiple Light Scattering",
        [](std::uint64_t seed, const SamplingPlan& plan) { return slab(layer(1.0, 0.9, 2.0, 0.75), 1.0, seed, plan); }},
       {"slab n 1, albedo 0.99, thickness 1, g 0, cosine 0.5",
        {{"reflectance", 0.48652, 5e-6}, {"transmittance", 0.49163, 5e-6}},

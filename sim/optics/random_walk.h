@@ -42,7 +42,7 @@ concept WalkSpace = requires(const Space& space, Walker& walker, Rng& rng, Visit
 };
 
 /// A walk with less than this share of the weight it started with plays Russian roulette. From 0.05 to 1 the time for a
-/// given error differs by less than half.
+/// given error differs by less than a factor of two.
 inline constexpr double kRouletteShare = 0.25;
 
 /// Russian roulette: a walk below the least weight goes on, with that weight, with a probability that leaves the
