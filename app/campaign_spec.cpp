@@ -8,6 +8,7 @@
 #include "app/nominal_rig.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "sim/scene/medium_json.h"
 
 namespace fathom {
 namespace {

@@ -14,6 +14,7 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_verify(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_template(CLI::App& app, const CommonOptions& common);
 
 inline constexpr std::array kCommands{
@@ -44,6 +45,14 @@ inline constexpr std::array kCommands{
             "  fathom template cloud.pcd -o templates --name my_mug\n"
             "  fathom template cloud.pcd -o templates --name tall_mug --liquid-threshold-mm 6",
             define_template},
+    Command{"verify", "Certification of light transport against published tables: value, standard error, verdict",
+            "  fathom verify all\n"
+            "  fathom verify slab --index 1.336 --absorption-per-mm 0.0032 --scattering-per-mm 3.3 --anisotropy 0.85 "
+            "--thickness-mm 10\n"
+            "  fathom verify slab --index 1 --absorption-per-mm 0.01 --scattering-per-mm 0.99 --anisotropy 0 "
+            "--thickness-mm inf --json\n"
+            "  fathom verify fresnel --from 1 --to 1.328 --angle-deg 60",
+            define_verify},
     Command{"list", "The libraries of media, cups, sensors and effects, with units and sources",
             "  fathom list media\n  fathom list cups --json", define_list},
 };

@@ -19,6 +19,16 @@ namespace {
 /// The effects that `effects` of a scene can switch on. There is none yet, and so nothing to print.
 std::string effects_text(bool as_json) { return as_json ? "[]\n" : ""; }
 
+/// {"n": 1.336, "at_nm": 830} as "n 1.336, at_nm 830"; anything else as it stands.
+std::string shown(const Json& value) {
+  if (!value.is_object()) return value.dump();
+  std::string text;
+  for (const auto& [key, part] : value.items())
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", key, part.is_string() ? part.get<std::string>() : part.dump());
+  return text;
+}
+
 std::string library_text(const std::string& library, bool as_json) {
   Json entries = Json::object();
   for (const std::string& name : library_names(library)) {
@@ -33,7 +43,7 @@ std::string library_text(const std::string& library, bool as_json) {
   for (const auto& [name, entry] : entries.items()) {
     text += name + "\n";
     for (const auto& [key, value] : entry.items())
-      text += fmt::format("  {:<22} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+      text += fmt::format("  {:<22} {}\n", key, value.is_string() ? value.get<std::string>() : shown(value));
   }
   return text;
 }

@@ -14,8 +14,9 @@ Progress::~Progress() {
   if (shown_ && done_ > 0) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::step() {
-  ++done_;
+void Progress::reach(std::size_t done, std::size_t total) {
+  done_ = done;
+  total_ = total;
   if (!shown_) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double rate = static_cast<double>(done_) / seconds;

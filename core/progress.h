@@ -15,7 +15,10 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// One more item is done. Not thread-safe: call it from the thread that drives the work.
-  void step();
+  void step() { reach(done_ + 1, total_); }
+
+  /// So many items of so many are done, where the total is found out on the way.
+  void reach(std::size_t done, std::size_t total);
 
  private:
   std::string what_;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "sim/optics/fresnel.h"
+#include "sim/optics/water.h"
 
 namespace fathom {
 namespace {
@@ -19,6 +20,10 @@ double index_at(const SellmeierIndex& sellmeier, double wavelength_nm) {
   for (std::size_t i = 0; i < sellmeier.a.size(); ++i)
     n_squared += sellmeier.a[i] * lambda2_um2 / (lambda2_um2 - sellmeier.b_um2[i]);
   return std::sqrt(n_squared);
+}
+
+double index_at(const WaterIndex& like_water, double wavelength_nm) {
+  return water_index(wavelength_nm, like_water.temperature_c) + like_water.above_water;
 }
 
 }  // namespace
@@ -34,9 +39,8 @@ double transmittance(double coefficient, double path) { return std::exp(-coeffic
 
 double diffuse_reflectance(const Medium& medium, double n) {
   assert(medium.scatters());
-  const double reduced_scattering = medium.scattering * (1.0 - medium.anisotropy);
   const double k = 2.0 * medium.absorption;
-  const double s = std::fmax(0.75 * reduced_scattering - 0.25 * medium.absorption, 1e-9);
+  const double s = std::fmax(0.75 * medium.reduced_scattering() - 0.25 * medium.absorption, 1e-9);
   const double below_surface = 1.0 + k / s - std::sqrt(k / s * (k / s + 2.0));
   const double outside = hemispherical_reflectance(1.0, n);
   const double inside = hemispherical_reflectance(n, 1.0);

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "sim/scene/cup.h"
+#include "sim/scene/medium_json.h"
 
 namespace fathom {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "sim/scene/library.h"
+#include "sim/scene/medium_json.h"
 
 namespace fathom {
 namespace {
@@ -113,36 +114,6 @@ Object object_from_json(const JsonReader& json) {
   return object;
 }
 
-void set_index(const JsonReader& json, Medium& medium) {
-  constexpr Range kIndex{1.0, 4.0};
-  const JsonReader index = json.at("index");
-  if (index.value().is_number()) {
-    medium.index = ConstantIndex{index.number(kIndex)};
-    return;
-  }
-  index.allow_only({"sellmeier_a", "sellmeier_b_um2", "range_nm"});
-  SellmeierIndex law{index.at("sellmeier_a").numbers(), index.at("sellmeier_b_um2").numbers()};
-  if (law.a.size() != law.b_um2.size() || law.a.empty())
-    index.fail_at("sellmeier_b_um2", "must hold as many numbers as sellmeier_a, at least one");
-  const Eigen::Vector2d range = index.at("range_nm").vector2();
-  if (range[0] <= 0.0 || range[1] <= range[0])
-    index.fail_at("range_nm", "must be two wavelengths above 0, the lower first");
-  for (const double b_um2 : law.b_um2) {
-    const double resonance_nm = b_um2 > 0.0 ? 1e3 * std::sqrt(b_um2) : 0.0;
-    if (resonance_nm >= range[0] && resonance_nm <= range[1])
-      index.fail_at("sellmeier_b_um2", fmt::format("has a resonance at {:g} nm, inside range_nm", resonance_nm));
-  }
-  medium.index = std::move(law);
-  medium.wavelength_min_nm = range[0];
-  medium.wavelength_max_nm = range[1];
-  for (const double wavelength_nm : range) {
-    const double n = medium.n(wavelength_nm);
-    if (!(n >= kIndex.low && n <= kIndex.high))
-      index.fail_at("sellmeier_a",
-                    fmt::format("gives the index {:g} at {:g} nm, must be from 1 to 4", n, wavelength_nm));
-  }
-}
-
 }  // namespace
 
 double CupShape::inner_radius(double height_above_desk) const { return radius_at(inner, height_above_desk); }
@@ -178,26 +149,6 @@ CupShape cup_shape_from_json(const JsonReader& json) {
   CupShape shape = shape_from_object(JsonReader(text, file.string()));
   shape.name = name;
   return shape;
-}
-
-Medium medium_from_json(const JsonReader& json) {
-  if (json.value().is_string()) {
-    const std::string name = json.text();
-    const std::filesystem::path file = library_file("media", "liquid", name, json.file(), json.pointer());
-    const Json text = read_json(file);
-    Medium medium = medium_from_json(JsonReader(text, file.string()));
-    medium.name = name;
-    return medium;
-  }
-  json.allow_only({"name", "index", "absorption_per_mm", "scattering_per_mm", "anisotropy", "source", "quality"});
-  Medium medium;
-  medium.name = json.text_or("name", "liquid");
-  set_index(json, medium);
-  medium.absorption = per_metre_from_per_mm(json.number_or("absorption_per_mm", 0.0, kNonNegative));
-  medium.scattering = per_metre_from_per_mm(json.number_or("scattering_per_mm", 0.0, kNonNegative));
-  medium.anisotropy = json.number_or("anisotropy", 0.0, {-0.999, 0.999});
-  medium.source = json.text_or("source", "");
-  return medium;
 }
 
 Scene scene_from_json(const JsonReader& json) {

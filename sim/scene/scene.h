@@ -80,12 +80,11 @@ struct Scene {
   std::vector<Object> objects;
 };
 
-/// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes and media
-/// come from scenes/cups and scenes/media; relative glTF paths are relative to the scene file.
+/// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes come from
+/// scenes/cups; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);
 Cup cup_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
-Medium medium_from_json(const JsonReader& json);
 /// The member rotation_deg: angles about the world's fixed axes x, then y, then z; none without it.
 Eigen::Quaterniond rotation_from_json(const JsonReader& json);
 /// Whether a file's name ends as a glTF file's.

@@ -7,6 +7,7 @@
 
 #include "sim/scene/geometry.h"
 #include "sim/scene/library.h"
+#include "sim/scene/medium_json.h"
 #include "sim/scene/setup.h"
 #include "tests/core/expect_error.h"
 
@@ -107,7 +108,8 @@ TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
       {"/cups", "{}", "/cups: must be a list"},
       {"/cups/0/shape", "\"glass\"", "/cups/0/shape: unknown cup shape 'glass', choose from mug, paper_cup, tapered"},
       {"/cups/0/position_mm", nullptr, "/cups/0/position_mm: is missing"},
-      {"/cups/0/liquid", "\"wtaer\"", "/cups/0/liquid: unknown liquid 'wtaer', choose from barley_tea, milk_tea"},
+      {"/cups/0/liquid", "\"wtaer\"",
+       "/cups/0/liquid: unknown liquid 'wtaer', choose from barley_tea, intralipid_20, milk_tea"},
       {"/cups/0/liquid", nullptr, "/cups/0/fill_mm: needs a liquid"},
       {"/cups/0/liquid", R"({"absorption_per_mm": 1})", "/cups/0/liquid/index: is missing"},
       {"/cups/0/liquid", R"({"index": 0.9})", "/cups/0/liquid/index: must be a number from 1"},
@@ -159,7 +161,7 @@ TEST(Library, EveryEntryLoadsAndNamesItsSource) {
     const Medium medium = medium_from_json(JsonReader(json, "test"));
     EXPECT_FALSE(medium.source.empty()) << name;
     EXPECT_GT(medium.n(830.0), 1.32) << name;  // drinks are water and more
-    EXPECT_LT(medium.n(830.0), 1.36) << name;
+    EXPECT_LT(medium.n(830.0), 1.37) << name;
   }
   for (const std::string& name : library_names("sensors"))
     EXPECT_EQ(changed("/sensor/model", as_json(name).dump().c_str()).rig.sensor.name, name);

@@ -19,7 +19,9 @@ Json full_scene() {
     "desk": {},
     "cups": [{"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33, "handle": {}},
               "position_mm": [0, 400], "fill_mm": 20,
-              "liquid": {"index": {"sellmeier_a": [0.75], "sellmeier_b_um2": [0.01], "range_nm": [400, 900]}}}],
+              "liquid": {"index": {"sellmeier_a": [0.75], "sellmeier_b_um2": [0.01], "range_nm": [400, 900]}, "ranges": {}}},
+             {"shape": "mug", "position_mm": [200, 400], "fill_mm": 20, "liquid": {"name": "water"}},
+             {"shape": "mug", "position_mm": [-200, 400], "fill_mm": 20, "liquid": {"index": {"dispersion": "water"}}}],
     "objects": [{"gltf": "box.glb"}]
   })");
 }
@@ -65,6 +67,9 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
       {"/cups/0/shape/handle", "/$defs/handle"},
       {"/cups/0/liquid", "/$defs/liquid"},
       {"/cups/0/liquid/index", "/$defs/dispersion"},
+      {"/cups/0/liquid/ranges", "/$defs/ranges"},
+      {"/cups/1/liquid", "/$defs/changed_liquid"},
+      {"/cups/2/liquid/index", "/$defs/water_like"},
       {"/objects/0", "/$defs/object"},
   };
   EXPECT_NO_THROW(setup_from_json(full_scene(), "scene.json"));

@@ -1,0 +1,34 @@
+// What light transport is certified against: published values, each with its source, and laws that hold exactly.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/sampling.h"
+
+namespace fathom {
+
+struct Published {
+  std::string_view quantity;
+  double value;
+  double uncertainty;  ///< half a unit of the last printed digit, or 1 σ where the source is itself random
+};
+
+/// One computation, whose quantities are compared with published ones in their order.
+struct Case {
+  std::string_view name;
+  std::vector<Published> published;
+  std::string_view source;
+  /// Values in the order of `published`.
+  std::vector<Estimate> (*compute)(std::uint64_t seed, const SamplingPlan& plan);
+};
+
+const std::vector<Case>& published_cases();  ///< tables
+const std::vector<Case>& furnace_cases();    ///< conservation of energy
+
+/// How far a value lies from the published one, in standard errors; the published uncertainty counts as a further
+/// error.
+double deviation(const Estimate& found, const Published& published);
+
+}  // namespace fathom

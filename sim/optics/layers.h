@@ -1,0 +1,62 @@
+// Plane layers, one below the other, between air above and air below: what the tables of radiative transfer are about.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "sim/optics/interface.h"
+#include "sim/optics/random_walk.h"
+
+namespace fathom {
+
+struct Layer {
+  Turbid medium;
+  double thickness;  ///< [m]; infinite only in the lowest layer
+};
+
+/// The space of a walk through layers (see random_walk.h). z points up, the top is z = 0; regions count from 0 at the
+/// top.
+class LayerSpace {
+ public:
+  /// At least one layer, thicknesses above 0. `n_outside`: of what is above and below.
+  explicit LayerSpace(std::vector<Layer> layers, double n_outside = 1.0);
+
+  struct Boundary {
+    double distance;  ///< [m]
+    bool below;       ///< the layer's lower face
+  };
+
+  const Turbid& medium(int region) const { return layers_[static_cast<std::size_t>(region)].medium; }
+  const std::vector<Layer>& layers() const { return layers_; }
+  double n_outside() const { return n_outside_; }
+
+  Boundary next_boundary(const Walker& walker) const {
+    const double dz = walker.direction.z();
+    if (dz == 0.0) return {std::numeric_limits<double>::infinity(), true};
+    const std::size_t face = static_cast<std::size_t>(walker.region) + (dz < 0.0 ? 1 : 0);
+    // Rounding may have left the walker a little beyond the face that it was put on.
+    return {std::fmax(0.0, (face_z_[face] - walker.position.z()) / dz), dz < 0.0};
+  }
+
+  template <class Visitor>
+  bool meet(const Boundary& boundary, Walker& walker, Rng& rng, Visitor& visitor) const {
+    const Eigen::Vector3d normal(0.0, 0.0, boundary.below ? 1.0 : -1.0);
+    if (std::isinf(boundary.distance)) {  // never comes back; what is not absorbed on the way passes every depth
+      if (walker.weight > 0.0) visitor.leaves(walker, normal, walker.weight);
+      return false;
+    }
+    const int beyond = walker.region + (boundary.below ? 1 : -1);
+    if (beyond < 0 || beyond == static_cast<int>(layers_.size()))
+      leave_through(walker, normal, medium(walker.region).n, n_outside_, visitor);
+    else if (cross_interface(walker, normal, medium(walker.region).n, medium(beyond).n, rng))
+      walker.region = beyond;
+    return true;
+  }
+
+ private:
+  std::vector<Layer> layers_;
+  double n_outside_;
+  std::vector<double> face_z_;  ///< layers + 1, from the top
+};
+
+}  // namespace fathom

@@ -1,0 +1,12 @@
+// Media from JSON: a name from scenes/media, that name with a temperature or a dilution, or a description.
+#pragma once
+
+#include "core/json.h"
+#include "sim/optics/medium.h"
+
+namespace fathom {
+
+/// Throws Error naming file, path and what is allowed.
+Medium medium_from_json(const JsonReader& json);
+
+}  // namespace fathom
