@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/units.h"
+#include "sim/optics/meniscus.h"
 #include "sim/scene/library.h"
 
 namespace fathom {
@@ -72,10 +74,15 @@ void set_cylinder(const JsonReader& json, CupShape& shape) {
 
 CupShape shape_from_object(const JsonReader& json) {
   json.allow_only({"name", "height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm", "inner_profile_mm",
-                   "outer_profile_mm", "albedo", "handle", "source"});
+                   "outer_profile_mm", "albedo", "material", "handle", "source"});
   CupShape shape;
   shape.name = json.text_or("name", "cup");
   shape.albedo = json.number_or("albedo", shape.albedo, kAlbedo);
+  if (json.has("material")) {
+    for (const char* key : {"albedo", "handle"})
+      if (json.has(key)) json.fail_at(key, "cannot stand beside material: a clear wall has none");
+    shape.material = wall_from_json(json.at("material"));
+  }
   shape.source = json.text_or("source", "");
   if (json.has("handle")) shape.handle = handle_from_json(json.at("handle"));
   if (!json.has("inner_profile_mm") && !json.has("outer_profile_mm")) {
@@ -101,14 +108,57 @@ CupShape shape_from_object(const JsonReader& json) {
   return shape;
 }
 
+Ripple ripple_from_json(const JsonReader& json) {
+  json.allow_only({"wavelength_mm", "amplitude_mm", "azimuth_deg", "phase_deg"});
+  return {.wavelength = metres_from_mm(json.number("wavelength_mm", kPositive)),
+          .amplitude = metres_from_mm(json.number("amplitude_mm", kNonNegative)),
+          .azimuth = radians_from_deg(json.number_or("azimuth_deg", 0.0)),
+          .phase = radians_from_deg(json.number_or("phase_deg", 0.0))};
+}
+
+LiquidForm form_from_json(const JsonReader& json) {
+  json.allow_only({"contact_angle_deg", "capillary_length_mm", "tilt_deg", "tilt_azimuth_deg", "ripples"});
+  LiquidForm form;
+  form.tilt = radians_from_deg(json.number_or("tilt_deg", 0.0, {0.0, 45.0}));
+  form.tilt_azimuth = radians_from_deg(json.number_or("tilt_azimuth_deg", 0.0));
+  for (const JsonReader& ripple : json.items_or_none("ripples")) form.ripples.push_back(ripple_from_json(ripple));
+  if (json.has("contact_angle_deg") || json.has("capillary_length_mm"))
+    form.wetting = Wetting{radians_from_deg(json.number("contact_angle_deg", {1.0, 179.0})),
+                           metres_from_mm(json.number("capillary_length_mm", kPositive))};
+  return form;
+}
+
+/// The surface must stay between the cup's bottom and its rim.
+void check_form(const JsonReader& json, const CupShape& shape, const Filling& filling) {
+  const LiquidForm& form = filling.form;
+  const double level = shape.bottom() + filling.depth;
+  double up = std::tan(form.tilt) * shape.inner_radius(level), down = up;
+  for (const Ripple& ripple : form.ripples) up += ripple.amplitude, down += ripple.amplitude;
+  if (form.wetting) {
+    const double lean = shape.wall_lean(level);
+    if (form.wetting->contact_angle + lean <= 0.0 || form.wetting->contact_angle + lean >= std::numbers::pi)
+      json.fail_at("contact_angle_deg", fmt::format("must be above {:g} and below {:g} at this wall, which leans",
+                                                    -deg_from_radians(lean), 180.0 - deg_from_radians(lean)));
+    const double rise = Meniscus(form.wetting->contact_angle, form.wetting->capillary_length, lean).rise();
+    (rise > 0.0 ? up : down) += std::fabs(rise);
+  }
+  if (level + up > shape.height())
+    json.fail(fmt::format("lifts the liquid to {:g} mm above the desk, over the rim at {:g}", mm_from_metres(level + up),
+                          mm_from_metres(shape.height())));
+  if (down >= filling.depth)
+    json.fail(fmt::format("lowers the liquid by {:g} mm, to the bottom at {:g} mm below its level", mm_from_metres(down),
+                          mm_from_metres(filling.depth)));
+}
+
 Cup cup_from_json(const JsonReader& json) {
-  json.allow_only({"shape", "position_mm", "yaw_deg", "liquid", "fill_mm"});
+  json.allow_only({"shape", "position_mm", "yaw_deg", "liquid", "fill_mm", "surface"});
   Cup cup;
   cup.shape = cup_shape_from_json(json.at("shape"));
   cup.position = json.at("position_mm").vector2() * kMetresPerMm;
   cup.yaw = radians_from_deg(json.number_or("yaw_deg", 0.0));
   if (!json.has("liquid")) {
-    if (json.has("fill_mm")) json.fail_at("fill_mm", "needs a liquid");
+    for (const char* key : {"fill_mm", "surface"})
+      if (json.has(key)) json.fail_at(key, "needs a liquid");
     return cup;
   }
   const double depth_limit = cup.shape.height() - cup.shape.bottom();
@@ -117,6 +167,10 @@ Cup cup_from_json(const JsonReader& json) {
   filling.depth = metres_from_mm(json.number("fill_mm", kNonNegative));
   if (filling.depth > depth_limit)
     json.fail_at("fill_mm", fmt::format("must be at most {:g}, the depth of the cup", mm_from_metres(depth_limit)));
+  if (json.has("surface")) {
+    filling.form = form_from_json(json.at("surface"));
+    check_form(json.at("surface"), cup.shape, filling);
+  }
   if (filling.depth > 0.0) cup.filling = std::move(filling);
   return cup;
 }
@@ -167,10 +221,36 @@ void set_index(const JsonReader& json, Medium& medium) {
   }
 }
 
+/// A medium described inline or named in a library.
+Medium named_medium(const JsonReader& json, const char* library, const char* kind) {
+  if (json.value().is_string()) {
+    const std::string name = json.text();
+    const std::filesystem::path file = library_file(library, kind, name, json.file(), json.pointer());
+    const Json text = read_json(file);
+    Medium medium = named_medium(JsonReader(text, file.string()), library, kind);
+    medium.name = name;
+    return medium;
+  }
+  json.allow_only({"name", "index", "absorption_per_mm", "scattering_per_mm", "anisotropy", "source", "quality"});
+  Medium medium;
+  medium.name = json.text_or("name", kind);
+  set_index(json, medium);
+  medium.absorption = per_metre_from_per_mm(json.number_or("absorption_per_mm", 0.0, kNonNegative));
+  medium.scattering = per_metre_from_per_mm(json.number_or("scattering_per_mm", 0.0, kNonNegative));
+  medium.anisotropy = json.number_or("anisotropy", 0.0, {-0.999, 0.999});
+  medium.source = json.text_or("source", "");
+  return medium;
+}
+
 }  // namespace
 
 double CupShape::inner_radius(double height_above_desk) const { return radius_at(inner, height_above_desk); }
 double CupShape::outer_radius(double height_above_desk) const { return radius_at(outer, height_above_desk); }
+
+double CupShape::wall_lean(double height_above_desk) const {
+  constexpr double kSpan = 0.5e-3;
+  return std::atan((inner_radius(height_above_desk + kSpan) - inner_radius(height_above_desk - kSpan)) / (2.0 * kSpan));
+}
 
 CupShape cup_shape_from_json(const JsonReader& json) {
   if (!json.value().is_string()) return shape_from_object(json);
@@ -184,23 +264,11 @@ CupShape cup_shape_from_json(const JsonReader& json) {
   return shape;
 }
 
-Medium medium_from_json(const JsonReader& json) {
-  if (json.value().is_string()) {
-    const std::string name = json.text();
-    const std::filesystem::path file = library_file("media", "liquid", name, json.file(), json.pointer());
-    const Json text = read_json(file);
-    Medium medium = medium_from_json(JsonReader(text, file.string()));
-    medium.name = name;
-    return medium;
-  }
-  json.allow_only({"name", "index", "absorption_per_mm", "scattering_per_mm", "anisotropy", "source", "quality"});
-  Medium medium;
-  medium.name = json.text_or("name", "liquid");
-  set_index(json, medium);
-  medium.absorption = per_metre_from_per_mm(json.number_or("absorption_per_mm", 0.0, kNonNegative));
-  medium.scattering = per_metre_from_per_mm(json.number_or("scattering_per_mm", 0.0, kNonNegative));
-  medium.anisotropy = json.number_or("anisotropy", 0.0, {-0.999, 0.999});
-  medium.source = json.text_or("source", "");
+Medium medium_from_json(const JsonReader& json) { return named_medium(json, "media", "liquid"); }
+
+Medium wall_from_json(const JsonReader& json) {
+  Medium medium = named_medium(json, "walls", "wall material");
+  if (medium.scatters()) json.fail("scatters; a wall of a cup is clear, or opaque with an albedo");
   return medium;
 }
 

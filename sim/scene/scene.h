@@ -34,6 +34,7 @@ struct CupShape {
   std::vector<Eigen::Vector2d> inner;  ///< from the inner bottom's centre to the rim
   std::vector<Eigen::Vector2d> outer;  ///< from the underside's centre to the rim
   double albedo = 0.70;
+  std::optional<Medium> material;  ///< of a clear wall, which refracts; without one the wall is opaque
   std::optional<Handle> handle;
   std::string source;
 
@@ -42,11 +43,37 @@ struct CupShape {
   /// Radii at a height above the desk [m], by linear interpolation of the profiles.
   double inner_radius(double height_above_desk) const;
   double outer_radius(double height_above_desk) const;
+  /// Angle by which the inner wall leans outward there, over 1 mm.
+  double wall_lean(double height_above_desk) const;
+};
+
+struct Ripple {
+  double wavelength;
+  double amplitude;
+  double azimuth;  ///< of the direction in which the phase grows, from +x towards +y in the world
+  double phase;    ///< at the cup's axis; 0: level there, rising
+};
+
+/// How a liquid meets an upright wall.
+struct Wetting {
+  double contact_angle;  ///< in the liquid; below π/2 it climbs the wall
+  double capillary_length;
+};
+
+/// What makes a liquid's surface other than level. The parts are added.
+struct LiquidForm {
+  double tilt = 0.0;
+  double tilt_azimuth = 0.0;  ///< in which it rises, from +x towards +y in the world
+  std::vector<Ripple> ripples;
+  std::optional<Wetting> wetting;
+
+  bool level() const { return tilt == 0.0 && ripples.empty() && !wetting; }
 };
 
 struct Filling {
   Medium medium;
-  double depth = 0.0;  ///< of the liquid above the inner bottom's centre
+  double depth = 0.0;  ///< of the liquid above the inner bottom's centre; of its level with ripples and meniscus
+  LiquidForm form = {};
 };
 
 struct Cup {
@@ -68,9 +95,10 @@ struct Scene {
 };
 
 /// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes and media
-/// come from scenes/cups and scenes/media; relative glTF paths are relative to the scene file.
+/// come from scenes/cups, scenes/media and scenes/walls; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
 Medium medium_from_json(const JsonReader& json);
+Medium wall_from_json(const JsonReader& json);
 
 }  // namespace fathom
