@@ -4,8 +4,8 @@
 namespace fathom {
 
 /// z'' / (1 + z'²)^{3/2} = z / l_c², z → 0 far from the wall. With s = z / (2 l_c) = sin(φ/2), φ the surface's slope
-/// angle, x / l_c = acosh(1/s) − 2 √(1 − s²) + constant (e.g. Landau & Lifshitz, Fluid Mechanics, §61, problem 1). Valid
-/// for a wall whose radius of curvature is large beside the capillary length.
+/// angle, x / l_c = acosh(1/s) − 2 √(1 − s²) + constant (e.g. Landau & Lifshitz, Fluid Mechanics, §61, problem 1).
+/// Valid for a wall whose radius of curvature is large beside the capillary length.
 class Meniscus {
  public:
   /// `contact_angle` [rad], measured in the liquid, in (0, π); above π/2 the liquid is pushed down. `wall_lean` [rad]:

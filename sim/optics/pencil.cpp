@@ -20,8 +20,7 @@ Pencil pencil_from(const Eigen::Vector3d& point, const Eigen::Vector3d& directio
 void advance(Pencil& pencil, const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
   const double distance = (point - pencil.origin).dot(pencil.direction);
   const Matrix32d at_distance = pencil.d_origin + distance * pencil.d_direction;
-  pencil.d_origin =
-      at_distance - pencil.direction * (normal.transpose() * at_distance) / normal.dot(pencil.direction);
+  pencil.d_origin = at_distance - pencil.direction * (normal.transpose() * at_distance) / normal.dot(pencil.direction);
   pencil.origin = point;
 }
 
@@ -56,8 +55,7 @@ Landing land(const Pencil& pencil, const Eigen::Vector3d& target) {
   const Matrix32d basis = perpendicular_to(pencil.direction);
   const Eigen::Vector3d offset = target - pencil.origin;
   const double distance = offset.dot(pencil.direction);
-  return {distance, basis.transpose() * offset,
-          basis.transpose() * (pencil.d_origin + distance * pencil.d_direction)};
+  return {distance, basis.transpose() * offset, basis.transpose() * (pencil.d_origin + distance * pencil.d_direction)};
 }
 
 }  // namespace fathom

@@ -1,5 +1,6 @@
 // A ray together with its neighbours: how its point and direction change with the direction in which it left its source
-// (ray differentials: Igehy, SIGGRAPH 1999). The landing of a whole pencil is what a focused or spread spot of light is.
+// (ray differentials: Igehy, SIGGRAPH 1999). The landing of a whole pencil is what a focused or spread spot of light
+// is.
 #pragma once
 
 #include <Eigen/Core>

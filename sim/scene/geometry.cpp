@@ -103,7 +103,7 @@ class Builder {
   }
 
   int add_body(int object, const Medium& medium, Priority priority) {
-    bodies_.push_back({{object, medium.n(wavelength_nm_), medium.absorption, std::nullopt}, priority});
+    bodies_.push_back({{object, medium.n(wavelength_nm_), medium.absorption}, priority});
     return static_cast<int>(bodies_.size()) - 1;
   }
 
@@ -137,8 +137,8 @@ class Builder {
     Mesh mesh = top ? top->mesh() : liquid_disc(cup.shape, level);
     Mesh shell = cup.shape.material ? liquid_shell(cup.shape, mesh) : Mesh{};
     // A curved top knows its directions in the world, so it is not turned with the cup.
-    const Pose world_from_top = top ? Pose(Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0))
-                                    : world_from_cup(cup);
+    const Pose world_from_top =
+        top ? Pose(Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0)) : world_from_cup(cup);
     mesh.transform(world_from_top);
     if (filling.medium.scatters()) {
       mesh.append(shell);
@@ -146,7 +146,8 @@ class Builder {
       return;
     }
     const int body = add_body(object, filling.medium, Priority::liquid);
-    if (plain) bodies_[body].body.level = level;
+    bodies_[body].body.level = level;
+    bodies_[body].body.plain = plain;
     Surface surface{object, std::move(mesh), Interface{body}};
     if (top) {
       top->move(cup.position);

@@ -15,11 +15,11 @@ namespace fathom {
 
 /// A clear body: a liquid, a cup's glass wall, a transmissive glTF mesh.
 struct Body {
-  int object;         ///< as in Surface
-  double n;           ///< refractive index; air is 1
-  double absorption;  ///< μa [1/m]
-  /// Height [m] of a liquid that is level and stands in an opaque cup: light can enter only there.
-  std::optional<double> level;
+  int object;                        ///< as in Surface
+  double n;                          ///< refractive index; air is 1
+  double absorption;                 ///< μa [1/m]
+  std::optional<double> level = {};  ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
+  bool plain = false;                ///< whether it is level all over, in an opaque cup: light can enter only there
 };
 
 /// The bodies that a point lies in, bit i for Geometry::bodies[i]. Of bodies that overlap the last one wins.
@@ -50,9 +50,9 @@ struct Geometry {
   std::vector<std::string> approximations;  ///< what the model leaves out of this scene, one sentence each
 };
 
-/// Builds the surfaces; media are evaluated at `wavelength_nm`. Throws Error on unreadable glTF files, on a medium asked
-/// outside its range and on more than 64 clear bodies. A medium that scatters becomes an opaque diffuse surface (see
-/// Geometry::approximations).
+/// Builds the surfaces; media are evaluated at `wavelength_nm`. Throws Error on unreadable glTF files, on a medium
+/// asked outside its range and on more than 64 clear bodies. A medium that scatters becomes an opaque diffuse surface
+/// (see Geometry::approximations).
 Geometry build_geometry(const Scene& scene, double wavelength_nm);
 
 }  // namespace fathom

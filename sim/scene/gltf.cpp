@@ -25,8 +25,8 @@ namespace {
 struct Reader {
   std::string file;
   tinygltf::Model model;
-  int placed_meshes = 0;                            ///< so far, by nodes
-  std::map<std::array<int, 3>, GltfPart> parts;     ///< by material, clear body, whether it has normals
+  int placed_meshes = 0;                         ///< so far, by nodes
+  std::map<std::array<int, 3>, GltfPart> parts;  ///< by material, clear body, whether it has normals
 
   [[noreturn]] void fail(const std::string& where, const std::string& what) const { throw Error(file, where, what); }
 
@@ -176,7 +176,8 @@ struct Reader {
   }
 
   const tinygltf::Material& material_at(int material) const {
-    if (material >= static_cast<int>(model.materials.size())) fail(fmt::format("/materials/{}", material), "does not exist");
+    if (material >= static_cast<int>(model.materials.size()))
+      fail(fmt::format("/materials/{}", material), "does not exist");
     return model.materials[material];
   }
 
@@ -220,11 +221,10 @@ struct Reader {
         number_or(extension("KHR_materials_ior"), extensions + "KHR_materials_ior", "ior", 1.5, 1.0, 4.0)};
     constexpr double kMost = 1e9;
     const std::string extras = where + "/extras";
-    medium.absorption = per_metre_from_per_mm(
-        number_or(source.extras, extras, "absorption_per_mm",
-                  volume_absorption(extension("KHR_materials_volume"), extensions + "KHR_materials_volume") *
-                      kMetresPerMm,
-                  0.0, kMost));
+    medium.absorption = per_metre_from_per_mm(number_or(
+        source.extras, extras, "absorption_per_mm",
+        volume_absorption(extension("KHR_materials_volume"), extensions + "KHR_materials_volume") * kMetresPerMm, 0.0,
+        kMost));
     medium.scattering = per_metre_from_per_mm(number_or(source.extras, extras, "scattering_per_mm", 0.0, 0.0, kMost));
     medium.anisotropy = number_or(source.extras, extras, "anisotropy", 0.0, -0.999, 0.999);
     return medium;

@@ -32,8 +32,8 @@ std::vector<double> ring_radii(double outer, double wall, bool waves, bool menis
 LiquidTop::LiquidTop(const CupShape& shape, double level, const LiquidForm& form)
     : level_(level), gradient_(std::tan(form.tilt) * direction_of(form.tilt_azimuth)) {
   for (const Ripple& ripple : form.ripples)
-    waves_.push_back({2.0 * std::numbers::pi / ripple.wavelength * direction_of(ripple.azimuth), ripple.amplitude,
-                      ripple.phase});
+    waves_.push_back(
+        {2.0 * std::numbers::pi / ripple.wavelength * direction_of(ripple.azimuth), ripple.amplitude, ripple.phase});
   double contact = level;
   if (form.wetting) {
     meniscus_.emplace(form.wetting->contact_angle, form.wetting->capillary_length, shape.wall_lean(level));
@@ -73,8 +73,7 @@ Mesh LiquidTop::mesh() const {
   };
   add(Eigen::Vector2d::Zero());
   for (const double radius : radii)
-    for (int facet = 0; facet < facets; ++facet)
-      add(radius * direction_of(2.0 * std::numbers::pi * facet / facets));
+    for (int facet = 0; facet < facets; ++facet) add(radius * direction_of(2.0 * std::numbers::pi * facet / facets));
   for (int facet = 0; facet < facets; ++facet) mesh.add_triangle(0, 1 + facet, 1 + (facet + 1) % facets);
   for (int ring = 0; ring + 1 < static_cast<int>(radii.size()); ++ring)
     for (int facet = 0; facet < facets; ++facet) {

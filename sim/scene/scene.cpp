@@ -143,11 +143,11 @@ void check_form(const JsonReader& json, const CupShape& shape, const Filling& fi
     (rise > 0.0 ? up : down) += std::fabs(rise);
   }
   if (level + up > shape.height())
-    json.fail(fmt::format("lifts the liquid to {:g} mm above the desk, over the rim at {:g}", mm_from_metres(level + up),
-                          mm_from_metres(shape.height())));
+    json.fail(fmt::format("lifts the liquid to {:g} mm above the desk, over the rim at {:g}",
+                          mm_from_metres(level + up), mm_from_metres(shape.height())));
   if (down >= filling.depth)
-    json.fail(fmt::format("lowers the liquid by {:g} mm, to the bottom at {:g} mm below its level", mm_from_metres(down),
-                          mm_from_metres(filling.depth)));
+    json.fail(fmt::format("lowers the liquid by {:g} mm, to the bottom at {:g} mm below its level",
+                          mm_from_metres(down), mm_from_metres(filling.depth)));
 }
 
 Cup cup_from_json(const JsonReader& json) {

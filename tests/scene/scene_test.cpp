@@ -145,7 +145,7 @@ TEST(Library, EveryEntryLoadsAndNamesItsSource) {
 
 TEST(Geometry, TurbidLiquidsAreOpaqueAndSaySo) {
   auto setup = changed("/objects", "[]");
-  EXPECT_TRUE(std::holds_alternative<LiquidSurface>(build_geometry(setup.scene, 830.0).surfaces.back().optics));
+  EXPECT_TRUE(std::holds_alternative<Interface>(build_geometry(setup.scene, 830.0).surfaces.back().optics));
   setup = changed("/cups/0/liquid", "\"milk_tea\"");
   setup.scene.objects.clear();
   const Geometry geometry = build_geometry(setup.scene, 830.0);
