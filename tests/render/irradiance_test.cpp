@@ -13,34 +13,17 @@ namespace {
 
 constexpr double kFill = 0.030, kLevel = kPaperCupBottom + kFill;
 
-struct View {
-  explicit View(const Setup& setup)
-      : rig(setup.rig),
-        geometry(build_geometry(setup.scene, rig.sensor.wavelength_nm)),
-        world(geometry),
-        projector(world, rig.projector_in_world()) {}
-
-  Ray camera_ray(const Eigen::Vector3d& at) const {
-    return {rig.camera_in_world(), (at - rig.camera_in_world()).normalized()};
-  }
-
-  Rig rig;
-  Geometry geometry;
-  Intersector world;
-  PointLight projector;
-};
-
 /// The paper's cup at 300 mm with 30 mm of a liquid of index 1.3281.
-View filled_view(double absorption_per_mm) {
+LitScene filled_view(double absorption_per_mm) {
   Setup setup = cup_setup(30.0, 300.0, 300.0);
   Medium& medium = setup.scene.cups[0].filling->medium;
   medium.index = ConstantIndex{1.3281};
   medium.absorption = per_metre_from_per_mm(absorption_per_mm);
-  return View(setup);
+  return LitScene(setup);
 }
 
 TEST(Irradiance, ThroughTheSurfaceIsWhatCountedPhotonsBring) {
-  const View view = filled_view(0.0);
+  const LitScene view = filled_view(0.0);
   const Eigen::Vector3d projector = view.rig.projector_in_world();
   const auto seen = see(view.world, view.camera_ray({0.0, 0.300, kLevel}));
   ASSERT_TRUE(seen && seen->around);
@@ -79,7 +62,7 @@ TEST(Irradiance, ThroughTheSurfaceIsWhatCountedPhotonsBring) {
 }
 
 TEST(Irradiance, ABareSurfaceFollowsTheInverseSquareAndTheCosine) {
-  const View view(desk_setup());
+  const LitScene view(desk_setup());
   const Eigen::Vector3d point(0.05, 0.40, 0.0), projector = view.rig.projector_in_world();
   const auto seen = see(view.world, view.camera_ray(point));
   ASSERT_TRUE(seen);
@@ -93,7 +76,7 @@ TEST(Irradiance, ABareSurfaceFollowsTheInverseSquareAndTheCosine) {
 }
 
 TEST(Radiance, UnderAnAbsorbingLiquidFollowsBeerAndLambert) {
-  const View clear = filled_view(0.0), murky = filled_view(0.02);
+  const LitScene clear = filled_view(0.0), murky = filled_view(0.02);
   for (const double y : {0.285, 0.300, 0.315}) {
     const Ray ray = clear.camera_ray({0.005, y, kLevel});
     const auto seen = see(clear.world, ray), seen_murky = see(murky.world, ray);
@@ -115,7 +98,7 @@ TEST(Radiance, UnderAnAbsorbingLiquidFollowsBeerAndLambert) {
 }
 
 TEST(Radiance, ThroughTheSurfaceLosesTheFresnelPartAndSpreadsByTheIndexSquared) {
-  const View view = filled_view(0.0);
+  const LitScene view = filled_view(0.0);
   const Ray ray = view.camera_ray({0.0, 0.300, kLevel});
   const auto seen = see(view.world, ray);
   ASSERT_TRUE(seen && seen->around);
