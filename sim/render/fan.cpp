@@ -10,11 +10,12 @@
 namespace fathom {
 namespace {
 
-constexpr double kSpacing = 2e-3;  ///< [rad] 1.3 mm from the sensor's height
-constexpr double kBox = 5e-3;      ///< [m] edge of a box; pencils that grow wider than this are sent more finely
-constexpr int kMostHalvings = 3;   ///< of the spacing
-constexpr double kBeyond = 5e-3;   ///< [m] by which a piece goes on behind the surface that ends it
-constexpr double kFar = 0.5;       ///< [m] length of a piece that meets nothing
+constexpr double kSpacing = 2e-3;   ///< [rad] 1.3 mm from the sensor's height
+constexpr double kBox = 5e-3;       ///< [m] edge of a box; pencils that grow wider than this are sent more finely
+constexpr int kMostHalvings = 2;    ///< of the spacing
+constexpr double kBeyond = 5e-3;    ///< [m] by which a piece goes on beyond its ends, for its neighbours may
+constexpr int kLongestChain = 8;    ///< of interfaces; light that is trapped in a wall goes on for long
+constexpr double kFaintest = 1e-4;  ///< transmittance
 
 using Cell = std::pair<int, int>;
 
@@ -80,16 +81,19 @@ void Fan::send(const Intersector& world, const Source& source, Event first, cons
   const std::size_t sent = seeds_.size();
   bool too_wide = false;
   Flight flight{pencil_from(source.position, direction), source.inside, 1.0};
-  for (int crossings = 0; crossings < kMostCrossings; ++crossings) {
+  for (int crossings = 0; crossings <= kLongestChain && flight.transmittance > kFaintest; ++crossings) {
     const Ray ray{flight.pencil.origin, flight.pencil.direction};
     const std::optional<Crossing> next = next_crossing(world, ray, flight.inside);
-    const double open = world.first_opaque(ray) + kBeyond;
-    if (crossings > 0) {
-      const double end = next ? std::min(next->hit.distance + kBeyond, open) : std::min(open, kFar);
-      seeds_.push_back({direction, flight.pencil, end, spacing, medium_in(world.geometry(), flight.inside), crossings});
+    const double open = world.first_opaque(ray);
+    const bool ends = !next || open < next->hit.distance;
+    const Body* medium = medium_in(world.geometry(), flight.inside);
+    // In air only surfaces receive light; in a body any place may scatter it.
+    if (crossings > 0 && (medium || ends) && (std::isfinite(open) || next)) {
+      const double end = ends ? open : next->hit.distance;
+      seeds_.push_back({direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings});
       too_wide = too_wide || reach(seeds_.back(), end) > kBox;
     }
-    if (!next || next->hit.distance > open) break;
+    if (ends) break;
     pass(world, *next, crossings == 0 ? first : Event::refract, flight);
   }
   if (!too_wide || halvings == kMostHalvings) return;
@@ -103,11 +107,12 @@ void Fan::send(const Intersector& world, const Source& source, Event first, cons
 
 void Fan::file(std::uint32_t number) {
   const Seed& seed = seeds_[number];
-  const int steps = static_cast<int>(std::ceil(2.0 * (seed.length + kBeyond) / kBox));
+  const double begin = seed.begin - kBeyond, length = seed.end + kBeyond - begin;
+  const int steps = static_cast<int>(std::ceil(length / kBox));
   for (int step = 0; step <= steps; ++step) {
-    const double distance = -kBeyond + (seed.length + kBeyond) * step / steps;
+    const double distance = begin + length * step / steps;
     const Eigen::Vector3d middle = seed.pencil.origin + distance * seed.pencil.direction;
-    const double around = std::min(2.0 * reach(seed, distance), kBox);
+    const double around = std::clamp(2.0 * reach(seed, distance), 0.5 * kBox, kBox);
     const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
     for (int i = low.x(); i <= high.x(); ++i)
       for (int j = low.y(); j <= high.y(); ++j)
@@ -124,7 +129,7 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
     const Seed& seed = seeds_[entry->seed];
     if (seed.medium != around) continue;
     const Landing landing = land(seed.pencil, target);
-    if (landing.distance < -kBeyond || landing.distance > seed.length) continue;
+    if (landing.distance < seed.begin - kBeyond || landing.distance > seed.end + kBeyond) continue;
     const double determinant = landing.jacobian.determinant();
     Eigen::Vector2d step = landing.jacobian.inverse() * landing.miss;
     double steps = step.norm() / seed.spacing;

@@ -13,7 +13,7 @@ namespace fathom {
 struct Seed {
   Eigen::Vector3d direction;  ///< in which the light left the source
   Pencil pencil;              ///< at the piece's beginning
-  double length;              ///< [m]
+  double begin, end;          ///< [m] along the piece: where it may light something
   double spacing;             ///< [rad] from the neighbouring seeds
   const Body* medium;         ///< around the piece
   int crossings;

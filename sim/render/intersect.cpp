@@ -94,16 +94,16 @@ struct Intersector::Impl {
       const Surface& surface = *surfaces[query.hit.geomID];
       const Plane& plane = planes[query.hit.geomID][query.hit.primID];
       const double facing = plane.normal.dot(ray.direction);
-      const bool flat = std::holds_alternative<Facets>(surface.shape);
-      if (flat && facing == 0.0) return std::nullopt;
       std::optional<SurfacePoint> at;
       if (facing != 0.0) {
         const double distance = (plane.offset - plane.normal.dot(ray.origin)) / facing;
-        at = flat ? SurfacePoint{distance, plane.normal}
-                  : polish(surface, query.hit.primID, plane.normal, ray, distance);
+        at = std::holds_alternative<Facets>(surface.shape)
+                 ? SurfacePoint{distance, plane.normal}
+                 : polish(surface, query.hit.primID, plane.normal, ray, distance);
       }
-      // A ray that starts on a smooth surface may meet the triangles that stand for it once more.
-      if (!flat && !(at && at->distance > kClearance)) {
+      // A ray that starts on a surface may meet it once more: rounded to float at a grazing angle, or the triangles
+      // that stand for a smooth one.
+      if (!at || at->distance <= kClearance) {
         near = std::max<double>(query.ray.tfar, near) + kClearance;
         continue;
       }

@@ -1,4 +1,5 @@
-// The libraries that come with the program: scenes/cups, scenes/media, scenes/walls, scenes/sensors, one JSON file per entry.
+// The libraries that come with the program: scenes/cups, scenes/media, scenes/walls, scenes/sensors, one JSON file per
+// entry.
 #pragma once
 
 #include <filesystem>

@@ -49,7 +49,7 @@ TEST(TiltedSurface, IsTheFlatProblemTurned) {
     EXPECT_NEAR(ways[0].transmittance,
                 (1.0 - fresnel_reflectance(cosine, 1.0, kIndex)) * std::exp(-3.1 * (point - bend).norm()), 1e-12);
   }
-  EXPECT_GT(connected, 150);
+  EXPECT_GT(connected, 50);
 }
 
 TEST(Spreading, IsTheAreaThatNeighbouringRaysEncloseOnTheBottom) {
@@ -63,11 +63,11 @@ TEST(Spreading, IsTheAreaThatNeighbouringRaysEncloseOnTheBottom) {
         for (;;) {
           const auto next = next_crossing(scene.world, ray, inside);
           if (!next || next->hit.point.z() < kPaperCupBottom + 1e-6) break;
-          ray = {next->hit.point, *refract(ray.direction, next->hit.normal, index_of(next->from), index_of(next->to))};
-          inside = next->beyond;
+          const auto bent = refract(ray.direction, next->hit.normal, index_of(next->from), index_of(next->to));
+          ray = {next->hit.point, bent ? *bent : reflect(ray.direction, next->hit.normal)};
+          inside = bent ? next->beyond : next->before;
         }
-        return Eigen::Vector3d(ray.origin +
-                               (kPaperCupBottom - ray.origin.z()) / ray.direction.z() * ray.direction);
+        return Eigen::Vector3d(ray.origin + (kPaperCupBottom - ray.origin.z()) / ray.direction.z() * ray.direction);
       };
       Rng rng(2);
       int ways_seen = 0;
@@ -76,20 +76,22 @@ TEST(Spreading, IsTheAreaThatNeighbouringRaysEncloseOnTheBottom) {
         for (const Connection& way : scene.connections(point, liquid_of(scene))) {
           EXPECT_LT((landing(way.direction) - point).norm(), 1e-9);  // what shooting calls a hit
           const Matrix32d basis = perpendicular_to(way.direction);
-          const double step = 1e-6;
-          Eigen::Matrix<double, 3, 2> moved;
-          for (int axis = 0; axis < 2; ++axis)
-            moved.col(axis) = (landing((way.direction + step * basis.col(axis)).normalized()) -
-                               landing((way.direction - step * basis.col(axis)).normalized())) /
-                              (2.0 * step);
-          const double area = moved.col(0).cross(moved.col(1)).norm() * std::fabs(way.arrival.z());
-          // Differences of 1 µrad: 1e-13 m of rounding over 1e-6 m, and step² times a third derivative that grows
-          // towards caustics, where the area vanishes.
-          EXPECT_NEAR(way.spreading * area, 1.0, 1e-5 * std::max(1.0, way.spreading)) << surface << shape;
+          const auto area = [&](double step) {
+            Matrix32d moved;
+            for (int axis = 0; axis < 2; ++axis)
+              moved.col(axis) = (landing((way.direction + step * basis.col(axis)).normalized()) -
+                                 landing((way.direction - step * basis.col(axis)).normalized())) /
+                                (2.0 * step);
+            return moved.col(0).cross(moved.col(1)).norm() * std::fabs(way.arrival.z());
+          };
+          // Halving the step takes away three quarters of a difference's error; what is left is a third of the change.
+          // Landings of 1e-15 m over steps of 1e-6 are good to 1e-6 where light spreads over 1e-3 m² and less.
+          const double coarse = area(2e-6), fine = area(1e-6);
+          EXPECT_NEAR(way.spreading * fine, 1.0, way.spreading * std::fabs(coarse - fine) + 1e-6) << surface << shape;
           ++ways_seen;
         }
       }
-      EXPECT_GT(ways_seen, 60) << surface << shape;
+      EXPECT_GT(ways_seen, 30) << surface << shape;
     }
 }
 
@@ -104,7 +106,8 @@ TEST(Connections, AreTheSameBackwardsWithSpreadingByTheIndexSquared) {
         const Source back{point, scene.world.bodies_around(point)};
         ASSERT_EQ(medium_in(scene.geometry, back.inside), liquid_of(scene));
         for (const Connection& way : scene.connections(point, liquid_of(scene))) {
-          const auto returned = shoot(scene.world, back, scene.projector.position(), nullptr, -way.arrival, way.crossings);
+          const auto returned =
+              shoot(scene.world, back, scene.projector.position(), nullptr, -way.arrival, way.crossings);
           ASSERT_TRUE(returned) << surface << shape;
           // A hit is within 1e-10 m; over the shortest piece, 30 mm, and with what a curved surface adds.
           EXPECT_LT((returned->direction + way.arrival).norm(), 1e-7);
@@ -113,8 +116,68 @@ TEST(Connections, AreTheSameBackwardsWithSpreadingByTheIndexSquared) {
           ++pairs;
         }
       }
-      EXPECT_GT(pairs, 15) << surface << shape;
+      EXPECT_GT(pairs, 8) << surface << shape;
     }
+}
+
+/// How many ways lead to each of `points` on the bottom, by brute force: of a grid of rays, those cells that land
+/// around the point.
+std::vector<int> count_ways(const LitScene& scene, const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kStep = 2e-4, kHalf = 0.075;  // [rad] the cup is 0.12 wide
+  constexpr int kAcross = static_cast<int>(2.0 * kHalf / kStep);
+  const Eigen::Vector3d source = scene.projector.position();
+  const Eigen::Vector3d axis = (kAxis + Eigen::Vector3d(0.0, 0.0, kLevel) - source).normalized();
+  const Matrix32d basis = perpendicular_to(axis);
+  const auto row_of = [&](int j) {
+    std::vector<std::optional<Eigen::Vector2d>> row(kAcross);
+    for (int i = 0; i < kAcross; ++i) {
+      const Eigen::Vector2d angles(i * kStep - kHalf, j * kStep - kHalf);
+      const auto end = see(scene.world, {source, (axis + basis * angles).normalized()});
+      if (end && end->refracted && std::fabs(end->point.z() - kPaperCupBottom) < 1e-9) row[i] = end->point.head<2>();
+    }
+    return row;
+  };
+  const auto holds = [](const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                        const Eigen::Vector2d& c) {
+    const auto side = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+      return (to - from).x() * (p - from).y() - (to - from).y() * (p - from).x() > 0.0;
+    };
+    return side(a, b) == side(b, c) && side(b, c) == side(c, a);
+  };
+  std::vector<int> ways(points.size());
+  auto above = row_of(0);
+  for (int j = 1; j < kAcross; ++j) {
+    const auto below = row_of(j);
+    for (int i = 1; i < kAcross; ++i) {
+      if (!above[i - 1] || !above[i] || !below[i - 1] || !below[i]) continue;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const Eigen::Vector2d p = points[k].head<2>();
+        ways[k] += holds(p, *above[i - 1], *above[i], *below[i]) + holds(p, *above[i - 1], *below[i], *below[i - 1]);
+      }
+    }
+    above = below;
+  }
+  return ways;
+}
+
+TEST(Connections, AreAlmostAllThatBruteForceFinds) {
+  for (const char* surface : {kMeniscus, kRippled}) {
+    const LitScene scene(cup_of(kPaperCup, std::string(kWater) + surface));
+    Rng rng(5);
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 100; ++i) points.push_back(bottom_point(rng, 0.0399));
+    const std::vector<int> ways = count_ways(scene, points);
+    int expected = 0, missed = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int found = static_cast<int>(scene.connections(points[i], liquid_of(scene)).size());
+      expected += ways[i];
+      missed += std::max(0, ways[i] - found);
+    }
+    EXPECT_GT(expected, 50);
+    RecordProperty("missed_percent", fmt::format("{:.1f}", 100.0 * missed / expected));
+    // Cells of 0.13 mm at a caustic's edge may hold a point that the caustic itself does not reach.
+    EXPECT_LE(missed, expected / 50) << missed << " of " << expected << surface;
+  }
 }
 
 /// The next crossing of a ray with an upright cylinder about the cup's axis.
@@ -132,12 +195,13 @@ TEST(GlassCup, FromTheSideBendsAtItsWallAndAtItsBottom) {
   for (int i = 0; i < 300; ++i) {
     const double height = 0.012 + 0.02 * rng.uniform(), angle = -0.5 * std::numbers::pi + 0.8 * (rng.uniform() - 0.5);
     const Eigen::Vector2d out = direction_of(angle);
-    Ray ray{scene.rig.camera_in_world(), {}};
     const Ray camera = scene.camera_ray(kAxis + Eigen::Vector3d(0.043 * out.x(), 0.043 * out.y(), height));
-    ray.direction = camera.direction;
+    Ray ray = camera;
+    double through = 1.0;
     const auto turn = [&](double distance, Eigen::Vector3d normal, double n_from, double n_to) {
       ray.origin += distance * ray.direction;
       if (normal.isZero()) normal = ((ray.origin - kAxis).cwiseProduct(Eigen::Vector3d(1, 1, 0))).normalized();
+      through *= 1.0 - fresnel_reflectance(-ray.direction.dot(normal), n_from, n_to);
       ray.direction = *refract(ray.direction, normal, n_from, n_to);
       return distance;
     };
@@ -156,8 +220,7 @@ TEST(GlassCup, FromTheSideBendsAtItsWallAndAtItsBottom) {
     EXPECT_LT((seen->point - (ray.origin + to_desk * ray.direction)).norm(), 1e-12);  // roundings
     EXPECT_EQ(seen->around, &scene.geometry.bodies.back());
     EXPECT_TRUE(seen->refracted);
-    EXPECT_LT(seen->transmittance, std::exp(-44.0 * in_glass - 3.1 * in_water) / (kGlass * kGlass));
-    EXPECT_GT(seen->transmittance, 0.8 * std::exp(-44.0 * in_glass - 3.1 * in_water) / (kGlass * kGlass));
+    EXPECT_NEAR(seen->transmittance, through * std::exp(-44.0 * in_glass - 3.1 * in_water) / (kGlass * kGlass), 1e-12);
   }
   EXPECT_GT(seen_through, 100);
 }

@@ -55,11 +55,10 @@ struct LitScene {
 
 /// The sensor over a cup of the given shape at 300 mm; `more` goes into the cup.
 inline Setup cup_of(const std::string& shape, const std::string& more) {
-  return setup_from_json(
-      Json::parse(fmt::format(R"({{"sensor": {{"height_mm": 650, "aim_mm": [0, 300, 0]}},
+  return setup_from_json(Json::parse(fmt::format(R"({{"sensor": {{"height_mm": 650, "aim_mm": [0, 300, 0]}},
                                    "cups": [{{"shape": {}, "position_mm": [0, 300]{}}}]}})",
-                              shape, more)),
-      "test");
+                                                 shape, more)),
+                         "test");
 }
 inline constexpr const char* kPaperCup = "\"paper_cup\"";
 inline constexpr const char* kGlassCup = R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40,

@@ -91,7 +91,8 @@ TEST(Gltf, ATransmissiveMaterialIsAClearBody) {
   EXPECT_EQ(parts[0].medium->n(830.0), 1.33);
   EXPECT_NEAR(parts[0].medium->absorption, -std::log(0.2) / 0.5, 1e-12);  // a fifth is left after half a metre
   Json json = clear_triangle();
-  json["materials"][0]["extras"] = Json::parse(R"({"absorption_per_mm": 0.003, "anisotropy": 0.8, "scattering_per_mm": 2})");
+  json["materials"][0]["extras"] =
+      Json::parse(R"({"absorption_per_mm": 0.003, "anisotropy": 0.8, "scattering_per_mm": 2})");
   const Medium medium = *read(json).at(0).medium;
   EXPECT_NEAR(medium.absorption, 3.0, 1e-12);
   EXPECT_NEAR(medium.scattering, 2000.0, 1e-9);
@@ -146,7 +147,8 @@ TEST(Gltf, BrokenFilesAreAnsweredInOneLine) {
       {"/meshes/0/primitives/0/material", "4", ""},
       {"/materials/0/extensions", R"({"KHR_materials_transmission": {"transmissionFactor": 2}})", "from 0 to 1"},
       {"/materials/0/extensions",
-       R"({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0.5}})", "from 1 to 4"},
+       R"({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0.5}})",
+       "from 1 to 4"},
       {"/materials/0/extensions",
        R"({"KHR_materials_transmission": {"transmissionFactor": 1},
            "KHR_materials_volume": {"attenuationDistance": 1, "attenuationColor": [0, 0, 0]}})",

@@ -155,7 +155,8 @@ TEST(LiquidForm, MustStayBetweenBottomAndRim) {
   expect_error(with(R"({"tilt_deg": 44, "contact_angle_deg": 90, "capillary_length_mm": 2})"), {"/cups/0/surface: l"});
   expect_error(with(R"({"ripples": [{"wavelength_mm": 5, "amplitude_mm": 90}]})"), {"/cups/0/surface: lifts", "rim"});
   expect_error(with(R"({"contact_angle_deg": 30})"), {"/cups/0/surface/capillary_length_mm: is missing"});
-  expect_error(with(R"({"contact_angle_deg": 0, "capillary_length_mm": 2.73})"), {"contact_angle_deg: must be a number"});
+  expect_error(with(R"({"contact_angle_deg": 0, "capillary_length_mm": 2.73})"),
+               {"contact_angle_deg: must be a number"});
   expect_error(with(R"({"tilt_deg": -1})"), {"/cups/0/surface/tilt_deg: must be a number from 0"});
   expect_error([] { changed("/cups/0", R"({"shape": "paper_cup", "position_mm": [0, 400], "surface": {}})"); },
                {"/cups/0/surface: needs a liquid"});
