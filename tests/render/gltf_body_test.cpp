@@ -13,7 +13,7 @@ TEST(GltfBody, ASlabOfWaterIsTheWaterInTheCup) {
   const TemporaryFolder folder;
   // From half-way down the cup's bottom to the level, the sides within the wall of 40 to 43 mm.
   const auto file = write_clear_gltf(folder / "", prism(64, 0.042, 0.0035, kPaperCupBottom + 0.030), 1.3281, 0.0031);
-  Setup with_slab = cup_of(kPaperCup, "");
+  auto with_slab = cup_of(kPaperCup, "");
   with_slab.scene.objects.push_back({file, Pose(Eigen::Translation3d(0.0, 0.300, 0.0))});
   const LitScene poured(cup_of(kPaperCup, kWater)), slab(with_slab);
   EXPECT_FALSE(slab.world.level_liquids_only());
