@@ -62,7 +62,7 @@ struct EmbreeLoop::Impl {
     }
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(recorded.kind == RayKind::first_hit ? all : opaque, &context, &query);
+    rtcIntersect1(all, &context, &query);
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   }
 };

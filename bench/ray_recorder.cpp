@@ -34,24 +34,24 @@ struct Recorder {
     constexpr double kForEver = std::numeric_limits<double>::infinity();
     const std::optional<SeenPoint> seen = see(world, camera_ray);
     const bool hit = seen || world.first_hit(camera_ray);
-    add(camera_ray.origin, camera_ray.direction, kForEver, RayKind::first_hit, hit);
+    add(camera_ray.origin, camera_ray.direction, kForEver, RayKind::camera, hit);
     if (!seen) return;
-    if (!seen->liquid) {
+    if (!seen->around) {
       if (seen->normal.dot(projector - seen->point) > 0.0) add_shadow(seen->point, projector);
       return;
     }
-    const double to_surface = (seen->liquid->level - camera_ray.origin.z()) / camera_ray.direction.z();
+    const double to_surface = (*seen->around->level - camera_ray.origin.z()) / camera_ray.direction.z();
     const Eigen::Vector3d entry = camera_ray.origin + to_surface * camera_ray.direction;
-    add(entry, (seen->point - entry).normalized(), kForEver, RayKind::first_opaque_hit, true);
-    add_shadow_through(*seen, *seen->liquid);
+    add(entry, (seen->point - entry).normalized(), kForEver, RayKind::refracted, true);
+    add_shadow_through(*seen, *seen->around);
   }
 
-  void add_shadow_through(const SeenPoint& seen, const LiquidSurface& liquid) {
-    const double height = projector.z() - liquid.level, depth = liquid.level - seen.point.z();
+  void add_shadow_through(const SeenPoint& seen, const Body& liquid) {
+    const double height = projector.z() - *liquid.level, depth = *liquid.level - seen.point.z();
     if (height <= 0.0 || depth <= 0.0) return;
     const Eigen::Vector2d across = (seen.point - projector).head<2>();
     const double offset = cross_flat_interface(height, depth, across.norm(), 1.0, liquid.n).offset;
-    Eigen::Vector3d bend(projector.x(), projector.y(), liquid.level);
+    Eigen::Vector3d bend(projector.x(), projector.y(), *liquid.level);
     bend.head<2>() += offset * across.normalized();
     if (seen.normal.dot(bend - seen.point) > 0.0 && !add_shadow(seen.point, bend)) add_shadow(bend, projector);
   }
@@ -106,7 +106,7 @@ Recording camera_rays_of(const Recording& recording) {
   for (const std::vector<RecordedRay>& row : recording.rows) {
     std::vector<RecordedRay>& kept = result.rows.emplace_back();
     for (const RecordedRay& ray : row)
-      if (ray.kind == RayKind::first_hit) kept.push_back(ray);
+      if (ray.kind == RayKind::camera) kept.push_back(ray);
   }
   return result;
 }

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-enum class RayKind : std::uint32_t { first_hit, first_opaque_hit, occluded };
+enum class RayKind : std::uint32_t { camera, refracted, occluded };
 
 struct RecordedRay {
   float origin[3];

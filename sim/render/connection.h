@@ -1,22 +1,23 @@
 // The two ends of every light path: from the camera to the first diffuse point, and from there to the projector. Both
-// modes of capture and the truth are made of these two functions.
+// modes of capture and the truth are made of these functions.
 #pragma once
 
 #include <Eigen/Core>
 #include <optional>
 
-#include "sim/render/intersect.h"
+#include "sim/render/light.h"
 
 namespace fathom {
 
-/// The first diffuse point on a camera ray, through a liquid's surface where there is one.
+/// The first diffuse point on a camera ray, through clear bodies where they stand in its way.
 struct SeenPoint {
   Eigen::Vector3d point;   ///< [m] world
   Eigen::Vector3d normal;  ///< unit, towards the camera's side
   double albedo;
   int object;
-  const LiquidSurface* liquid;  ///< the liquid the point lies under, or nullptr
-  double transmittance;         ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
+  const Body* around;    ///< the medium at the point; nullptr is air
+  bool refracted;        ///< whether the ray bent on its way
+  double transmittance;  ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
 };
 
 /// How the projector lights a point.
@@ -25,10 +26,19 @@ struct Illumination {
   double irradiance;          ///< [1/m²] on the surface per unit radiant intensity of the projector in that direction
 };
 
-std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray);
+/// Follows a ray that starts in the bodies `inside` (none: in air). Where it cannot leave a body it is totally
+/// reflected; partial reflections are left out.
+std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
 
-/// Nothing when the projector does not reach the point.
-std::optional<Illumination> illuminate(const Intersector& world, const Eigen::Vector3d& projector,
-                                       const SeenPoint& seen);
+/// Calls `visit` with the Illumination of each way in which the projector's light gets to the point.
+template <class Visit>
+void for_each_illumination(const PointLight& projector, const SeenPoint& seen, Visit&& visit) {
+  projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
+    visit(Illumination{way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival)});
+  });
+}
+
+/// The strongest of them; nothing when the projector does not reach the point.
+std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen);
 
 }  // namespace fathom

@@ -2,9 +2,13 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include "sim/render/polish.h"
 
 namespace fathom {
 namespace {
@@ -19,13 +23,15 @@ struct Plane {
 struct Intersector::Impl {
   RTCDevice device = nullptr;
   RTCScene all = nullptr;                  ///< every surface
-  RTCScene opaque = nullptr;               ///< without the liquids' surfaces
-  std::vector<const Surface*> surfaces;    ///< by Embree's geometry id, the same in both scenes
+  RTCScene opaque = nullptr;               ///< Lambert's surfaces
+  RTCScene clear = nullptr;                ///< boundaries of clear bodies
+  std::vector<const Surface*> surfaces;    ///< by Embree's geometry id, the same in all scenes
   std::vector<std::vector<Plane>> planes;  ///< by geometry id and primitive id
 
   ~Impl() {
     rtcReleaseScene(all);
     rtcReleaseScene(opaque);
+    rtcReleaseScene(clear);
     rtcReleaseDevice(device);
   }
 
@@ -51,63 +57,95 @@ struct Intersector::Impl {
     rtcCommitGeometry(geometry);
     const auto id = static_cast<unsigned>(surfaces.size());
     rtcAttachGeometryByID(all, geometry, id);
-    if (std::holds_alternative<Diffuse>(surface.optics)) rtcAttachGeometryByID(opaque, geometry, id);
+    rtcAttachGeometryByID(std::holds_alternative<Diffuse>(surface.optics) ? opaque : clear, geometry, id);
     rtcReleaseGeometry(geometry);
     surfaces.push_back(&surface);
     planes.push_back(std::move(of_triangles));
+  }
+
+  static RTCRay embree_ray(const Ray& ray, double near, double far) {
+    RTCRay result;
+    result.org_x = static_cast<float>(ray.origin.x());
+    result.org_y = static_cast<float>(ray.origin.y());
+    result.org_z = static_cast<float>(ray.origin.z());
+    result.dir_x = static_cast<float>(ray.direction.x());
+    result.dir_y = static_cast<float>(ray.direction.y());
+    result.dir_z = static_cast<float>(ray.direction.z());
+    result.tnear = static_cast<float>(near);
+    result.tfar = static_cast<float>(far);
+    result.time = 0.0f;
+    result.mask = ~0u;
+    result.flags = 0;
+    return result;
   }
 
   std::optional<Hit> trace(RTCScene scene, const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    RTCRayHit query;
-    query.ray.org_x = static_cast<float>(ray.origin.x());
-    query.ray.org_y = static_cast<float>(ray.origin.y());
-    query.ray.org_z = static_cast<float>(ray.origin.z());
-    query.ray.dir_x = static_cast<float>(ray.direction.x());
-    query.ray.dir_y = static_cast<float>(ray.direction.y());
-    query.ray.dir_z = static_cast<float>(ray.direction.z());
-    query.ray.tnear = static_cast<float>(kClearance);
-    query.ray.tfar = std::numeric_limits<float>::infinity();
-    query.ray.time = 0.0f;
-    query.ray.mask = ~0u;
-    query.ray.flags = 0;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    const Plane& plane = planes[query.hit.geomID][query.hit.primID];
-    const double facing = plane.normal.dot(ray.direction);
-    if (facing == 0.0) return std::nullopt;
-    Hit hit;
-    hit.distance = (plane.offset - plane.normal.dot(ray.origin)) / facing;
-    hit.point = ray.origin + hit.distance * ray.direction;
-    hit.normal = facing < 0.0 ? plane.normal : Eigen::Vector3d(-plane.normal);
-    hit.surface = surfaces[query.hit.geomID];
-    return hit;
+    double near = kClearance;
+    for (;;) {
+      RTCRayHit query;
+      query.ray = embree_ray(ray, near, std::numeric_limits<float>::infinity());
+      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(scene, &context, &query);
+      if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+      const Surface& surface = *surfaces[query.hit.geomID];
+      const Plane& plane = planes[query.hit.geomID][query.hit.primID];
+      const double facing = plane.normal.dot(ray.direction);
+      std::optional<SurfacePoint> at;
+      if (facing != 0.0) {
+        const double distance = (plane.offset - plane.normal.dot(ray.origin)) / facing;
+        at = std::holds_alternative<Facets>(surface.shape)
+                 ? SurfacePoint{distance, plane.normal}
+                 : polish(surface, query.hit.primID, plane.normal, ray, distance);
+      }
+      // A ray that starts on a surface may meet it once more: rounded to float at a grazing angle, or the triangles
+      // that stand for a smooth one.
+      if (!at || at->distance <= kClearance) {
+        near = std::max<double>(query.ray.tfar, near) + kClearance;
+        continue;
+      }
+      const bool entering = at->normal.dot(ray.direction) < 0.0;
+      return Hit{at->distance,
+                 ray.origin + at->distance * ray.direction,
+                 entering ? at->normal : Eigen::Vector3d(-at->normal),
+                 &surface,
+                 query.hit.primID,
+                 entering};
+    }
   }
+
+  static constexpr double kClearance = Intersector::kClearance;
 };
 
-Intersector::Intersector(const Geometry& geometry) : impl_(std::make_unique<Impl>()) {
+Intersector::Intersector(const Geometry& geometry)
+    : geometry_(geometry),
+      level_liquids_only_(
+          std::all_of(geometry.bodies.begin(), geometry.bodies.end(), [](const Body& body) { return body.plain; })),
+      impl_(std::make_unique<Impl>()) {
   impl_->device = rtcNewDevice(nullptr);
   if (!impl_->device) throw std::runtime_error("Embree cannot start on this machine");
-  impl_->all = rtcNewScene(impl_->device);
-  impl_->opaque = rtcNewScene(impl_->device);
-  for (RTCScene scene : {impl_->all, impl_->opaque}) {
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  for (RTCScene* scene : {&impl_->all, &impl_->opaque, &impl_->clear}) {
+    *scene = rtcNewScene(impl_->device);
+    rtcSetSceneFlags(*scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips between two triangles
+    rtcSetSceneBuildQuality(*scene, RTC_BUILD_QUALITY_HIGH);
   }
   for (const Surface& surface : geometry.surfaces) impl_->attach(surface);
-  rtcCommitScene(impl_->all);
-  rtcCommitScene(impl_->opaque);
+  for (RTCScene scene : {impl_->all, impl_->opaque, impl_->clear}) rtcCommitScene(scene);
 }
 
 Intersector::~Intersector() = default;
 
 std::optional<Hit> Intersector::first_hit(const Ray& ray) const { return impl_->trace(impl_->all, ray); }
 
-std::optional<Hit> Intersector::first_opaque_hit(const Ray& ray) const { return impl_->trace(impl_->opaque, ray); }
+std::optional<Hit> Intersector::first_interface(const Ray& ray) const { return impl_->trace(impl_->clear, ray); }
+
+double Intersector::first_opaque(const Ray& ray) const {
+  const std::optional<Hit> hit = impl_->trace(impl_->opaque, ray);
+  return hit ? hit->distance : std::numeric_limits<double>::infinity();
+}
 
 bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
   RTCIntersectContext context;
@@ -115,21 +153,27 @@ bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& t
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const Eigen::Vector3d path = to - from;
   const double length = path.norm();
-  const Eigen::Vector3d direction = path / length;
-  RTCRay ray;
-  ray.org_x = static_cast<float>(from.x());
-  ray.org_y = static_cast<float>(from.y());
-  ray.org_z = static_cast<float>(from.z());
-  ray.dir_x = static_cast<float>(direction.x());
-  ray.dir_y = static_cast<float>(direction.y());
-  ray.dir_z = static_cast<float>(direction.z());
-  ray.tnear = static_cast<float>(kClearance);
-  ray.tfar = static_cast<float>(length - kClearance);
-  ray.time = 0.0f;
-  ray.mask = ~0u;
-  ray.flags = 0;
+  RTCRay ray = Impl::embree_ray({from, path / length}, kClearance, length - kClearance);
   rtcOccluded1(impl_->opaque, &context, &ray);
   return ray.tfar < 0.0f;
+}
+
+Eigen::Matrix3d Intersector::curvature(const Hit& hit) const {
+  const Eigen::Matrix3d outward = outward_curvature(*hit.surface, hit.triangle, hit.point);
+  return hit.entering ? outward : Eigen::Matrix3d(-outward);
+}
+
+BodySet Intersector::bodies_around(const Eigen::Vector3d& point) const {
+  std::array<int, 8 * sizeof(BodySet)> left{};
+  Ray up{point, Eigen::Vector3d::UnitZ()};
+  while (const std::optional<Hit> hit = first_interface(up)) {
+    left[std::get<Interface>(hit->surface->optics).body] += hit->entering ? -1 : 1;
+    up.origin = hit->point;
+  }
+  BodySet around = 0;
+  for (std::size_t body = 0; body < left.size(); ++body)
+    if (left[body] > 0) around |= BodySet{1} << body;
+  return around;
 }
 
 }  // namespace fathom

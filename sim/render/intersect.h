@@ -1,4 +1,5 @@
-// Rays against the scene's surfaces. Embree finds the triangle in float; the point on it is computed again in double.
+// Rays against the scene's surfaces. Embree finds the triangle in float; the point is computed again in double, on the
+// triangle's plane or on the smooth surface that it stands for.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +14,10 @@ namespace fathom {
 struct Hit {
   double distance;         ///< [m] along the ray
   Eigen::Vector3d point;   ///< [m] world
-  Eigen::Vector3d normal;  ///< unit, of the triangle's plane, on the side the ray came from
+  Eigen::Vector3d normal;  ///< unit, of the surface, on the side the ray came from
   const Surface* surface;
+  unsigned triangle;  ///< of the surface's mesh
+  bool entering;      ///< whether the ray goes to the inner side
 };
 
 class Intersector {
@@ -25,12 +28,25 @@ class Intersector {
   Intersector(const Intersector&) = delete;
   Intersector& operator=(const Intersector&) = delete;
 
-  /// First surface of any kind from a point in air.
+  /// First surface of any kind.
   std::optional<Hit> first_hit(const Ray& ray) const;
-  /// First opaque surface, as if the liquids' surfaces were not there: for rays inside a liquid.
-  std::optional<Hit> first_opaque_hit(const Ray& ray) const;
+  /// First boundary of a clear body, as if opaque surfaces were not there.
+  std::optional<Hit> first_interface(const Ray& ray) const;
+  /// Distance to the first opaque surface, as if clear bodies were not there; infinite without one.
+  double first_opaque(const Ray& ray) const;
   /// Whether an opaque surface stands strictly between two points, each moved `kClearance` towards the other.
   bool occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+  /// d normal / d point of a hit's surface [1/m], for the normal that the hit has.
+  Eigen::Matrix3d curvature(const Hit& hit) const;
+
+  /// The clear bodies around a point in the open or in a body, by what a ray straight up leaves: a liquid in an opaque
+  /// cup has no boundary but its surface.
+  BodySet bodies_around(const Eigen::Vector3d& point) const;
+
+  const Geometry& geometry() const { return geometry_; }
+  /// Whether every clear body is a level liquid in an opaque cup, so that light bends once or never.
+  bool level_liquids_only() const { return level_liquids_only_; }
 
   /// Points that stand on surfaces are taken to be this far off them [m]: above the rounding of float coordinates
   /// (6e-8 of about 1 m), below anything the sensor resolves.
@@ -38,6 +54,8 @@ class Intersector {
 
  private:
   struct Impl;
+  const Geometry& geometry_;
+  bool level_liquids_only_;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -6,15 +6,15 @@
 namespace fathom {
 namespace {
 
-TruePixel trace_pixel(const Intersector& world, const Rig& rig, double x_px, double y_px) {
+TruePixel trace_pixel(const PointLight& projector, const Rig& rig, double x_px, double y_px) {
   TruePixel pixel;
   const Ray chief{rig.camera_in_world(), rig.direction_in_world(x_px, y_px)};
-  const std::optional<SeenPoint> seen = see(world, chief);
+  const std::optional<SeenPoint> seen = see(projector.world(), chief);
   if (!seen) return pixel;
   pixel.position = seen->point;
   pixel.object = seen->object;
-  pixel.path = seen->liquid ? PathKind::refracted : PathKind::direct;
-  const std::optional<Illumination> light = illuminate(world, rig.projector_in_world(), *seen);
+  pixel.path = seen->refracted ? PathKind::refracted : PathKind::direct;
+  const std::optional<Illumination> light = illuminate(projector, *seen);
   if (!light) return pixel;
   pixel.apparent_depth = triangulated_depth(rig, chief.direction, light->direction);
   pixel.intensity = radiance_dn(rig.sensor, *seen, *light);
@@ -37,9 +37,10 @@ std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& 
 
 Image<TruePixel> trace_truth(const Intersector& world, const Rig& rig) {
   Image<TruePixel> truth(rig.sensor.width, rig.sensor.height);
+  const PointLight projector(world, rig.projector_in_world());
   parallel_ranges(truth.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < truth.width(); ++x) truth(x, y) = trace_pixel(world, rig, x + 0.5, y + 0.5);
+      for (int x = 0; x < truth.width(); ++x) truth(x, y) = trace_pixel(projector, rig, x + 0.5, y + 0.5);
   });
   return truth;
 }

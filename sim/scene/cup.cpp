@@ -7,11 +7,6 @@
 namespace fathom {
 namespace {
 
-Pose world_from_shape(const Cup& cup) {
-  return Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0) *
-         Eigen::AngleAxisd(cup.yaw, Eigen::Vector3d::UnitZ());
-}
-
 const Cavity& cavity(const MeshCup& mesh) {
   assert(mesh.cavity);
   return *mesh.cavity;
@@ -42,10 +37,17 @@ const std::string& cup_name(const Cup& cup) {
   return std::visit([](const auto& shape) -> const std::string& { return shape.name; }, cup.shape);
 }
 
+Pose world_from_shape(const Cup& cup) {
+  return Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0) *
+         Eigen::AngleAxisd(cup.yaw, Eigen::Vector3d::UnitZ());
+}
+
 std::vector<GltfPart> cup_parts(const Cup& cup) {
   if (const auto* mesh = std::get_if<MeshCup>(&cup.shape)) return mesh->parts;
   const CupShape& shape = std::get<CupShape>(cup.shape);
-  GltfPart part{cup_mesh(shape), shape.albedo};
+  GltfPart part;
+  part.mesh = cup_mesh(shape);
+  part.albedo = shape.albedo;
   part.mesh.transform(world_from_shape(cup));
   return {std::move(part)};
 }

@@ -8,7 +8,10 @@ namespace fathom {
 /// "paper_cup", "mug.glb"
 const std::string& cup_name(const Cup& cup);
 
-/// The cup's meshes in the world.
+/// Pose of a cup of revolution, whose own frame has the axis at the origin and the desk at 0.
+Pose world_from_shape(const Cup& cup);
+
+/// The cup's meshes in the world; a clear cup of revolution has walls instead (cup_mesh.h).
 std::vector<GltfPart> cup_parts(const Cup& cup);
 
 /// Greatest depth of a liquid [m], its volume [m³], and the volume at any depth. A cup from a mesh must have its

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/units.h"
+#include "sim/optics/meniscus.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/medium_json.h"
 
@@ -21,7 +23,7 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   const Pose turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * rotation_from_json(json));
   double lowest = std::numeric_limits<double>::infinity();
   for (GltfPart& part : cup.parts) {
-    part.mesh.transform(turn);
+    part.transform(turn);
     for (const Eigen::Vector3d& vertex : part.mesh.vertices) lowest = std::min(lowest, vertex.z());
   }
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -30,13 +32,16 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   else
     place.head<2>() = position.vector2() * kMetresPerMm;
   for (GltfPart& part : cup.parts)
-    part.mesh.transform(Pose(Eigen::Translation3d(place - lowest * Eigen::Vector3d::UnitZ())));
+    part.transform(Pose(Eigen::Translation3d(place - lowest * Eigen::Vector3d::UnitZ())));
   return cup;
 }
 
 void find_cavity_of(const JsonReader& json, MeshCup& cup) {
   std::vector<Mesh> meshes;
-  for (const GltfPart& part : cup.parts) meshes.push_back(part.mesh);
+  for (const GltfPart& part : cup.parts) {
+    if (part.medium) json.fail_at("shape", fmt::format("{} is clear; only opaque glTF cups can be filled", cup.name));
+    meshes.push_back(part.mesh);
+  }
   const std::optional<Cavity> cavity = find_cavity(meshes);
   if (!cavity)
     json.fail_at("shape",
@@ -76,10 +81,58 @@ double depth_from_json(const JsonReader& json, const Cup& cup) {
   return depth;
 }
 
+Ripple ripple_from_json(const JsonReader& json) {
+  json.allow_only({"wavelength_mm", "amplitude_mm", "azimuth_deg", "phase_deg"});
+  return {.wavelength = metres_from_mm(json.number("wavelength_mm", kPositive)),
+          .amplitude = metres_from_mm(json.number("amplitude_mm", kNonNegative)),
+          .azimuth = radians_from_deg(json.number_or("azimuth_deg", 0.0)),
+          .phase = radians_from_deg(json.number_or("phase_deg", 0.0))};
+}
+
+LiquidForm form_from_json(const JsonReader& json) {
+  json.allow_only({"contact_angle_deg", "capillary_length_mm", "tilt_deg", "tilt_azimuth_deg", "ripples"});
+  LiquidForm form;
+  form.tilt = radians_from_deg(json.number_or("tilt_deg", 0.0, {0.0, 45.0}));
+  form.tilt_azimuth = radians_from_deg(json.number_or("tilt_azimuth_deg", 0.0));
+  for (const JsonReader& ripple : json.items_or_none("ripples")) form.ripples.push_back(ripple_from_json(ripple));
+  if (json.has("contact_angle_deg") || json.has("capillary_length_mm"))
+    form.wetting = Wetting{radians_from_deg(json.number("contact_angle_deg", {1.0, 179.0})),
+                           metres_from_mm(json.number("capillary_length_mm", kPositive))};
+  return form;
+}
+
+/// The surface must stay between the cup's bottom and its rim.
+void check_form(const JsonReader& json, const CupShape& shape, const Filling& filling) {
+  const LiquidForm& form = filling.form;
+  const double level = shape.bottom() + filling.depth;
+  double up = std::tan(form.tilt) * shape.inner_radius(level), down = up;
+  for (const Ripple& ripple : form.ripples) up += ripple.amplitude, down += ripple.amplitude;
+  if (form.wetting) {
+    const double lean = shape.wall_lean(level);
+    if (form.wetting->contact_angle + lean <= 0.0 || form.wetting->contact_angle + lean >= std::numbers::pi)
+      json.fail_at("contact_angle_deg", fmt::format("must be above {:g} and below {:g} at this wall, which leans",
+                                                    -deg_from_radians(lean), 180.0 - deg_from_radians(lean)));
+    const double rise = Meniscus(form.wetting->contact_angle, form.wetting->capillary_length, lean).rise();
+    (rise > 0.0 ? up : down) += std::fabs(rise);
+  }
+  if (level + up > shape.height())
+    json.fail(fmt::format("lifts the liquid to {:g} mm above the desk, over the rim at {:g}",
+                          mm_from_metres(level + up), mm_from_metres(shape.height())));
+  if (down >= filling.depth)
+    json.fail(fmt::format("lowers the liquid by {:g} mm, to the bottom at {:g} mm below its level",
+                          mm_from_metres(down), mm_from_metres(filling.depth)));
+}
+
 void pour(const JsonReader& json, Cup& cup) {
   Filling filling;
   filling.medium = medium_from_json(json.at("liquid"));
   filling.depth = depth_from_json(json, cup);
+  if (json.has("surface")) {
+    const auto* shape = std::get_if<CupShape>(&cup.shape);
+    if (!shape) json.fail_at("surface", "is for cups of revolution; a liquid in a glTF cup is level");
+    filling.form = form_from_json(json.at("surface"));
+    check_form(json.at("surface"), *shape, filling);
+  }
   if (filling.depth == 0.0) return;
   cup.filling = std::move(filling);
   if (liquid_surface(cup).triangles.empty())
@@ -89,7 +142,7 @@ void pour(const JsonReader& json, Cup& cup) {
 }  // namespace
 
 Cup cup_from_json(const JsonReader& json) {
-  json.allow_only({"shape", "position_mm", "rotation_deg", "yaw_deg", "liquid", "fill_mm", "fill_ml"});
+  json.allow_only({"shape", "position_mm", "rotation_deg", "yaw_deg", "liquid", "fill_mm", "fill_ml", "surface"});
   const JsonReader shape = json.at("shape");
   const bool is_mesh = shape.value().is_string() && names_gltf(shape.text());
   Cup cup;
@@ -102,7 +155,7 @@ Cup cup_from_json(const JsonReader& json) {
     if (json.has("rotation_deg")) json.fail_at("rotation_deg", "is for cups from glTF files; others have yaw_deg");
   }
   if (!json.has("liquid")) {
-    for (const char* key : {"fill_mm", "fill_ml"})
+    for (const char* key : {"fill_mm", "fill_ml", "surface"})
       if (json.has(key)) json.fail_at(key, "needs a liquid");
     return cup;
   }

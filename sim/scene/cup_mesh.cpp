@@ -1,5 +1,6 @@
 #include "sim/scene/cup_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,6 +66,53 @@ Mesh cup_mesh(const CupShape& shape) {
   mesh.append(revolve(shape.inner, false));
   if (shape.handle) mesh.append(handle_mesh(shape));
   return mesh;
+}
+
+std::vector<WallPart> wall_parts(const CupShape& shape, double sink) {
+  std::vector<Eigen::Vector2d> outer = shape.outer;
+  for (Eigen::Vector2d& point : outer)
+    if (point.y() == 0.0) point.y() = -sink;
+  outer.push_back(shape.inner.back());  // the rim's top
+  std::vector<WallPart> parts;
+  const auto add = [&](const std::vector<Eigen::Vector2d>& profile, bool outward) {
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+      const Eigen::Vector2d &a = profile[i], &b = profile[i + 1];
+      if (a == b) continue;
+      WallPart& part = parts.emplace_back();
+      part.mesh = revolve({a, b}, outward);
+      const double slope = (b.x() - a.x()) / (b.y() - a.y());
+      if (a.y() != b.y()) part.cone = Eigen::Vector2d(a.x() - slope * a.y(), slope);
+    }
+  };
+  add(outer, true);
+  add(shape.inner, false);
+  return parts;
+}
+
+Mesh liquid_shell(const CupShape& shape, const Mesh& top) {
+  constexpr double kIntoWall = 1e-4;
+  constexpr int kFacets = 2 * kFacetsAround;
+  Mesh shell;
+  double lowest = shape.height();
+  for (std::size_t i = top.vertices.size() - kFacets; i < top.vertices.size(); ++i) {
+    shell.add_vertex(top.vertices[i]);
+    lowest = std::min(lowest, top.vertices[i].z());
+  }
+  for (auto point = shape.inner.rbegin(); point != shape.inner.rend(); ++point) {
+    if (point->y() >= lowest) continue;
+    const double radius = point->x() > 0.0 ? point->x() + kIntoWall : 0.0;
+    const int high = static_cast<int>(shell.vertices.size()) - kFacets, low = high + kFacets;
+    for (int facet = 0; facet < kFacets; ++facet) {
+      const Eigen::Vector2d xy = radius * direction_of(2.0 * std::numbers::pi * facet / kFacets);
+      shell.add_vertex({xy.x(), xy.y(), point->y() - kIntoWall});
+    }
+    for (int facet = 0; facet < kFacets; ++facet) {
+      const int next = (facet + 1) % kFacets;
+      shell.add_triangle(low + facet, high + next, high + facet);
+      if (radius > 0.0) shell.add_triangle(low + facet, low + next, high + next);
+    }
+  }
+  return shell;
 }
 
 Mesh liquid_disc(const CupShape& shape, double height) {

@@ -1,6 +1,9 @@
 // Cups as meshes: profiles of revolution, handles, and the flat surface of a liquid.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene.h"
 
@@ -11,6 +14,18 @@ inline constexpr int kFacetsAround = 256;
 
 /// The solid between outer and inner profile, with its handle, axis at the origin, standing on z = 0.
 Mesh cup_mesh(const CupShape& shape);
+
+/// The same solid, without a handle, as one surface for each straight piece of its profiles; with `sink` [m] its
+/// underside reaches that far below z = 0.
+struct WallPart {
+  Mesh mesh;
+  std::optional<Eigen::Vector2d> cone;  ///< radius at height 0 and its slope; nothing for a level ring
+};
+std::vector<WallPart> wall_parts(const CupShape& shape, double sink);
+
+/// Sides and underside of a liquid, 0.1 mm inside the wall, where the solid wins: with `top` they close the body. The
+/// last 2 · kFacetsAround vertices of `top` are its rim.
+Mesh liquid_shell(const CupShape& shape, const Mesh& top);
 
 /// A level disc at `height` [m] above the desk that reaches half-way into the wall: bodies overlap, the solid wins.
 Mesh liquid_disc(const CupShape& shape, double height);

@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "core/error.h"
 #include "sim/scene/cup.h"
+#include "sim/scene/cup_mesh.h"
 
 namespace fathom {
 namespace {
@@ -21,45 +27,148 @@ void add_desk(const Desk& desk, Geometry& geometry) {
   geometry.surfaces.push_back({add_object(geometry, "desk"), std::move(mesh), Diffuse{desk.albedo}});
 }
 
-void add_filling(const Cup& cup, const std::string& prefix, double wavelength_nm, Geometry& geometry) {
-  const Medium& medium = cup.filling->medium;
-  const double level = liquid_level(cup);
-  const double n = medium.n(wavelength_nm);
-  Mesh mesh = liquid_surface(cup);
-  const int object = add_object(geometry, prefix + medium.name);
-  if (!medium.scatters()) {
-    geometry.surfaces.push_back({object, std::move(mesh), LiquidSurface{level, n, medium.absorption}});
-    return;
-  }
-  const double albedo = diffuse_reflectance(medium, n);
-  geometry.surfaces.push_back({object, std::move(mesh), Diffuse{albedo}});
-  geometry.approximations.push_back(
-      fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it",
-                  medium.name, albedo));
-}
+/// Collects surfaces and bodies; bodies get their final numbers at the end, when all priorities are known.
+class Builder {
+ public:
+  Builder(Geometry& geometry, double wavelength_nm) : geometry_(geometry), wavelength_nm_(wavelength_nm) {}
 
-void add_cup(const Cup& cup, std::size_t index, double wavelength_nm, Geometry& geometry) {
-  const std::string prefix = fmt::format("cup {} ", index);
-  const int object = add_object(geometry, prefix + cup_name(cup));
-  for (GltfPart& part : cup_parts(cup))
-    geometry.surfaces.push_back({object, std::move(part.mesh), Diffuse{part.albedo}});
-  if (cup.filling) add_filling(cup, prefix, wavelength_nm, geometry);
-}
+  void add_cup(const Cup& cup, std::size_t index, bool on_desk) {
+    const std::string prefix = fmt::format("cup {} ", index);
+    const int object = add_object(geometry_, prefix + cup_name(cup));
+    const auto* shape = std::get_if<CupShape>(&cup.shape);
+    if (shape && shape->material)
+      add_clear_wall(cup, *shape, object, on_desk);
+    else
+      add_parts(cup_parts(cup), object);
+    if (cup.filling) add_filling(cup, prefix);
+  }
+
+  void add_object_file(const Object& placed, std::size_t index) {
+    std::vector<GltfPart> parts = read_gltf(placed.gltf);
+    for (GltfPart& part : parts) part.transform(placed.world_from_object);
+    const std::string name = fmt::format("object {} {}", index, placed.gltf.filename().string());
+    add_parts(std::move(parts), add_object(geometry_, name));
+  }
+
+  /// Numbers the bodies by rising priority.
+  void finish() {
+    constexpr std::size_t kMostBodies = 8 * sizeof(BodySet);
+    if (bodies_.size() > kMostBodies)
+      throw Error("the scene", fmt::format("has {} clear bodies, must be at most {}", bodies_.size(), kMostBodies));
+    std::vector<int> order(bodies_.size()), rank(bodies_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(bodies_[a]) < key(bodies_[b]); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      rank[order[i]] = static_cast<int>(i);
+      geometry_.bodies.push_back(bodies_[order[i]].body);
+    }
+    for (Surface& surface : geometry_.surfaces)
+      if (auto* interface = std::get_if<Interface>(&surface.optics)) interface->body = rank[interface->body];
+  }
+
+ private:
+  enum class Priority { liquid, gltf, wall };
+  struct RankedBody {
+    Body body;
+    Priority priority;
+  };
+
+  /// Among glTF bodies the denser one wins: glass over the liquid in it.
+  static std::pair<Priority, double> key(const RankedBody& ranked) {
+    return {ranked.priority, ranked.priority == Priority::gltf ? ranked.body.n : 0.0};
+  }
+
+  int add_body(int object, const Medium& medium, Priority priority) {
+    bodies_.push_back({{object, medium.n(wavelength_nm_), medium.absorption}, priority});
+    return static_cast<int>(bodies_.size()) - 1;
+  }
+
+  Diffuse opaque(const Medium& medium) {
+    const double albedo = diffuse_reflectance(medium, medium.n(wavelength_nm_));
+    geometry_.approximations.push_back(
+        fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it",
+                    medium.name, albedo));
+    return {albedo};
+  }
+
+  void add_parts(std::vector<GltfPart> parts, int object) {
+    std::map<int, int> body_of_part;
+    for (GltfPart& part : parts) {
+      if (!part.medium) {
+        geometry_.surfaces.push_back({object, std::move(part.mesh), Diffuse{part.albedo}});
+        continue;
+      }
+      if (part.medium->scatters()) {
+        geometry_.surfaces.push_back({object, std::move(part.mesh), opaque(*part.medium)});
+        continue;
+      }
+      const auto [known, is_new] = body_of_part.try_emplace(part.body);
+      if (is_new) known->second = add_body(object, *part.medium, Priority::gltf);
+      Surface surface{object, std::move(part.mesh), Interface{known->second}};
+      if (!part.normals.empty()) surface.shape = VertexNormals{std::move(part.normals)};
+      geometry_.surfaces.push_back(std::move(surface));
+    }
+  }
+
+  /// A cup on the desk reaches a little into it, so that the two share no face.
+  void add_clear_wall(const Cup& cup, const CupShape& shape, int object, bool on_desk) {
+    constexpr double kSink = 1e-4;
+    const int body = add_body(object, *shape.material, Priority::wall);
+    for (WallPart& part : wall_parts(shape, on_desk ? kSink : 0.0)) {
+      part.mesh.transform(world_from_shape(cup));
+      Surface surface{object, std::move(part.mesh), Interface{body}};
+      if (part.cone) surface.shape = Cone{cup.position, part.cone->x(), part.cone->y()};
+      geometry_.surfaces.push_back(std::move(surface));
+    }
+  }
+
+  void add_filling(const Cup& cup, const std::string& prefix) {
+    const Filling& filling = *cup.filling;
+    const double level = liquid_level(cup);
+    const int object = add_object(geometry_, prefix + filling.medium.name);
+    const auto* shape = std::get_if<CupShape>(&cup.shape);
+    const bool in_clear_wall = shape && shape->material;
+    const bool plain = filling.form.level() && !in_clear_wall;
+    std::optional<LiquidTop> top;
+    if (!plain) top.emplace(*shape, level, filling.form);
+    Mesh mesh = top ? top->mesh() : liquid_surface(cup);
+    Mesh shell = in_clear_wall ? liquid_shell(*shape, mesh) : Mesh{};
+    // A curved top knows its directions in the world, so it is moved but not turned with the cup.
+    if (top)
+      for (Mesh* part : {&mesh, &shell})
+        part->transform(Pose(Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0)));
+    if (filling.medium.scatters()) {
+      mesh.append(shell);
+      geometry_.surfaces.push_back({object, std::move(mesh), opaque(filling.medium)});
+      return;
+    }
+    const int body = add_body(object, filling.medium, Priority::liquid);
+    bodies_[body].body.level = level;
+    bodies_[body].body.plain = plain;
+    Surface surface{object, std::move(mesh), Interface{body}};
+    if (top) {
+      top->move(cup.position);
+      surface.shape = std::move(*top);
+    }
+    geometry_.surfaces.push_back(std::move(surface));
+    if (shell.triangles.empty()) return;
+    geometry_.surfaces.push_back({object, std::move(shell), Interface{body}});
+  }
+
+  Geometry& geometry_;
+  double wavelength_nm_;
+  std::vector<RankedBody> bodies_;
+};
 
 }  // namespace
 
 Geometry build_geometry(const Scene& scene, double wavelength_nm) {
   Geometry geometry;
   if (scene.desk) add_desk(*scene.desk, geometry);
-  for (std::size_t i = 0; i < scene.cups.size(); ++i) add_cup(scene.cups[i], i, wavelength_nm, geometry);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const std::string name = fmt::format("object {} {}", i, scene.objects[i].gltf.filename().string());
-    const int object = add_object(geometry, name);
-    for (GltfPart& part : read_gltf(scene.objects[i].gltf)) {
-      part.mesh.transform(scene.objects[i].world_from_object);
-      geometry.surfaces.push_back({object, std::move(part.mesh), Diffuse{part.albedo}});
-    }
-  }
+  Builder builder(geometry, wavelength_nm);
+  for (std::size_t i = 0; i < scene.cups.size(); ++i) builder.add_cup(scene.cups[i], i, scene.desk.has_value());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) builder.add_object_file(scene.objects[i], i);
+  builder.finish();
   return geometry;
 }
 

@@ -1,41 +1,58 @@
 // A scene as surfaces in the world, ready to be traced.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/surface_shape.h"
 
 namespace fathom {
+
+/// A clear body: a liquid, a cup's glass wall, a transmissive glTF mesh.
+struct Body {
+  int object;                        ///< as in Surface
+  double n;                          ///< refractive index; air is 1
+  double absorption;                 ///< μa [1/m]
+  std::optional<double> level = {};  ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
+  bool plain = false;                ///< whether it is level all over, in an opaque cup: light can enter only there
+};
+
+/// The bodies that a point lies in, bit i for Geometry::bodies[i]. Of bodies that overlap the last one wins.
+using BodySet = std::uint64_t;
 
 /// Lambert's surface.
 struct Diffuse {
   double albedo;
 };
 
-/// The level surface of a clear liquid, at z = level [m].
-struct LiquidSurface {
-  double level;
-  double n;           ///< refractive index of the liquid below; air above
-  double absorption;  ///< μa of the liquid [1/m]
+/// Part of the boundary of a clear body; the triangles face out of it.
+struct Interface {
+  int body;  ///< index into Geometry::bodies
 };
 
 struct Surface {
   int object;  ///< index into Geometry::objects plus 1; 0 means nothing
   Mesh mesh;
-  std::variant<Diffuse, LiquidSurface> optics;
+  std::variant<Diffuse, Interface> optics;
+  SurfaceShape shape = Facets{};
 };
 
 struct Geometry {
   std::vector<std::string> objects;  ///< names, e.g. "desk", "cup 0 paper_cup", "cup 0 water"
   std::vector<Surface> surfaces;
+  /// By rising priority: liquids in cups, glTF bodies (by rising index), walls of cups. At most 64.
+  std::vector<Body> bodies;
   std::vector<std::string> approximations;  ///< what the model leaves out of this scene, one sentence each
 };
 
-/// Builds the surfaces; media are evaluated at `wavelength_nm`. Throws Error on unreadable glTF files and on a medium
-/// asked outside its range. A liquid that scatters becomes an opaque diffuse surface (see Geometry::approximations).
+/// Builds the surfaces; media are evaluated at `wavelength_nm`. Throws Error on unreadable glTF files, on a medium
+/// asked outside its range and on more than 64 clear bodies. A medium that scatters becomes an opaque diffuse surface
+/// (see Geometry::approximations).
 Geometry build_geometry(const Scene& scene, double wavelength_nm);
 
 }  // namespace fathom

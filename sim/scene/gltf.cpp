@@ -9,10 +9,14 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace fathom {
 namespace {
@@ -21,7 +25,8 @@ namespace {
 struct Reader {
   std::string file;
   tinygltf::Model model;
-  std::map<int, Mesh> meshes_by_material;
+  int placed_meshes = 0;                         ///< so far, by nodes
+  std::map<std::array<int, 3>, GltfPart> parts;  ///< by material, clear body, whether it has normals
 
   [[noreturn]] void fail(const std::string& where, const std::string& what) const { throw Error(file, where, what); }
 
@@ -94,18 +99,52 @@ struct Reader {
     if (position == primitive.attributes.end()) fail(where, "has no POSITION");
     const Bytes source = bytes(position->second, TINYGLTF_TYPE_VEC3, where);
     if (source.component != TINYGLTF_COMPONENT_TYPE_FLOAT) fail(where, "has positions that are not floats");
-    Mesh part;
-    for (std::size_t i = 0; i < source.count; ++i) {
-      Eigen::Vector3f value;
-      std::memcpy(value.data(), source.data + i * source.stride, sizeof(float) * 3);
+    Mesh mesh;
+    for (const Eigen::Vector3f& value : vectors(source)) {
       const Eigen::Vector3d in_scene = (scene_from_node * value.cast<double>().homogeneous()).head<3>();
       if (!in_scene.allFinite()) fail(where, "has a position that is not finite");
-      part.add_vertex({in_scene.x(), -in_scene.z(), in_scene.y()});
+      mesh.add_vertex(z_up(in_scene));
     }
+    const Eigen::Matrix3d linear = scene_from_node.topLeftCorner<3, 3>();
+    const bool mirrored = linear.determinant() < 0.0;  // which turns the triangles inside out
     const std::vector<int> corners = indices(primitive, source.count, where);
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-      part.add_triangle(corners[i], corners[i + 1], corners[i + 2]);
-    meshes_by_material[primitive.material].append(part);
+      mesh.add_triangle(corners[i], corners[i + (mirrored ? 2 : 1)], corners[i + (mirrored ? 1 : 2)]);
+
+    const std::optional<Medium> medium = clear_medium(primitive.material);
+    std::vector<Eigen::Vector3d> normals;
+    if (medium && primitive.attributes.contains("NORMAL"))
+      normals = scene_normals(primitive, linear, source.count, where);
+    GltfPart& part = parts[{primitive.material, medium ? placed_meshes : 0, !normals.empty()}];
+    part.mesh.append(mesh);
+    part.normals.insert(part.normals.end(), normals.begin(), normals.end());
+    part.albedo = albedo(primitive.material);
+    part.medium = medium;
+    part.body = medium ? (placed_meshes << 16) + primitive.material : 0;
+  }
+
+  static Eigen::Vector3d z_up(const Eigen::Vector3d& y_up) { return {y_up.x(), -y_up.z(), y_up.y()}; }
+
+  static std::vector<Eigen::Vector3f> vectors(const Bytes& source) {
+    std::vector<Eigen::Vector3f> result(source.count);
+    for (std::size_t i = 0; i < source.count; ++i)
+      std::memcpy(result[i].data(), source.data + i * source.stride, sizeof(float) * 3);
+    return result;
+  }
+
+  std::vector<Eigen::Vector3d> scene_normals(const tinygltf::Primitive& primitive, const Eigen::Matrix3d& linear,
+                                             std::size_t vertices, const std::string& where) const {
+    const Bytes source = bytes(primitive.attributes.at("NORMAL"), TINYGLTF_TYPE_VEC3, where);
+    if (source.component != TINYGLTF_COMPONENT_TYPE_FLOAT) fail(where, "has normals that are not floats");
+    if (source.count != vertices) fail(where, "has another number of normals than of positions");
+    const Eigen::Matrix3d normals_to_scene = linear.inverse().transpose();
+    std::vector<Eigen::Vector3d> result;
+    for (const Eigen::Vector3f& value : vectors(source)) {
+      const Eigen::Vector3d normal = normals_to_scene * value.cast<double>();
+      if (!normal.allFinite() || normal.norm() == 0.0) fail(where, "has a normal that is no direction");
+      result.push_back(z_up(normal.normalized()));
+    }
+    return result;
   }
 
   static Eigen::Matrix4d local_transform(const tinygltf::Node& node) {
@@ -128,6 +167,7 @@ struct Reader {
     const Eigen::Matrix4d scene_from_node = scene_from_parent * local_transform(node);
     if (node.mesh >= static_cast<int>(model.meshes.size())) fail(where, "names a mesh that does not exist");
     if (node.mesh >= 0) {
+      ++placed_meshes;
       const auto& primitives = model.meshes[node.mesh].primitives;
       for (std::size_t i = 0; i < primitives.size(); ++i)
         add_primitive(primitives[i], scene_from_node, fmt::format("/meshes/{}/primitives/{}", node.mesh, i));
@@ -135,23 +175,85 @@ struct Reader {
     for (const int child : node.children) add_node(child, scene_from_node, depth + 1);
   }
 
+  const tinygltf::Material& material_at(int material) const {
+    if (material >= static_cast<int>(model.materials.size()))
+      fail(fmt::format("/materials/{}", material), "does not exist");
+    return model.materials[material];
+  }
+
+  static double luminance(const std::vector<double>& colour) {
+    return std::clamp(0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2], 0.0, 1.0);
+  }
+
   double albedo(int material) const {
     if (material < 0) return 0.5;
-    const std::string where = fmt::format("/materials/{}", material);
-    if (material >= static_cast<int>(model.materials.size())) fail(where, "does not exist");
-    const tinygltf::Material& source = model.materials[material];
-    if (source.extensions.contains("KHR_materials_transmission"))
-      fail(where, "is transmissive; refracting glTF bodies are not modelled yet, only opaque ones");
-    const std::vector<double>& colour = source.pbrMetallicRoughness.baseColorFactor;
-    if (colour.size() != 4) fail(where, "has a base colour that is not 4 numbers");
-    return std::clamp(0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2], 0.0, 1.0);
+    const std::vector<double>& colour = material_at(material).pbrMetallicRoughness.baseColorFactor;
+    if (colour.size() != 4) fail(fmt::format("/materials/{}", material), "has a base colour that is not 4 numbers");
+    return luminance(colour);
+  }
+
+  /// A number of an extension or of extras, or `otherwise`.
+  double number_or(const tinygltf::Value& object, const std::string& where, const char* key, double otherwise,
+                   double low, double high) const {
+    if (!object.IsObject() || !object.Has(key)) return otherwise;
+    const tinygltf::Value& value = object.Get(key);
+    const double number = value.IsNumber() ? value.GetNumberAsDouble() : std::numeric_limits<double>::quiet_NaN();
+    if (!(number >= low && number <= high))
+      fail(fmt::format("{}/{}", where, key), fmt::format("must be a number from {:g} to {:g}", low, high));
+    return number;
+  }
+
+  /// The medium of a transmissive material, nothing for an opaque one.
+  std::optional<Medium> clear_medium(int material) const {
+    if (material < 0) return std::nullopt;
+    const tinygltf::Material& source = material_at(material);
+    const std::string where = fmt::format("/materials/{}", material), extensions = where + "/extensions/";
+    const auto extension = [&](const char* name) {
+      const auto found = source.extensions.find(name);
+      return found == source.extensions.end() ? tinygltf::Value() : found->second;
+    };
+    if (number_or(extension("KHR_materials_transmission"), extensions + "KHR_materials_transmission",
+                  "transmissionFactor", 0.0, 0.0, 1.0) == 0.0)
+      return std::nullopt;
+    Medium medium;
+    medium.name = source.name.empty() ? "clear body" : source.name;
+    medium.index = ConstantIndex{
+        number_or(extension("KHR_materials_ior"), extensions + "KHR_materials_ior", "ior", 1.5, 1.0, 4.0)};
+    constexpr double kMost = 1e9;
+    const std::string extras = where + "/extras";
+    medium.absorption = per_metre_from_per_mm(number_or(
+        source.extras, extras, "absorption_per_mm",
+        volume_absorption(extension("KHR_materials_volume"), extensions + "KHR_materials_volume") * kMetresPerMm, 0.0,
+        kMost));
+    medium.scattering = per_metre_from_per_mm(number_or(source.extras, extras, "scattering_per_mm", 0.0, 0.0, kMost));
+    medium.anisotropy = number_or(source.extras, extras, "anisotropy", 0.0, -0.999, 0.999);
+    return medium;
+  }
+
+  /// μa [1/m] by which attenuationColor is left of white after attenuationDistance; of its luminance, since nothing is
+  /// said of the infrared.
+  double volume_absorption(const tinygltf::Value& volume, const std::string& where) const {
+    const double distance = number_or(volume, where, "attenuationDistance", 0.0, 1e-9, 1e9);
+    if (distance == 0.0 || !volume.Has("attenuationColor")) return 0.0;
+    const tinygltf::Value& colour = volume.Get("attenuationColor");
+    std::vector<double> values;
+    for (std::size_t i = 0; i < colour.ArrayLen(); ++i)
+      values.push_back(colour.Get(static_cast<int>(i)).GetNumberAsDouble());
+    if (values.size() != 3 || !(luminance(values) > 0.0))
+      fail(where + "/attenuationColor", "must be 3 numbers from 0 to 1, not all 0");
+    return -std::log(luminance(values)) / distance;
   }
 };
 
 }  // namespace
 
+void GltfPart::transform(const Pose& pose) {
+  mesh.transform(pose);
+  for (Eigen::Vector3d& normal : normals) normal = pose.linear() * normal;
+}
+
 std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
-  Reader reader{path.string(), {}, {}};
+  Reader reader{path.string(), {}, 0, {}};
   if (!std::filesystem::is_regular_file(path)) throw Error(path.string(), "no such file");
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
@@ -171,7 +273,7 @@ std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
   if (scene >= static_cast<int>(reader.model.scenes.size())) throw Error(path.string(), "/scene", "does not exist");
   for (const int node : reader.model.scenes[scene].nodes) reader.add_node(node, Eigen::Matrix4d::Identity(), 0);
   std::vector<GltfPart> parts;
-  for (auto& [material, mesh] : reader.meshes_by_material) parts.push_back({std::move(mesh), reader.albedo(material)});
+  for (auto& [key, part] : reader.parts) parts.push_back(std::move(part));
   if (parts.empty()) throw Error(path.string(), "has no triangles");
   return parts;
 }

@@ -1,21 +1,31 @@
-// Opaque objects from glTF 2.0 files (.gltf or .glb).
+// Objects, opaque and clear, from glTF 2.0 files (.gltf or .glb).
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "sim/optics/medium.h"
 #include "sim/scene/mesh.h"
 
 namespace fathom {
 
-/// The triangles of one material, all instances in the file's scene.
+/// Triangles that look alike: all of an opaque material, or those of one clear body.
 struct GltfPart {
-  Mesh mesh;      ///< [m], z up: glTF's (x, y, z) became (x, −z, y)
-  double albedo;  ///< luminance (Rec. 709) of the material's base colour factor
+  Mesh mesh;                             ///< [m], z up: glTF's (x, y, z) became (x, −z, y)
+  std::vector<Eigen::Vector3d> normals;  ///< unit, by vertex, of clear bodies; empty where the file has none
+  double albedo = 0.0;                   ///< luminance (Rec. 709) of an opaque material's base colour factor
+  std::optional<Medium> medium;          ///< of a clear body (KHR_materials_transmission)
+  int body = 0;                          ///< parts of equal number bound the same clear body
+
+  void transform(const Pose& pose);  ///< `pose` without scaling
 };
 
-/// Reads the default scene's triangle meshes with their node transformations. Throws Error on files that cannot be
-/// read, have no triangles, indices out of range, non-finite positions, or transmissive materials (not modelled yet).
+/// Reads the default scene's triangle meshes with their node transformations. A transmissive material makes each mesh
+/// that a node places a clear body: index by KHR_materials_ior (1.5 without), absorption by KHR_materials_volume, or by
+/// the material's `extras` (absorption_per_mm, scattering_per_mm, anisotropy), which win. Throws Error on files that
+/// cannot be read, have no triangles, indices out of range, positions or normals that are not finite, values that are
+/// out of range.
 std::vector<GltfPart> read_gltf(const std::filesystem::path& path);
 
 }  // namespace fathom

@@ -92,8 +92,9 @@ Medium described_medium(const JsonReader& json) {
   return medium;
 }
 
-Medium library_medium(const std::string& name, const JsonReader& asked_by) {
-  const std::filesystem::path file = library_file("media", "liquid", name, asked_by.file(), asked_by.pointer());
+Medium library_medium(const std::string& name, const JsonReader& asked_by, const char* library = "media",
+                      const char* kind = "liquid") {
+  const std::filesystem::path file = library_file(library, kind, name, asked_by.file(), asked_by.pointer());
   const Json text = read_json(file);
   Medium medium = described_medium(JsonReader(text, file.string()));
   medium.name = name;
@@ -127,6 +128,13 @@ Medium changed_medium(const JsonReader& json) {
 Medium medium_from_json(const JsonReader& json) {
   if (json.value().is_string()) return library_medium(json.text(), json);
   return json.has("name") && !json.has("index") ? changed_medium(json) : described_medium(json);
+}
+
+Medium wall_from_json(const JsonReader& json) {
+  Medium medium =
+      json.value().is_string() ? library_medium(json.text(), json, "walls", "wall material") : described_medium(json);
+  if (medium.scatters()) json.fail("scatters; a wall of a cup is clear, or opaque with an albedo");
+  return medium;
 }
 
 }  // namespace fathom

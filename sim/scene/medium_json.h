@@ -1,4 +1,5 @@
-// Media from JSON: a name from scenes/media, that name with a temperature or a dilution, or a description.
+// Media from JSON: a name from scenes/media, that name with a temperature or a dilution, or a description; and the
+// walls of clear cups, from scenes/walls.
 #pragma once
 
 #include "core/json.h"
@@ -8,5 +9,7 @@ namespace fathom {
 
 /// Throws Error naming file, path and what is allowed.
 Medium medium_from_json(const JsonReader& json);
+/// A name from scenes/walls or a description.
+Medium wall_from_json(const JsonReader& json);
 
 }  // namespace fathom

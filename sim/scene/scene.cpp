@@ -74,10 +74,15 @@ void set_cylinder(const JsonReader& json, CupShape& shape) {
 
 CupShape shape_from_object(const JsonReader& json) {
   json.allow_only({"name", "height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm", "inner_profile_mm",
-                   "outer_profile_mm", "albedo", "handle", "source"});
+                   "outer_profile_mm", "albedo", "material", "handle", "source"});
   CupShape shape;
   shape.name = json.text_or("name", "cup");
   shape.albedo = json.number_or("albedo", shape.albedo, kAlbedo);
+  if (json.has("material")) {
+    for (const char* key : {"albedo", "handle"})
+      if (json.has(key)) json.fail_at(key, "cannot stand beside material: a clear wall has none");
+    shape.material = wall_from_json(json.at("material"));
+  }
   shape.source = json.text_or("source", "");
   if (json.has("handle")) shape.handle = handle_from_json(json.at("handle"));
   if (!json.has("inner_profile_mm") && !json.has("outer_profile_mm")) {
@@ -138,6 +143,11 @@ Eigen::Quaterniond rotation_from_json(const JsonReader& json) {
   return Eigen::AngleAxisd(radians_from_deg(angles.z()), Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(radians_from_deg(angles.y()), Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(radians_from_deg(angles.x()), Eigen::Vector3d::UnitX());
+}
+
+double CupShape::wall_lean(double height_above_desk) const {
+  constexpr double kSpan = 0.5e-3;
+  return std::atan((inner_radius(height_above_desk + kSpan) - inner_radius(height_above_desk - kSpan)) / (2.0 * kSpan));
 }
 
 CupShape cup_shape_from_json(const JsonReader& json) {

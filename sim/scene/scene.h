@@ -38,6 +38,7 @@ struct CupShape {
   std::vector<Eigen::Vector2d> inner;  ///< from the inner bottom's centre to the rim
   std::vector<Eigen::Vector2d> outer;  ///< from the underside's centre to the rim
   double albedo = 0.70;
+  std::optional<Medium> material;  ///< of a clear wall, which refracts; without one the wall is opaque
   std::optional<Handle> handle;
   std::string source;
 
@@ -48,6 +49,8 @@ struct CupShape {
   double outer_radius(double height_above_desk) const;
   /// Volume [m³] of a liquid of a depth [m] above the inner bottom's centre: the integral of π r² over the profile.
   double volume(double depth) const;
+  /// Angle by which the inner wall leans outward there, over 1 mm.
+  double wall_lean(double height_above_desk) const;
 };
 
 /// A cup from a glTF file, placed in the world.
@@ -57,9 +60,35 @@ struct MeshCup {
   std::shared_ptr<const Cavity> cavity;  ///< of the parts, where a liquid is asked for
 };
 
+struct Ripple {
+  double wavelength;
+  double amplitude;
+  double azimuth;  ///< of the direction in which the phase grows, from +x towards +y in the world
+  double phase;    ///< at the cup's axis; 0: level there, rising
+};
+
+/// How a liquid meets an upright wall.
+struct Wetting {
+  double contact_angle;  ///< in the liquid; below π/2 it climbs the wall
+  double capillary_length;
+};
+
+/// What makes a liquid's surface other than level. The parts are added.
+struct LiquidForm {
+  double tilt = 0.0;
+  double tilt_azimuth = 0.0;  ///< in which it rises, from +x towards +y in the world
+  std::vector<Ripple> ripples;
+  std::optional<Wetting> wetting;
+
+  bool level() const { return tilt == 0.0 && ripples.empty() && !wetting; }
+};
+
 struct Filling {
   Medium medium;
-  double depth = 0.0;  ///< of the liquid above the cavity's lowest point; of a CupShape the inner bottom's centre
+  /// Of the liquid above the cavity's lowest point (of a CupShape the inner bottom's centre); of its level with ripples
+  /// and meniscus.
+  double depth = 0.0;
+  LiquidForm form = {};
 };
 
 struct Cup {

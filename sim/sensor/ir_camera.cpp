@@ -17,13 +17,15 @@ constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
 
 /// Radiance [DN] along one camera ray.
-double sample_radiance(const Intersector& world, const Rig& rig, const Pattern& pattern,
-                       const Eigen::Vector3d& projector, const Ray& ray) {
-  const std::optional<SeenPoint> seen = see(world, ray);
-  const std::optional<Illumination> light = seen ? illuminate(world, projector, *seen) : std::nullopt;
-  if (!light) return 0.0;
-  const Eigen::Vector2d at = rectified(rig, light->direction);
-  return radiance_dn(rig.sensor, *seen, *light) * pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+double sample_radiance(const PointLight& projector, const Rig& rig, const Pattern& pattern, const Ray& ray) {
+  const std::optional<SeenPoint> seen = see(projector.world(), ray);
+  double radiance = 0.0;
+  if (!seen) return radiance;
+  for_each_illumination(projector, *seen, [&](const Illumination& light) {
+    const Eigen::Vector2d at = rectified(rig, light.direction);
+    radiance += radiance_dn(rig.sensor, *seen, light) * pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+  });
+  return radiance;
 }
 
 }  // namespace
@@ -31,14 +33,15 @@ double sample_radiance(const Intersector& world, const Rig& rig, const Pattern& 
 Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across) {
   const SensorModel& sensor = rig.sensor;
   const double px_per_ir_px = 1.0 / sensor.ir_scale();
-  const Eigen::Vector3d camera = rig.camera_in_world(), projector = rig.projector_in_world();
+  const Eigen::Vector3d camera = rig.camera_in_world();
+  const PointLight projector(world, rig.projector_in_world());
   Image<float> image(sensor.ir_width, sensor.ir_height);
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
         const auto sample = [&](double dx, double dy) {
           const double x_px = (x + dx) * px_per_ir_px, y_px = (y - sensor.ir_first_row() + dy) * px_per_ir_px;
-          return sample_radiance(world, rig, pattern, projector, {camera, rig.direction_in_world(x_px, y_px)});
+          return sample_radiance(projector, rig, pattern, {camera, rig.direction_in_world(x_px, y_px)});
         };
         image(x, y) = static_cast<float>(pixel_mean(samples_across, sample));
       }

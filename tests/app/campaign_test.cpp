@@ -167,7 +167,7 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
             "/sensor/model: is missing: a measurement's rig names its sensor, choose from kinect_v1, xtion_pro_live; "
             "other keys change it\n");
   EXPECT_EQ(error_of(with("/sensor/wavelength_nm", 2000)),
-            "/liquids/water: the index of water is known from 182 to 1129 nm, the sensor works at 2000 nm\n");
+            "/liquids/water: the index of water is known from 200 to 1100 nm, the sensor works at 2000 nm\n");
   EXPECT_EQ(error_of(with("/distance_mm", Json::array())), "/distance_mm: must hold at least one length\n");
   EXPECT_EQ(error_of(with("/sensor/aim_mm", {50, 400, 0})),
             "/sensor/aim_mm: must lie straight ahead (x = 0, y ≥ 0): a measurement's rig knows no yaw\n");

@@ -141,7 +141,7 @@ TEST_F(CaptureCommand, MistakesAreAnsweredInOneLineAndLeaveNothing) {
        "scene.json: /objects/0/gltf: there is no file "},
       {R"({"sensor": {"height_mm": 650, "pitch_deg": 60, "wavelength_nm": 2000},
            "cups": [{"shape": "paper_cup", "position_mm": [0, 300], "liquid": "water", "fill_mm": 3}]})",
-       "scene.json: /cups/0/liquid: the index of water is known from 182 to 1129 nm, the sensor works at 2000 nm"},
+       "scene.json: /cups/0/liquid: the index of water is known from 200 to 1100 nm, the sensor works at 2000 nm"},
   };
   for (const auto& [scene, message] : mistakes) {
     write_text(scene_, scene);

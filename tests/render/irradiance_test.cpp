@@ -13,35 +13,22 @@ namespace {
 
 constexpr double kFill = 0.030, kLevel = kPaperCupBottom + kFill;
 
-struct View {
-  explicit View(const Setup& setup)
-      : rig(setup.rig), geometry(build_geometry(setup.scene, rig.sensor.wavelength_nm)), world(geometry) {}
-
-  Ray camera_ray(const Eigen::Vector3d& at) const {
-    return {rig.camera_in_world(), (at - rig.camera_in_world()).normalized()};
-  }
-
-  Rig rig;
-  Geometry geometry;
-  Intersector world;
-};
-
 /// The paper's cup at 300 mm with 30 mm of a liquid of index 1.3281.
-View filled_view(double absorption_per_mm) {
+LitScene filled_view(double absorption_per_mm) {
   Setup setup = cup_setup(30.0, 300.0, 300.0);
   Medium& medium = setup.scene.cups[0].filling->medium;
   medium.index = ConstantIndex{1.3281};
   medium.absorption = per_metre_from_per_mm(absorption_per_mm);
-  return View(setup);
+  return LitScene(setup);
 }
 
 TEST(Irradiance, ThroughTheSurfaceIsWhatCountedPhotonsBring) {
-  const View view = filled_view(0.0);
+  const LitScene view = filled_view(0.0);
   const Eigen::Vector3d projector = view.rig.projector_in_world();
   const auto seen = see(view.world, view.camera_ray({0.0, 0.300, kLevel}));
-  ASSERT_TRUE(seen && seen->liquid);
+  ASSERT_TRUE(seen && seen->around);
   ASSERT_NEAR(seen->point.z(), kPaperCupBottom, 1e-12);
-  const auto light = illuminate(view.world, projector, *seen);
+  const auto light = illuminate(view.projector, *seen);
   ASSERT_TRUE(light);
 
   // Photons of unit radiant intensity leave the projector evenly over a cone around the connection, refract, and are
@@ -75,12 +62,12 @@ TEST(Irradiance, ThroughTheSurfaceIsWhatCountedPhotonsBring) {
 }
 
 TEST(Irradiance, ABareSurfaceFollowsTheInverseSquareAndTheCosine) {
-  const View view(desk_setup());
+  const LitScene view(desk_setup());
   const Eigen::Vector3d point(0.05, 0.40, 0.0), projector = view.rig.projector_in_world();
   const auto seen = see(view.world, view.camera_ray(point));
   ASSERT_TRUE(seen);
   EXPECT_LT((seen->point - point).norm(), 1e-12);
-  const auto light = illuminate(view.world, projector, *seen);
+  const auto light = illuminate(view.projector, *seen);
   ASSERT_TRUE(light);
   const double distance = (point - projector).norm(), cosine = projector.z() / distance;
   EXPECT_NEAR(light->irradiance * distance * distance / cosine, 1.0, 1e-12);
@@ -89,13 +76,13 @@ TEST(Irradiance, ABareSurfaceFollowsTheInverseSquareAndTheCosine) {
 }
 
 TEST(Radiance, UnderAnAbsorbingLiquidFollowsBeerAndLambert) {
-  const View clear = filled_view(0.0), murky = filled_view(0.02);
+  const LitScene clear = filled_view(0.0), murky = filled_view(0.02);
   for (const double y : {0.285, 0.300, 0.315}) {
     const Ray ray = clear.camera_ray({0.005, y, kLevel});
     const auto seen = see(clear.world, ray), seen_murky = see(murky.world, ray);
-    ASSERT_TRUE(seen && seen->liquid && seen_murky);
-    const auto light = illuminate(clear.world, clear.rig.projector_in_world(), *seen);
-    const auto light_murky = illuminate(murky.world, murky.rig.projector_in_world(), *seen_murky);
+    ASSERT_TRUE(seen && seen->around && seen_murky);
+    const auto light = illuminate(clear.projector, *seen);
+    const auto light_murky = illuminate(murky.projector, *seen_murky);
     ASSERT_TRUE(light && light_murky);
     // Both ways inside have the liquid's depth over the cosine of the refracted angle, which Snell's law gives from the
     // directions in air.
@@ -111,10 +98,10 @@ TEST(Radiance, UnderAnAbsorbingLiquidFollowsBeerAndLambert) {
 }
 
 TEST(Radiance, ThroughTheSurfaceLosesTheFresnelPartAndSpreadsByTheIndexSquared) {
-  const View view = filled_view(0.0);
+  const LitScene view = filled_view(0.0);
   const Ray ray = view.camera_ray({0.0, 0.300, kLevel});
   const auto seen = see(view.world, ray);
-  ASSERT_TRUE(seen && seen->liquid);
+  ASSERT_TRUE(seen && seen->around);
   const double through = 1.0 - fresnel_reflectance(-ray.direction.z(), 1.0, 1.3281);
   EXPECT_NEAR(seen->transmittance, through / (1.3281 * 1.3281), 1e-15);
 }

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "core/units.h"
+#include "sim/render/connection.h"
 #include "sim/scene/setup.h"
 
 namespace fathom {
@@ -27,6 +29,46 @@ inline Setup desk_setup(const std::string& more = "") {
           more)),
       "test");
 }
+
+/// A scene, its surfaces, and the light that its projector casts.
+struct LitScene {
+  explicit LitScene(const Setup& setup)
+      : rig(setup.rig),
+        geometry(build_geometry(setup.scene, rig.sensor.wavelength_nm)),
+        world(geometry),
+        projector(world, rig.projector_in_world()) {}
+
+  Ray camera_ray(const Eigen::Vector3d& at) const {
+    return {rig.camera_in_world(), (at - rig.camera_in_world()).normalized()};
+  }
+  std::vector<Connection> connections(const Eigen::Vector3d& point, const Body* around) const {
+    std::vector<Connection> found;
+    projector.connect({point, around}, [&](const Connection& way) { found.push_back(way); });
+    return found;
+  }
+
+  Rig rig;
+  Geometry geometry;
+  Intersector world;
+  PointLight projector;
+};
+
+/// The sensor over a cup of the given shape at 300 mm; `more` goes into the cup.
+inline Setup cup_of(const std::string& shape, const std::string& more) {
+  return setup_from_json(Json::parse(fmt::format(R"({{"sensor": {{"height_mm": 650, "aim_mm": [0, 300, 0]}},
+                                   "cups": [{{"shape": {}, "position_mm": [0, 300]{}}}]}})",
+                                                 shape, more)),
+                         "test");
+}
+inline constexpr const char* kPaperCup = "\"paper_cup\"";
+inline constexpr const char* kGlassCup = R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40,
+    "outer_radius_mm": 43, "material": {"index": 1.51, "absorption_per_mm": 0.044}})";
+inline constexpr const char* kWater = R"(, "liquid": {"index": 1.3281, "absorption_per_mm": 0.0031}, "fill_mm": 30)";
+inline constexpr const char* kMeniscus = R"(, "surface": {"contact_angle_deg": 30, "capillary_length_mm": 2.73})";
+inline constexpr const char* kTilted = R"(, "surface": {"tilt_deg": 8, "tilt_azimuth_deg": 40})";
+inline constexpr const char* kRippled = R"(, "surface": {"contact_angle_deg": 70, "capillary_length_mm": 2.73,
+    "tilt_deg": 1, "ripples": [{"wavelength_mm": 15, "amplitude_mm": 0.2, "azimuth_deg": 20},
+                               {"wavelength_mm": 9, "amplitude_mm": 0.05, "azimuth_deg": 100, "phase_deg": 50}]})";
 
 /// Height of the inner bottom of the paper's cup above the desk [m].
 inline constexpr double kPaperCupBottom = 0.007;

@@ -76,6 +76,46 @@ TEST(Gltf, AMeshWithoutIndicesIsReadInOrder) {
   EXPECT_EQ(read(json)[0].mesh.triangles.at(0), Eigen::Vector3i(0, 1, 2));
 }
 
+Json clear_triangle() {
+  Json json = triangle();
+  json["materials"][0] = Json::parse(R"({"name": "water", "extensions": {
+      "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.33},
+      "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0.5, "attenuationColor": [0.2, 0.2, 0.2]}}})");
+  return json;
+}
+
+TEST(Gltf, ATransmissiveMaterialIsAClearBody) {
+  const std::vector<GltfPart> parts = read(clear_triangle());
+  ASSERT_TRUE(parts.at(0).medium);
+  EXPECT_EQ(parts[0].medium->name, "water");
+  EXPECT_EQ(parts[0].medium->n(830.0), 1.33);
+  EXPECT_NEAR(parts[0].medium->absorption, -std::log(0.2) / 0.5, 1e-12);  // a fifth is left after half a metre
+  Json json = clear_triangle();
+  json["materials"][0]["extras"] =
+      Json::parse(R"({"absorption_per_mm": 0.003, "anisotropy": 0.8, "scattering_per_mm": 2})");
+  const Medium medium = *read(json).at(0).medium;
+  EXPECT_NEAR(medium.absorption, 3.0, 1e-12);
+  EXPECT_NEAR(medium.scattering, 2000.0, 1e-9);
+  EXPECT_EQ(medium.anisotropy, 0.8);
+  json["materials"][0]["extensions"].erase("KHR_materials_ior");
+  EXPECT_EQ(read(json).at(0).medium->n(830.0), 1.5);  // glTF's default
+  EXPECT_FALSE(read(triangle()).at(0).medium);
+}
+
+TEST(Gltf, EachPlacedMeshIsABodyOfItsOwn) {
+  Json json = clear_triangle();
+  json["nodes"] = Json::parse(R"([{"children": [1, 2]}, {"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0]}])");
+  const std::vector<GltfPart> parts = read(json);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_NE(parts[0].body, parts[1].body);
+}
+
+TEST(Gltf, AMirroringNodeKeepsTheOutside) {
+  Json json = triangle();
+  json["nodes"][0]["scale"] = {-1, 1, 1};
+  EXPECT_EQ(read(json)[0].mesh.triangles.at(0), Eigen::Vector3i(0, 2, 1));
+}
+
 TEST(Gltf, BrokenFilesAreAnsweredInOneLine) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   expect_error([] { read(triangle({1, 2, kNan, 4, 5, 6, 7, 8, 10})); }, {"thing.gltf: ", "is not finite"});
@@ -105,7 +145,14 @@ TEST(Gltf, BrokenFilesAreAnsweredInOneLine) {
       {"/meshes/0/primitives/0/attributes", "{\"NORMAL\": 0}", "has no POSITION"},
       {"/meshes/0/primitives/0/attributes", "{\"POSITION\": 12}", ""},
       {"/meshes/0/primitives/0/material", "4", ""},
-      {"/materials/0/extensions", R"({"KHR_materials_transmission": {"transmissionFactor": 1}})", "is transmissive"},
+      {"/materials/0/extensions", R"({"KHR_materials_transmission": {"transmissionFactor": 2}})", "from 0 to 1"},
+      {"/materials/0/extensions",
+       R"({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0.5}})",
+       "from 1 to 4"},
+      {"/materials/0/extensions",
+       R"({"KHR_materials_transmission": {"transmissionFactor": 1},
+           "KHR_materials_volume": {"attenuationDistance": 1, "attenuationColor": [0, 0, 0]}})",
+       "attenuationColor: must be 3 numbers"},
   };
   for (const Break& broken : breaks) {
     Json json = triangle();

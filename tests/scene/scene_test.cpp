@@ -163,13 +163,58 @@ TEST(Library, EveryEntryLoadsAndNamesItsSource) {
     EXPECT_GT(medium.n(830.0), 1.32) << name;  // drinks are water and more
     EXPECT_LT(medium.n(830.0), 1.37) << name;
   }
+  for (const std::string& name : library_names("walls")) {
+    const Json json = as_json(name);
+    const Medium medium = wall_from_json(JsonReader(json, "test"));
+    EXPECT_FALSE(medium.source.empty()) << name;
+    EXPECT_GT(medium.n(830.0), 1.45) << name;  // glasses and plastics
+    EXPECT_LT(medium.n(830.0), 1.60) << name;
+  }
   for (const std::string& name : library_names("sensors"))
     EXPECT_EQ(changed("/sensor/model", as_json(name).dump().c_str()).rig.sensor.name, name);
 }
 
+TEST(LiquidForm, MustStayBetweenBottomAndRim) {
+  const auto with = [](const char* surface) { return [=] { changed("/cups/0/surface", surface); }; };
+  expect_error(with(R"({"tilt_deg": 44, "contact_angle_deg": 90, "capillary_length_mm": 2})"), {"/cups/0/surface: l"});
+  expect_error(with(R"({"ripples": [{"wavelength_mm": 5, "amplitude_mm": 90}]})"), {"/cups/0/surface: lifts", "rim"});
+  expect_error(with(R"({"contact_angle_deg": 30})"), {"/cups/0/surface/capillary_length_mm: is missing"});
+  expect_error(with(R"({"contact_angle_deg": 0, "capillary_length_mm": 2.73})"),
+               {"contact_angle_deg: must be a number"});
+  expect_error(with(R"({"tilt_deg": -1})"), {"/cups/0/surface/tilt_deg: must be a number from 0"});
+  expect_error([] { changed("/cups/0", R"({"shape": "paper_cup", "position_mm": [0, 400], "surface": {}})"); },
+               {"/cups/0/surface: needs a liquid"});
+}
+
+TEST(ClearWall, HasNoAlbedoNoHandleAndDoesNotScatter) {
+  const auto with = [](const char* more) {
+    return [=] {
+      changed("/cups/0/shape", (R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43, )" +
+                                std::string(more) + "}")
+                                   .c_str());
+    };
+  };
+  with(R"("material": "soda_lime")")();
+  expect_error(with(R"("material": "pmma", "albedo": 0.5)"), {"/cups/0/shape/albedo: cannot stand beside material"});
+  expect_error(with(R"("material": "pmma", "handle": {})"), {"/cups/0/shape/handle: cannot stand beside material"});
+  expect_error(with(R"("material": "glass")"), {"unknown wall material 'glass'", "soda_lime"});
+  expect_error(with(R"("material": {"index": 1.5, "scattering_per_mm": 1})"), {"/cups/0/shape/material: scatters"});
+}
+
+TEST(Geometry, WallsWinOverGltfBodiesOverLiquids) {
+  auto setup = changed("/objects", "[]");
+  std::get<CupShape>(setup.scene.cups[0].shape).material =
+      Medium{.name = "glass", .index = ConstantIndex{1.2}, .source = ""};
+  const Geometry geometry = build_geometry(setup.scene, 830.0);
+  ASSERT_EQ(geometry.bodies.size(), 2u);
+  EXPECT_GT(geometry.bodies[0].n, 1.3);  // the liquid, though the denser
+  EXPECT_EQ(geometry.bodies[1].n, 1.2);
+  EXPECT_FALSE(geometry.bodies[0].plain);
+}
+
 TEST(Geometry, TurbidLiquidsAreOpaqueAndSaySo) {
   auto setup = changed("/objects", "[]");
-  EXPECT_TRUE(std::holds_alternative<LiquidSurface>(build_geometry(setup.scene, 830.0).surfaces.back().optics));
+  EXPECT_TRUE(std::holds_alternative<Interface>(build_geometry(setup.scene, 830.0).surfaces.back().optics));
   setup = changed("/cups/0/liquid", "\"milk_tea\"");
   setup.scene.objects.clear();
   const Geometry geometry = build_geometry(setup.scene, 830.0);

@@ -19,9 +19,12 @@ Json full_scene() {
     "desk": {},
     "cups": [{"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33, "handle": {}},
               "position_mm": [0, 400], "fill_mm": 20,
-              "liquid": {"index": {"sellmeier_a": [0.75], "sellmeier_b_um2": [0.01], "range_nm": [400, 900]}, "ranges": {}}},
+              "liquid": {"index": {"sellmeier_a": [0.75], "sellmeier_b_um2": [0.01], "range_nm": [400, 900]}, "ranges": {}},
+              "surface": {"ripples": [{"wavelength_mm": 10, "amplitude_mm": 0.1}]}},
              {"shape": "mug", "position_mm": [200, 400], "fill_mm": 20, "liquid": {"name": "water"}},
-             {"shape": "mug", "position_mm": [-200, 400], "fill_mm": 20, "liquid": {"index": {"dispersion": "water"}}}],
+             {"shape": "mug", "position_mm": [-200, 400], "fill_mm": 20, "liquid": {"index": {"dispersion": "water"}}},
+             {"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33,
+                        "material": {"index": 1.51}}, "position_mm": [100, 400]}],
     "objects": [{"gltf": "box.glb"}]
   })");
 }
@@ -66,6 +69,9 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
       {"/cups/0/shape", "/$defs/shape"},
       {"/cups/0/shape/handle", "/$defs/handle"},
       {"/cups/0/liquid", "/$defs/liquid"},
+      {"/cups/0/surface", "/$defs/surface"},
+      {"/cups/0/surface/ripples/0", "/$defs/ripple"},
+      {"/cups/3/shape/material", "/$defs/liquid"},
       {"/cups/0/liquid/index", "/$defs/dispersion"},
       {"/cups/0/liquid/ranges", "/$defs/ranges"},
       {"/cups/1/liquid", "/$defs/changed_liquid"},

@@ -1,0 +1,32 @@
+// What happens to a ray at the boundaries of clear bodies, which may overlap: the body of highest priority is the one
+// that the light is in, and light bends only where that changes.
+#pragma once
+
+#include <bit>
+#include <optional>
+
+#include "sim/render/intersect.h"
+
+namespace fathom {
+
+/// The body that fills the places in all of `inside`: the last; nullptr stands for air.
+inline const Body* medium_in(const Geometry& geometry, BodySet inside) {
+  return inside ? &geometry.bodies[std::bit_width(inside) - 1] : nullptr;
+}
+inline double index_of(const Body* medium) { return medium ? medium->n : 1.0; }
+inline double absorption_of(const Body* medium) { return medium ? medium->absorption : 0.0; }
+
+/// The bodies around a ray after it has gone through the interface that it hits.
+BodySet beyond(const Hit& hit, BodySet inside);
+
+/// A place where the medium changes along a ray.
+struct Crossing {
+  Hit hit;
+  BodySet before, beyond;  ///< bodies around the ray on both sides
+  const Body *from, *to;   ///< media on both sides
+};
+/// The next one on a ray, boundaries within other bodies passed over and opaque surfaces ignored. The hit's distance
+/// counts from the ray's origin.
+std::optional<Crossing> next_crossing(const Intersector& world, const Ray& ray, BodySet inside);
+
+}  // namespace fathom

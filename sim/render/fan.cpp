@@ -1,0 +1,149 @@
+#include "sim/render/fan.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace fathom {
+namespace {
+
+constexpr double kSpacing = 2e-3;   ///< [rad] 1.3 mm from the sensor's height
+constexpr double kBox = 5e-3;       ///< [m] edge of a box; pencils that grow wider than this are sent more finely
+constexpr int kMostHalvings = 2;    ///< of the spacing
+constexpr double kBeyond = 5e-3;    ///< [m] by which a piece goes on beyond its ends, for its neighbours may
+constexpr int kLongestChain = 8;    ///< of interfaces; light that is trapped in a wall goes on for long
+constexpr double kFaintest = 1e-4;  ///< transmittance
+
+using Cell = std::pair<int, int>;
+
+/// The cells of a gnomonic grid about `axis` that contain boundaries of clear bodies, as the source sees them.
+std::set<Cell> covered_cells(const Geometry& geometry, const Eigen::Vector3d& source, const Eigen::Vector3d& axis,
+                             const Matrix32d& basis) {
+  constexpr double kWidest = 0.1;  // cosine: 84° off the axis
+  std::set<Cell> cells;
+  for (const Surface& surface : geometry.surfaces) {
+    if (!std::holds_alternative<Interface>(surface.optics)) continue;
+    for (const Eigen::Vector3i& triangle : surface.mesh.triangles) {
+      Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
+      for (const int corner : triangle) {
+        const Eigen::Vector3d towards = surface.mesh.vertices[corner] - source;
+        const double along = towards.dot(axis);
+        if (along < kWidest * towards.norm()) continue;
+        const Eigen::Array2d at = (basis.transpose() * towards / along).array() / kSpacing;
+        low = low.min(at), high = high.max(at);
+      }
+      for (int i = static_cast<int>(std::floor(low.x())); i <= high.x(); ++i)
+        for (int j = static_cast<int>(std::floor(low.y())); j <= high.y(); ++j) cells.emplace(i, j);
+    }
+  }
+  return cells;
+}
+
+Eigen::Vector3d mean_direction(const Geometry& geometry, const Eigen::Vector3d& source) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Surface& surface : geometry.surfaces)
+    if (std::holds_alternative<Interface>(surface.optics))
+      for (const Eigen::Vector3d& vertex : surface.mesh.vertices) sum += (vertex - source).normalized();
+  return sum.norm() > 0.0 ? Eigen::Vector3d(sum.normalized()) : -Eigen::Vector3d::UnitZ();
+}
+
+/// Half the width of a seed's pencil [m] at a distance along its piece.
+double reach(const Seed& seed, double distance) {
+  return seed.spacing * (seed.pencil.d_origin + distance * seed.pencil.d_direction).norm();
+}
+
+std::uint64_t box_of(const Eigen::Array3i& index) {
+  constexpr int kHalf = 1 << 20;
+  std::uint64_t key = 0;
+  for (int axis = 0; axis < 3; ++axis) key = key << 21 | static_cast<std::uint64_t>(index[axis] + kHalf);
+  return key;
+}
+
+Eigen::Array3i box_index(const Eigen::Vector3d& point) { return (point.array() / kBox).floor().cast<int>(); }
+
+}  // namespace
+
+Fan::Fan(const Intersector& world, const Source& source, Event first) {
+  const Eigen::Vector3d axis = mean_direction(world.geometry(), source.position);
+  const Matrix32d basis = perpendicular_to(axis);
+  for (const auto& [i, j] : covered_cells(world.geometry(), source.position, axis, basis))
+    send(world, source, first, (axis + basis * Eigen::Vector2d(i + 0.5, j + 0.5) * kSpacing).normalized(), kSpacing, 0);
+  for (std::uint32_t seed = 0; seed < seeds_.size(); ++seed) file(seed);
+  std::sort(entries_.begin(), entries_.end());
+  entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
+}
+
+void Fan::send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
+               double spacing, int halvings) {
+  const std::size_t sent = seeds_.size();
+  bool too_wide = false;
+  Flight flight{pencil_from(source.position, direction), source.inside, 1.0};
+  for (int crossings = 0; crossings <= kLongestChain && flight.transmittance > kFaintest; ++crossings) {
+    const Ray ray{flight.pencil.origin, flight.pencil.direction};
+    const std::optional<Crossing> next = next_crossing(world, ray, flight.inside);
+    const double open = world.first_opaque(ray);
+    const bool ends = !next || open < next->hit.distance;
+    const Body* medium = medium_in(world.geometry(), flight.inside);
+    // In air only surfaces receive light; in a body any place may scatter it.
+    if (crossings > 0 && (medium || ends) && (std::isfinite(open) || next)) {
+      const double end = ends ? open : next->hit.distance;
+      seeds_.push_back({direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings});
+      too_wide = too_wide || reach(seeds_.back(), end) > kBox;
+    }
+    if (ends) break;
+    pass(world, *next, crossings == 0 ? first : Event::refract, flight);
+  }
+  if (!too_wide || halvings == kMostHalvings) return;
+  seeds_.resize(sent);
+  const Matrix32d basis = perpendicular_to(direction);
+  for (const double a : {-0.25, 0.25})
+    for (const double b : {-0.25, 0.25})
+      send(world, source, first, (direction + basis * Eigen::Vector2d(a, b) * spacing).normalized(), 0.5 * spacing,
+           halvings + 1);
+}
+
+void Fan::file(std::uint32_t number) {
+  const Seed& seed = seeds_[number];
+  const double begin = seed.begin - kBeyond, length = seed.end + kBeyond - begin;
+  const int steps = static_cast<int>(std::ceil(length / kBox));
+  for (int step = 0; step <= steps; ++step) {
+    const double distance = begin + length * step / steps;
+    const Eigen::Vector3d middle = seed.pencil.origin + distance * seed.pencil.direction;
+    const double around = std::clamp(2.0 * reach(seed, distance), 0.5 * kBox, kBox);
+    const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
+    for (int i = low.x(); i <= high.x(); ++i)
+      for (int j = low.y(); j <= high.y(); ++j)
+        for (int k = low.z(); k <= high.z(); ++k) entries_.push_back({box_of({i, j, k}), number});
+  }
+}
+
+std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body* around) const {
+  constexpr double kMostSteps = 2.5;
+  std::vector<Candidate> candidates;
+  const std::uint64_t box = box_of(box_index(target));
+  for (auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{box, 0});
+       entry != entries_.end() && entry->box == box; ++entry) {
+    const Seed& seed = seeds_[entry->seed];
+    if (seed.medium != around) continue;
+    const Landing landing = land(seed.pencil, target);
+    if (landing.distance < seed.begin - kBeyond || landing.distance > seed.end + kBeyond) continue;
+    const double determinant = landing.jacobian.determinant();
+    Eigen::Vector2d step = landing.jacobian.inverse() * landing.miss;
+    double steps = step.norm() / seed.spacing;
+    // Near a caustic the landing is far from linear: a small miss is as good as a short step.
+    if (!(steps < kMostSteps)) {
+      if (landing.miss.norm() > 0.7 * reach(seed, landing.distance)) continue;
+      step.setZero(), steps = kMostSteps;
+    }
+    candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, determinant < 0.0});
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::pair(a.steps, a.seed) < std::pair(b.steps, b.seed);
+  });
+  return candidates;
+}
+
+}  // namespace fathom

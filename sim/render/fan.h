@@ -1,0 +1,50 @@
+// Where to start aiming: rays from a source in all directions in which it sees clear bodies, traced once, each standing
+// for the small pencil around it. A point's connections lie in the pencils that it lies in.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/render/shoot.h"
+
+namespace fathom {
+
+/// One straight piece of a traced ray, behind at least one interface.
+struct Seed {
+  Eigen::Vector3d direction;  ///< in which the light left the source
+  Pencil pencil;              ///< at the piece's beginning
+  double begin, end;          ///< [m] along the piece: where it may light something
+  double spacing;             ///< [rad] from the neighbouring seeds
+  const Body* medium;         ///< around the piece
+  int crossings;
+};
+
+class Fan {
+ public:
+  /// `first` is what the first interface does.
+  Fan(const Intersector& world, const Source& source, Event first);
+
+  struct Candidate {
+    const Seed* seed;
+    Eigen::Vector3d direction;  ///< that would land on the target if the landing were linear; not of unit length
+    double steps;               ///< from the seed to there, in spacings
+    bool turned_over;           ///< as in Connection
+  };
+  /// The seeds near whose pencils `target` lies in the medium `around`, the nearest first.
+  std::vector<Candidate> near(const Eigen::Vector3d& target, const Body* around) const;
+
+ private:
+  void send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
+            double spacing, int halvings);
+  void file(std::uint32_t seed);
+
+  struct Entry {
+    std::uint64_t box;
+    std::uint32_t seed;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Seed> seeds_;
+  std::vector<Entry> entries_;  ///< which pencils touch a box of space, by box
+};
+
+}  // namespace fathom

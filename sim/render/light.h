@@ -1,0 +1,51 @@
+// A point of light and every way in which it reaches a point: straight, through clear bodies, or mirrored by a liquid.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "sim/render/fan.h"
+#include "sim/render/shoot.h"
+
+namespace fathom {
+
+/// What light is asked for: a place on a surface, or one in a medium that scatters.
+struct Receiver {
+  Eigen::Vector3d point;                    ///< [m] world
+  const Body* around;                       ///< the medium there; nullptr is air
+  const Eigen::Vector3d* facing = nullptr;  ///< ways that come from behind this normal are left out
+};
+
+class PointLight {
+ public:
+  /// Keeps a reference to `world`, which must outlive it. A world with more than level liquids in opaque cups is
+  /// searched once for the directions that lead through its clear bodies (about 0.1 s).
+  PointLight(const Intersector& world, const Eigen::Vector3d& position);
+
+  /// Calls `visit` with each connection, in an order that depends on nothing else. Straight and level ways are exact
+  /// and complete; of the others those are found that lie near a seed (see Fan). Safe to call from several threads.
+  template <class Visit>
+  void connect(const Receiver& receiver, Visit&& visit) const {
+    connect_each(receiver, std::ref(visit));
+  }
+  /// The same for light that a liquid's surface mirrors first.
+  template <class Visit>
+  void connect_mirrored(const Receiver& receiver, Visit&& visit) const {
+    connect_mirrored_each(receiver, std::ref(visit));
+  }
+
+  const Intersector& world() const { return world_; }
+  const Eigen::Vector3d& position() const { return source_.position; }
+
+ private:
+  using Visitor = std::function<void(const Connection&)>;
+  void connect_each(const Receiver& receiver, const Visitor& visit) const;
+  void connect_mirrored_each(const Receiver& receiver, const Visitor& visit) const;
+  void connect_from(const Fan& fan, Event first, const Receiver& receiver, std::vector<Connection>& found) const;
+
+  const Intersector& world_;
+  Source source_;
+  std::optional<Fan> fan_, mirrored_fan_;
+};
+
+}  // namespace fathom

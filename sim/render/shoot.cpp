@@ -1,0 +1,142 @@
+#include "sim/render/shoot.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/optics/fresnel.h"
+#include "sim/optics/medium.h"
+
+namespace fathom {
+namespace {
+
+/// A flight through all interfaces, and where it bent.
+struct Trial {
+  Flight flight;
+  std::array<Eigen::Vector3d, kMostCrossings> bends;
+  Landing landing;
+
+  double miss() const { return landing.miss.norm(); }
+};
+
+struct Aim {
+  const Intersector& world;
+  const Source& source;
+  const Eigen::Vector3d& target;
+  const Body* around;
+  int crossings;
+  Event first;
+
+  std::optional<Trial> trial(const Eigen::Vector3d& direction) const {
+    Trial result{{pencil_from(source.position, direction), source.inside, 1.0}, {}, {}};
+    Flight& flight = result.flight;
+    for (int i = 0; i < crossings; ++i) {
+      const std::optional<Crossing> next =
+          next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+      if (!next) return std::nullopt;
+      pass(world, *next, i == 0 ? first : Event::refract, flight);
+      result.bends[i] = next->hit.point;
+    }
+    if (medium_in(world.geometry(), flight.inside) != around) return std::nullopt;
+    result.landing = land(flight.pencil, target);
+    if (result.landing.distance <= 0.0) return std::nullopt;
+    return result;
+  }
+
+  /// Newton's method on the two angles, each step shortened until it brings the landing nearer.
+  std::optional<Trial> solve(const Eigen::Vector3d& start) const {
+    constexpr double kExact = 1e-13, kGood = 1e-10;  // [m] roundings of about 1 m; what is accepted when stuck above
+    constexpr double kLongestStep = 0.05;            // [rad]
+    std::optional<Trial> best = trial(start);
+    for (int iteration = 0; best && iteration < 30 && best->miss() > kExact; ++iteration) {
+      const Eigen::Vector3d direction = direction_of(*best);
+      const Matrix32d basis = perpendicular_to(direction);
+      Eigen::Vector2d step = best->landing.jacobian.inverse() * best->landing.miss;
+      if (!step.allFinite()) return std::nullopt;
+      step *= std::min(1.0, kLongestStep / step.norm());
+      std::optional<Trial> next;
+      for (int halving = 0; halving < 8; ++halving, step *= 0.5) {
+        next = trial((direction + basis * step).normalized());
+        if (next && next->miss() < best->miss()) break;
+        next.reset();
+      }
+      if (!next) break;
+      best = next;
+    }
+    if (best && best->miss() > kGood) best.reset();
+    return best;
+  }
+
+  Eigen::Vector3d direction_of(const Trial& trial) const {
+    const Eigen::Vector3d& through = crossings > 0 ? trial.bends[0] : target;
+    return (through - source.position).normalized();
+  }
+
+  /// Whether nothing stands in the way and no further interface comes before the target.
+  bool open(const Trial& trial) const {
+    const Flight& flight = trial.flight;
+    const auto after = next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+    if (after && after->hit.distance < trial.landing.distance - Intersector::kClearance) return false;
+    Eigen::Vector3d from = target;
+    for (int i = crossings - 1; i >= 0; --i) {
+      if (world.occluded(from, trial.bends[i])) return false;
+      from = trial.bends[i];
+    }
+    return !world.occluded(from, source.position);
+  }
+};
+
+}  // namespace
+
+namespace {
+
+void cross(const Intersector& world, const Crossing& crossing, Flight& flight) {
+  const Hit& hit = crossing.hit;
+  const double n_from = index_of(crossing.from), n_to = index_of(crossing.to);
+  const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
+  const SurfaceFrame surface{hit.normal, world.curvature(hit)};
+  flight.transmittance *= transmittance(absorption_of(crossing.from), hit.distance);
+  advance(flight.pencil, hit.point, hit.normal);
+  if (refract(flight.pencil, surface, n_from, n_to)) {
+    flight.transmittance *= 1.0 - fresnel_reflectance(cosine, n_from, n_to);
+    flight.inside = crossing.beyond;
+  } else {
+    reflect(flight.pencil, surface);
+    flight.inside = crossing.before;
+  }
+}
+
+void mirror(const Intersector& world, const Crossing& crossing, Flight& flight) {
+  const Hit& hit = crossing.hit;
+  const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
+  flight.transmittance *= transmittance(absorption_of(crossing.from), hit.distance) *
+                          fresnel_reflectance(cosine, index_of(crossing.from), index_of(crossing.to));
+  advance(flight.pencil, hit.point, hit.normal);
+  reflect(flight.pencil, {hit.normal, world.curvature(hit)});
+  flight.inside = crossing.before;
+}
+
+}  // namespace
+
+void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight) {
+  event == Event::reflect ? mirror(world, crossing, flight) : cross(world, crossing, flight);
+}
+
+std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
+                                const Body* around, const Eigen::Vector3d& direction, int crossings, Event first) {
+  const Aim aim{world, source, target, around, crossings, first};
+  const std::optional<Trial> found = aim.solve(direction);
+  if (!found || !aim.open(*found)) return std::nullopt;
+  const Flight& flight = found->flight;
+  const double area = found->landing.jacobian.determinant();
+  return Connection{aim.direction_of(*found),
+                    flight.pencil.direction,
+                    1.0 / std::fabs(area),
+                    flight.transmittance * transmittance(absorption_of(around), found->landing.distance),
+                    crossings,
+                    area < 0.0};
+}
+
+}  // namespace fathom

@@ -1,0 +1,48 @@
+// The upper surface of a liquid in a cup: a smooth height above a round, plus the triangles that stand for it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sim/optics/meniscus.h"
+#include "sim/scene/mesh.h"
+#include "sim/scene/scene.h"
+
+namespace fathom {
+
+/// z = level + gradient · (x, y) + Σ amplitude sin(k · (x, y) + phase) + meniscus(radius − ρ), x and y from the cup's
+/// axis, ρ their distance from it.
+class LiquidTop {
+ public:
+  /// `level` [m] above the desk at the axis, without ripples; the axis at the origin.
+  LiquidTop(const CupShape& shape, double level, const LiquidForm& form);
+
+  struct Height {
+    double z;
+    Eigen::Vector2d gradient;
+    Eigen::Matrix2d hessian;  ///< [1/m]
+  };
+  Height at(const Eigen::Vector2d& xy) const;
+
+  /// Triangles with their corners on the surface, facing up, that reach half-way into the wall.
+  Mesh mesh() const;
+
+  void move(const Eigen::Vector2d& shift) { axis_ += shift; }
+
+ private:
+  struct Wave {
+    Eigen::Vector2d k;  ///< [rad/m]
+    double amplitude, phase;
+  };
+
+  Eigen::Vector2d axis_ = Eigen::Vector2d::Zero();
+  double level_;
+  double outer_;  ///< radius to which the mesh reaches: bodies overlap, the solid wins
+  Eigen::Vector2d gradient_;
+  std::vector<Wave> waves_;
+  std::optional<Meniscus> meniscus_;
+  double radius_ = 0.0;  ///< of the wall where the meniscus touches it
+};
+
+}  // namespace fathom
