@@ -51,7 +51,8 @@ void require_same_hits(const Yardstick& yardstick, const Recording& recording) {
 /// From the scene to the cloud, as Camera does it for one frame.
 Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, const Reference& reference) {
   const SensorModel& sensor = scene.setup.rig.sensor;
-  const Image<float> radiance = render_ir(scene.world, scene.setup.rig, pattern, kSamplesAcross);
+  const Image<float> radiance =
+      render_ir(scene.world, scene.setup.rig, pattern, kSamplesAcross, TurbidModel::surface, 1);
   const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
   const Image<float> depth = depth_image(sensor, match(sensor, ir, reference).disparity_px);
   return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));
@@ -82,7 +83,8 @@ void register_photometric() {
   Recording recording = record_render(scene.world, scene.setup.rig, kSamplesAcross);
   require_same_hits(*yardstick, recording);
   measure("photometric/fathom", recording.rays(), [yardstick, &scene, pattern] {
-    benchmark::DoNotOptimize(render_ir(scene.world, scene.setup.rig, *pattern, kSamplesAcross));
+    benchmark::DoNotOptimize(
+        render_ir(scene.world, scene.setup.rig, *pattern, kSamplesAcross, TurbidModel::surface, 1));
   });
   measure("photometric/frame", recording.rays(), [yardstick, &scene, pattern, reference] {
     benchmark::DoNotOptimize(whole_frame(scene, *pattern, *reference));

@@ -19,7 +19,7 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
     if (!hit) return std::nullopt;
     const Body* medium = medium_in(world.geometry(), inside);
     const double n_from = index_of(medium);
-    if (medium) through *= transmittance(medium->absorption, hit->distance);
+    if (medium) through *= transmittance(medium->extinction(), hit->distance);
     if (const auto* diffuse = std::get_if<Diffuse>(&hit->surface->optics)) {
       through *= n_camera * n_camera / (n_from * n_from);
       return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object, medium, refracted, through};
@@ -30,6 +30,11 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
     if (next == medium) {
       inside = after;
       continue;
+    }
+    if (next && next->scatters()) {
+      through *= n_camera * n_camera / (n_from * n_from);
+      return SeenPoint{hit->point, hit->normal, next->surface_albedo, hit->surface->object, medium, refracted,
+                       through,    next};
     }
     ++crossings;
     if (const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next))) {

@@ -9,15 +9,17 @@
 
 namespace fathom {
 
-/// The first diffuse point on a camera ray, through clear bodies where they stand in its way.
+/// The first diffuse point on a camera ray, through clear bodies where they stand in its way; or the place where it
+/// enters a body that scatters.
 struct SeenPoint {
   Eigen::Vector3d point;   ///< [m] world
   Eigen::Vector3d normal;  ///< unit, towards the camera's side
-  double albedo;
+  double albedo;           ///< of a body that scatters, its surface_albedo
   int object;
-  const Body* around;    ///< the medium at the point; nullptr is air
-  bool refracted;        ///< whether the ray bent on its way
-  double transmittance;  ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
+  const Body* around;             ///< the medium at the point; nullptr is air
+  bool refracted;                 ///< whether the ray bent on its way
+  double transmittance;           ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
+  const Body* entered = nullptr;  ///< the body that scatters, if any
 };
 
 /// How the projector lights a point.

@@ -13,8 +13,9 @@ namespace fathom {
 inline const Body* medium_in(const Geometry& geometry, BodySet inside) {
   return inside ? &geometry.bodies[std::bit_width(inside) - 1] : nullptr;
 }
-inline double index_of(const Body* medium) { return medium ? medium->n : 1.0; }
-inline double absorption_of(const Body* medium) { return medium ? medium->absorption : 0.0; }
+inline double index_of(const Body* medium) { return medium ? medium->medium.n : 1.0; }
+/// What unscattered light loses [1/m].
+inline double extinction_of(const Body* medium) { return medium ? medium->extinction() : 0.0; }
 
 /// The bodies around a ray after it has gone through the interface that it hits.
 BodySet beyond(const Hit& hit, BodySet inside);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -84,7 +85,8 @@ void Fan::send(const Intersector& world, const Source& source, Event first, cons
   for (int crossings = 0; crossings <= kLongestChain && flight.transmittance > kFaintest; ++crossings) {
     const Ray ray{flight.pencil.origin, flight.pencil.direction};
     const std::optional<Crossing> next = next_crossing(world, ray, flight.inside);
-    const double open = world.first_opaque(ray);
+    const std::optional<Hit> opaque = world.first_opaque(ray);
+    const double open = opaque ? opaque->distance : std::numeric_limits<double>::infinity();
     const bool ends = !next || open < next->hit.distance;
     const Body* medium = medium_in(world.geometry(), flight.inside);
     // In air only surfaces receive light; in a body any place may scatter it.

@@ -142,10 +142,7 @@ std::optional<Hit> Intersector::first_hit(const Ray& ray) const { return impl_->
 
 std::optional<Hit> Intersector::first_interface(const Ray& ray) const { return impl_->trace(impl_->clear, ray); }
 
-double Intersector::first_opaque(const Ray& ray) const {
-  const std::optional<Hit> hit = impl_->trace(impl_->opaque, ray);
-  return hit ? hit->distance : std::numeric_limits<double>::infinity();
-}
+std::optional<Hit> Intersector::first_opaque(const Ray& ray) const { return impl_->trace(impl_->opaque, ray); }
 
 bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
   RTCIntersectContext context;

@@ -32,8 +32,8 @@ class Intersector {
   std::optional<Hit> first_hit(const Ray& ray) const;
   /// First boundary of a clear body, as if opaque surfaces were not there.
   std::optional<Hit> first_interface(const Ray& ray) const;
-  /// Distance to the first opaque surface, as if clear bodies were not there; infinite without one.
-  double first_opaque(const Ray& ray) const;
+  /// First opaque surface, as if the boundaries of bodies were not there.
+  std::optional<Hit> first_opaque(const Ray& ray) const;
   /// Whether an opaque surface stands strictly between two points, each moved `kClearance` towards the other.
   bool occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 

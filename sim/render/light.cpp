@@ -20,7 +20,7 @@ std::optional<Connection> straight(const Source& source, const Receiver& receive
   const double squared = path.squaredNorm(), length = std::sqrt(squared);
   const Eigen::Vector3d direction = path / length;
   if (from_behind(receiver, direction)) return std::nullopt;
-  return Connection{direction, direction, 1.0 / squared, transmittance(absorption_of(receiver.around), length),
+  return Connection{direction, direction, 1.0 / squared, transmittance(extinction_of(receiver.around), length),
                     0,         false};
 }
 
@@ -32,7 +32,7 @@ std::optional<Connection> through_level(const Intersector& world, const Eigen::V
   if (height <= 0.0 || depth <= 0.0) return std::nullopt;
   const Eigen::Vector2d across = (receiver.point - source).head<2>();
   const double separation = across.norm();
-  const FlatCrossing crossing = cross_flat_interface(height, depth, separation, 1.0, liquid.n);
+  const FlatCrossing crossing = cross_flat_interface(height, depth, separation, 1.0, liquid.medium.n);
   const double share = separation > 0.0 ? crossing.offset / separation : 0.0;
   const Eigen::Vector3d bend(source.x() + share * across.x(), source.y() + share * across.y(), *liquid.level);
   const Eigen::Vector3d from_bend = receiver.point - bend;
@@ -43,8 +43,9 @@ std::optional<Connection> through_level(const Intersector& world, const Eigen::V
   const Eigen::Vector3d direction = (bend - source).normalized();
   const double cos_above = std::min(-direction.z(), 1.0);
   const double through =
-      (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.n)) * transmittance(liquid.absorption, path_in_liquid);
-  return Connection{direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.n), through, 1, false};
+      (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) * transmittance(liquid.extinction(), path_in_liquid);
+  return Connection{direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n),
+                    through,   1,       false};
 }
 
 /// Whether a way of the same kind has been found near where a candidate leads.

@@ -6,11 +6,17 @@
 
 namespace fathom {
 
-/// Digital number of a dot's centre [DN]: sensor.radiant_dn_mm2 · albedo · irradiance · transmittance. On a bare
-/// surface that is radiant_dn_mm2 · albedo · cos θ / r² with r in mm (Landau 2016).
-inline double radiance_dn(const SensorModel& sensor, const SeenPoint& seen, const Illumination& light) {
+/// Digital number [DN] of radiance that is reflected / π per unit radiant intensity of the projector; `reflected`
+/// [1/m²] is albedo · irradiance · transmittance. On a bare surface that is radiant_dn_mm2 · albedo · cos θ / r² with
+/// r in mm (Landau 2016).
+inline double radiance_dn(const SensorModel& sensor, double reflected) {
   constexpr double kSquareMetresPerSquareMm = 1e-6;
-  return sensor.radiant_dn_mm2 * kSquareMetresPerSquareMm * seen.albedo * light.irradiance * seen.transmittance;
+  return sensor.radiant_dn_mm2 * kSquareMetresPerSquareMm * reflected;
+}
+
+/// The same of a dot's centre on a surface.
+inline double radiance_dn(const SensorModel& sensor, const SeenPoint& seen, const Illumination& light) {
+  return radiance_dn(sensor, seen.albedo * light.irradiance * seen.transmittance);
 }
 
 }  // namespace fathom

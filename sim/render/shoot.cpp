@@ -97,7 +97,7 @@ void cross(const Intersector& world, const Crossing& crossing, Flight& flight) {
   const double n_from = index_of(crossing.from), n_to = index_of(crossing.to);
   const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
   const SurfaceFrame surface{hit.normal, world.curvature(hit)};
-  flight.transmittance *= transmittance(absorption_of(crossing.from), hit.distance);
+  flight.transmittance *= transmittance(extinction_of(crossing.from), hit.distance);
   advance(flight.pencil, hit.point, hit.normal);
   if (refract(flight.pencil, surface, n_from, n_to)) {
     flight.transmittance *= 1.0 - fresnel_reflectance(cosine, n_from, n_to);
@@ -111,7 +111,7 @@ void cross(const Intersector& world, const Crossing& crossing, Flight& flight) {
 void mirror(const Intersector& world, const Crossing& crossing, Flight& flight) {
   const Hit& hit = crossing.hit;
   const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
-  flight.transmittance *= transmittance(absorption_of(crossing.from), hit.distance) *
+  flight.transmittance *= transmittance(extinction_of(crossing.from), hit.distance) *
                           fresnel_reflectance(cosine, index_of(crossing.from), index_of(crossing.to));
   advance(flight.pencil, hit.point, hit.normal);
   reflect(flight.pencil, {hit.normal, world.curvature(hit)});
@@ -134,7 +134,7 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
   return Connection{aim.direction_of(*found),
                     flight.pencil.direction,
                     1.0 / std::fabs(area),
-                    flight.transmittance * transmittance(absorption_of(around), found->landing.distance),
+                    flight.transmittance * transmittance(extinction_of(around), found->landing.distance),
                     crossings,
                     area < 0.0};
 }

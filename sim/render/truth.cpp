@@ -13,7 +13,7 @@ TruePixel trace_pixel(const PointLight& projector, const Rig& rig, double x_px, 
   if (!seen) return pixel;
   pixel.position = seen->point;
   pixel.object = seen->object;
-  pixel.path = seen->refracted ? PathKind::refracted : PathKind::direct;
+  pixel.path = seen->entered ? PathKind::scattered : seen->refracted ? PathKind::refracted : PathKind::direct;
   const std::optional<Illumination> light = illuminate(projector, *seen);
   if (!light) return pixel;
   pixel.apparent_depth = triangulated_depth(rig, chief.direction, light->direction);

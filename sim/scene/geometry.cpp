@@ -54,7 +54,8 @@ class Builder {
   void finish() {
     constexpr std::size_t kMostBodies = 8 * sizeof(BodySet);
     if (bodies_.size() > kMostBodies)
-      throw Error("the scene", fmt::format("has {} clear bodies, must be at most {}", bodies_.size(), kMostBodies));
+      throw Error("the scene",
+                  fmt::format("has {} bodies that light enters, must be at most {}", bodies_.size(), kMostBodies));
     std::vector<int> order(bodies_.size()), rank(bodies_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(bodies_[a]) < key(bodies_[b]); });
@@ -75,20 +76,20 @@ class Builder {
 
   /// Among glTF bodies the denser one wins: glass over the liquid in it.
   static std::pair<Priority, double> key(const RankedBody& ranked) {
-    return {ranked.priority, ranked.priority == Priority::gltf ? ranked.body.n : 0.0};
+    return {ranked.priority, ranked.priority == Priority::gltf ? ranked.body.medium.n : 0.0};
   }
 
   int add_body(int object, const Medium& medium, Priority priority) {
-    bodies_.push_back({{object, medium.n(wavelength_nm_), medium.absorption}, priority});
+    const Turbid at_wavelength{medium.n(wavelength_nm_), medium.absorption, medium.scattering, medium.anisotropy};
+    bodies_.push_back({{object, at_wavelength}, priority});
+    if (medium.scatters()) {
+      bodies_.back().body.surface_albedo = diffuse_reflectance(medium, at_wavelength.n);
+      geometry_.approximations.push_back(
+          fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it (in "
+                      "images with --turbid walk it does, but what leaves the liquid is not followed on)",
+                      medium.name, bodies_.back().body.surface_albedo));
+    }
     return static_cast<int>(bodies_.size()) - 1;
-  }
-
-  Diffuse opaque(const Medium& medium) {
-    const double albedo = diffuse_reflectance(medium, medium.n(wavelength_nm_));
-    geometry_.approximations.push_back(
-        fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it",
-                    medium.name, albedo));
-    return {albedo};
   }
 
   void add_parts(std::vector<GltfPart> parts, int object) {
@@ -96,10 +97,6 @@ class Builder {
     for (GltfPart& part : parts) {
       if (!part.medium) {
         geometry_.surfaces.push_back({object, std::move(part.mesh), Diffuse{part.albedo}});
-        continue;
-      }
-      if (part.medium->scatters()) {
-        geometry_.surfaces.push_back({object, std::move(part.mesh), opaque(*part.medium)});
         continue;
       }
       const auto [known, is_new] = body_of_part.try_emplace(part.body);
@@ -137,11 +134,6 @@ class Builder {
     if (top)
       for (Mesh* part : {&mesh, &shell})
         part->transform(Pose(Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0)));
-    if (filling.medium.scatters()) {
-      mesh.append(shell);
-      geometry_.surfaces.push_back({object, std::move(mesh), opaque(filling.medium)});
-      return;
-    }
     const int body = add_body(object, filling.medium, Priority::liquid);
     bodies_[body].body.level = level;
     bodies_[body].body.plain = plain;

@@ -7,19 +7,24 @@
 #include <variant>
 #include <vector>
 
+#include "sim/optics/random_walk.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/surface_shape.h"
 
 namespace fathom {
 
-/// A clear body: a liquid, a cup's glass wall, a transmissive glTF mesh.
+/// A body that light enters: a liquid, a cup's glass wall, a transmissive glTF mesh.
 struct Body {
   int object;                        ///< as in Surface
-  double n;                          ///< refractive index; air is 1
-  double absorption;                 ///< μa [1/m]
+  Turbid medium;                     ///< at the scene's wavelength; air has the index 1
+  double surface_albedo = 0.0;       ///< of a body that scatters, if it were opaque (diffuse_reflectance)
   std::optional<double> level = {};  ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
   bool plain = false;                ///< whether it is level all over, in an opaque cup: light can enter only there
+
+  bool scatters() const { return medium.scattering > 0.0; }
+  /// What unscattered light loses on its way [1/m].
+  double extinction() const { return medium.absorption + medium.scattering; }
 };
 
 /// The bodies that a point lies in, bit i for Geometry::bodies[i]. Of bodies that overlap the last one wins.
@@ -30,7 +35,7 @@ struct Diffuse {
   double albedo;
 };
 
-/// Part of the boundary of a clear body; the triangles face out of it.
+/// Part of the boundary of a body; the triangles face out of it.
 struct Interface {
   int body;  ///< index into Geometry::bodies
 };
@@ -51,8 +56,7 @@ struct Geometry {
 };
 
 /// Builds the surfaces; media are evaluated at `wavelength_nm`. Throws Error on unreadable glTF files, on a medium
-/// asked outside its range and on more than 64 clear bodies. A medium that scatters becomes an opaque diffuse surface
-/// (see Geometry::approximations).
+/// asked outside its range and on more than 64 bodies.
 Geometry build_geometry(const Scene& scene, double wavelength_nm);
 
 }  // namespace fathom

@@ -5,7 +5,6 @@
 
 #include "sim/render/intersect.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/ir_camera.h"
 #include "sim/sensor/match.h"
 
 namespace fathom {
@@ -22,7 +21,7 @@ auto timed(double& seconds, Work work) {
 
 }  // namespace
 
-Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed)
+Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed, TurbidModel turbid)
     : rig_(setup.rig), mode_(mode), seed_(seed) {
   const SensorModel& sensor = rig_.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
@@ -38,7 +37,8 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
     return memorise(sensor, reference_image(sensor, pattern, margin, samples_across_), margin);
   });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
-  radiance_ = timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across_); });
+  radiance_ =
+      timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across_, turbid, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
 }
 

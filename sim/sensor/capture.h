@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "sim/render/truth.h"
 #include "sim/scene/setup.h"
+#include "sim/sensor/ir_camera.h"
 #include "sim/sensor/reference.h"
 
 namespace fathom {
@@ -34,7 +35,8 @@ struct CaptureStatistics {
 /// A scene that is ready to be shot several times: traced, rendered and memorised once.
 class Camera {
  public:
-  Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed);
+  Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
+         TurbidModel turbid = TurbidModel::surface);
 
   /// The frame of that number; only the noise differs from frame to frame.
   Frame shoot(std::uint64_t frame);

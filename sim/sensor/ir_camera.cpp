@@ -8,6 +8,7 @@
 #include "sim/render/connection.h"
 #include "sim/render/radiance.h"
 #include "sim/render/truth.h"
+#include "sim/render/turbid.h"
 #include "sim/sensor/pixel_mean.h"
 
 namespace fathom {
@@ -15,22 +16,38 @@ namespace {
 
 constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
+constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
 
-/// Radiance [DN] along one camera ray.
-double sample_radiance(const PointLight& projector, const Rig& rig, const Pattern& pattern, const Ray& ray) {
+/// Walks per camera ray that enters a scattering body.
+constexpr int kWalks = 4;
+
+/// Radiance [DN] along one camera ray; `rng` is for light that walks through scattering bodies.
+double sample_radiance(const PointLight& projector, const Rig& rig, const Pattern& pattern, const Ray& ray,
+                       TurbidModel turbid, Rng rng) {
   const std::optional<SeenPoint> seen = see(projector.world(), ray);
+  if (!seen) return 0.0;
+  const auto intensity = [&](const Eigen::Vector3d& direction) {
+    const Eigen::Vector2d at = rectified(rig, direction);
+    return pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+  };
   double radiance = 0.0;
-  if (!seen) return radiance;
-  for_each_illumination(projector, *seen, [&](const Illumination& light) {
-    const Eigen::Vector2d at = rectified(rig, light.direction);
-    radiance += radiance_dn(rig.sensor, *seen, light) * pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
-  });
-  return radiance;
+  if (!seen->entered || turbid == TurbidModel::surface) {
+    for_each_illumination(projector, *seen, [&](const Illumination& light) {
+      radiance += radiance_dn(rig.sensor, *seen, light) * intensity(light.direction);
+    });
+    return radiance;
+  }
+  for (int walk = 0; walk < kWalks; ++walk)
+    walk_turbid(projector, *seen, ray.direction, rng, [&](const ReturnedLight& light) {
+      radiance += radiance_dn(rig.sensor, light.reflected) * intensity(light.direction);
+    });
+  return radiance / kWalks;
 }
 
 }  // namespace
 
-Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across) {
+Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across,
+                       TurbidModel turbid, std::uint64_t seed) {
   const SensorModel& sensor = rig.sensor;
   const double px_per_ir_px = 1.0 / sensor.ir_scale();
   const Eigen::Vector3d camera = rig.camera_in_world();
@@ -39,9 +56,12 @@ Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& 
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
+        const auto pixel = static_cast<std::uint64_t>(y) * image.width() + x;
+        std::uint64_t samples = 0;
         const auto sample = [&](double dx, double dy) {
           const double x_px = (x + dx) * px_per_ir_px, y_px = (y - sensor.ir_first_row() + dy) * px_per_ir_px;
-          return sample_radiance(projector, rig, pattern, {camera, rig.direction_in_world(x_px, y_px)});
+          return sample_radiance(projector, rig, pattern, {camera, rig.direction_in_world(x_px, y_px)}, turbid,
+                                 Rng(seed, kWalkStream, pixel, samples++));
         };
         image(x, y) = static_cast<float>(pixel_mean(samples_across, sample));
       }

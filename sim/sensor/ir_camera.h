@@ -10,9 +10,17 @@
 
 namespace fathom {
 
+/// How a body that scatters looks in an image.
+enum class TurbidModel {
+  surface,  ///< like an opaque diffuse surface: fast, but light does not enter it
+  walk      ///< by random walks through it: dots blur and sink in
+};
+
 /// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise. Each pixel is sampled on a grid of
-/// `samples_across`² points; the dots are smooth, so a grid converges faster than random points and adds no noise.
-Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across);
+/// `samples_across`² points; the dots are smooth, so a grid converges faster than random points and adds no noise. Only
+/// light in scattering bodies walks at random, keyed by (seed, pixel, sample).
+Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across,
+                       TurbidModel turbid, std::uint64_t seed);
 
 /// Speckle of a static scene: one gain of unit mean for every dot, Gamma(shape, 1/shape).
 std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed);

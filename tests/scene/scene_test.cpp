@@ -207,18 +207,18 @@ TEST(Geometry, WallsWinOverGltfBodiesOverLiquids) {
       Medium{.name = "glass", .index = ConstantIndex{1.2}, .source = ""};
   const Geometry geometry = build_geometry(setup.scene, 830.0);
   ASSERT_EQ(geometry.bodies.size(), 2u);
-  EXPECT_GT(geometry.bodies[0].n, 1.3);  // the liquid, though the denser
-  EXPECT_EQ(geometry.bodies[1].n, 1.2);
+  EXPECT_GT(geometry.bodies[0].medium.n, 1.3);  // the liquid, though the denser
+  EXPECT_EQ(geometry.bodies[1].medium.n, 1.2);
   EXPECT_FALSE(geometry.bodies[0].plain);
 }
 
-TEST(Geometry, TurbidLiquidsAreOpaqueAndSaySo) {
+TEST(Geometry, TurbidLiquidsSayWhatIsLeftOut) {
   auto setup = changed("/objects", "[]");
   EXPECT_TRUE(std::holds_alternative<Interface>(build_geometry(setup.scene, 830.0).surfaces.back().optics));
   setup = changed("/cups/0/liquid", "\"milk_tea\"");
   setup.scene.objects.clear();
   const Geometry geometry = build_geometry(setup.scene, 830.0);
-  EXPECT_TRUE(std::holds_alternative<Diffuse>(geometry.surfaces.back().optics));
+  EXPECT_TRUE(geometry.bodies.back().scatters());
   EXPECT_EQ(geometry.approximations.size(), 1u);
   EXPECT_EQ(geometry.objects, (std::vector<std::string>{"desk", "cup 0 paper_cup", "cup 0 milk_tea"}));
 }
