@@ -6,7 +6,8 @@
 // Writes points.txt: of each pixel whose light crosses the surface its column and row, the point x, y, z [mm], and the
 // unit direction in which the last ray came there.
 //
-// All numbers are used as coordinates of a right-handed frame, z up; vcross and rotate have the same formulas in both.
+// Coordinates are those of the world, z up. That this frame is right-handed and POV-Ray's is not makes no difference to
+// the formulas of vcross and rotate, only to how a picture would look.
 #version 3.7;
 #include "parameters.inc"
 
@@ -34,8 +35,9 @@
 #ifdef (ContactAngleDeg)
   // Young-Laplace at a plane wall, bent around the axis: with height z and u = acosh(2 l / z),
   // distance from the wall / l = u - 2 tanh(u) + constant. Points evenly in u from the wall to the axis, where
-  // tanh(u) = 1 to 1e-12. The spline wants one more at each end: behind the wall and once more on the axis.
-  #declare Pieces = 200;
+  // tanh(u) = 1 to 1e-12. The spline wants one more at each end: behind the wall and once more on the axis. Its slope
+  // between points is off by the square of their distance.
+  #declare Pieces = 800;
   #declare AtWall = acosh(1 / sin(radians(90 - ContactAngleDeg) / 2));
   #declare FromWall = function(u) { CapillaryLengthMm * (u - AtWall - 2 * (tanh(u) - tanh(AtWall))) }
   #declare AtAxis = InnerMm / CapillaryLengthMm + AtWall + 2 * (1 - tanh(AtWall));

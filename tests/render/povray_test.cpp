@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -79,16 +80,25 @@ struct Seen {
 /// What POV-Ray finds in a box of pixels.
 std::map<Pixel, Seen> seen_by_povray(const LiquidSurface& surface, double distance_mm,
                                      const Eigen::AlignedBox2i& pixels, const std::filesystem::path& folder) {
-  std::filesystem::copy_file(FATHOM_POV_SCENE, folder / "scene.pov");  // it may read its working folder, not any
-  write_text(
-      folder / "parameters.inc",
-      fmt::format("#declare HeightMm = {};\n#declare DistanceMm = {};\n#declare LevelMm = {};\n#declare Index = {};\n"
-                  "#declare FirstColumn = {};\n#declare LastColumn = {};\n#declare FirstRow = {};\n#declare LastRow = "
-                  "{};\n{}\n",
-                  kSensorHeightMm, distance_mm, mm_from_metres(kPaperCupBottom) + kFillMm, kIndex, pixels.min().x(),
-                  pixels.max().x(), pixels.min().y(), pixels.max().y(), surface.in_povray));
+  std::filesystem::copy_file(FATHOM_POV_SCENE,
+                             folder / "scene.pov");  // Debian lets it read its working folder, not any other
+  write_text(folder / "parameters.inc",
+             fmt::format(R"(
+#declare HeightMm = {};
+#declare DistanceMm = {};
+#declare LevelMm = {};
+#declare Index = {};
+#declare FirstColumn = {};
+#declare LastColumn = {};
+#declare FirstRow = {};
+#declare LastRow = {};
+{}
+)",
+                         kSensorHeightMm, distance_mm, mm_from_metres(kPaperCupBottom) + kFillMm, kIndex,
+                         pixels.min().x(), pixels.max().x(), pixels.min().y(), pixels.max().y(), surface.in_povray));
   // No picture (-F, -D): the points are written while the scene is read.
-  const std::string run = fmt::format("cd '{}' && povray +Iscene.pov -F -D -V +W1 +H1 > log 2>&1", folder.string());
+  const std::string run =
+      fmt::format("cd '{}' && povray +Iscene.pov -F -D -V +W1 +H1 +WT1 > log 2>&1", folder.string());
   if (std::system(run.c_str()) != 0) throw std::runtime_error(read_text(folder / "log"));
   std::map<Pixel, Seen> seen;
   std::istringstream lines(read_text(folder / "points.txt"));
@@ -126,19 +136,19 @@ TEST_P(AgainstPovRay, TheFirstDiffusePointsAreTheSame) {
     const std::map<Pixel, Seen> expected = seen_by_povray(surface, distance_mm, box, folder / "");
 
     const Eigen::Vector2d axis(0.0, distance_mm);
-    std::vector<double> apart, off_ray, into_wall;  // [mm]
+    std::vector<double> apart, off_ray, radii_apart;  // [mm]
     for (const auto& [pixel, point] : refracted) {
       const auto same = expected.find(pixel);
       if (same == expected.end()) continue;
       const auto& [other, direction] = same->second;
       apart.push_back((point - other).norm());
       off_ray.push_back((point - other).cross(direction).norm());
-      into_wall.push_back(std::fabs((point.head<2>() - axis).norm() - (other.head<2>() - axis).norm()));
+      radii_apart.push_back(std::fabs((point.head<2>() - axis).norm() - (other.head<2>() - axis).norm()));
     }
     ASSERT_GT(apart.size(), 1000u);
     const auto one_sided = refracted.size() + expected.size() - 2 * apart.size();
     const auto record = [&](const char* name, const auto& value) {
-      RecordProperty(fmt::format("{}_at_{}_mm", name, distance_mm), fmt::format("{:.3g}", value));
+      RecordProperty(fmt::format("{}_at_{}_mm", name, distance_mm), fmt::format("{:.4g}", value));
     };
     record("pixels", static_cast<double>(apart.size()));
     record("seen_by_one_only", static_cast<double>(one_sided));
@@ -146,27 +156,31 @@ TEST_P(AgainstPovRay, TheFirstDiffusePointsAreTheSame) {
     record("quantile_999_mm", quantile(apart, 0.999));
     record("largest_mm", quantile(apart, 1.0));
     record("largest_off_ray_mm", quantile(off_ray, 1.0));
-    record("largest_in_radius_mm", quantile(into_wall, 1.0));
-    // The project's bar; a hundredth of what the sensor resolves.
+    record("largest_between_radii_mm", quantile(radii_apart, 1.0));
+    // The project's bar.
     EXPECT_LE(quantile(apart, 0.5), 0.01);
     EXPECT_LE(quantile(apart, 0.999), 0.05);
     // What the bar leaves room for is the wall of 256 facets, which a ray at a small angle to it meets early. Seen
     // across the ray, facets do not matter.
     EXPECT_LE(quantile(off_ray, 1.0), surface.off_ray_mm);
-    EXPECT_LE(quantile(into_wall, 1.0), 40.0 * (1.0 - std::cos(std::numbers::pi / kFacetsAround)) + surface.off_ray_mm);
-    // A ray past an edge that is 3 µm elsewhere: the pixels are 1 mm wide there, some 200 of them on edges.
+    EXPECT_LE(quantile(radii_apart, 1.0),
+              40.0 * (1.0 - std::cos(std::numbers::pi / kFacetsAround)) + surface.off_ray_mm);
+    // Rays past an edge that the facets move by 3 µm, where pixels are 1 mm wide and some 200 are on edges: 0.6 of
+    // them.
     EXPECT_LE(one_sided, 2u);
   }
 }
 
+// Off the ray: what is written has 12 digits, all else is rounding. The meniscus is a spline to POV-Ray: with twice as
+// many pieces 0.08 µm become a quarter. The paraboloid is a mesh to Fathom: the height of an arc above its chords.
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, AgainstPovRay,
     testing::Values(LiquidSurface{"plane", "", "#declare TiltDeg = 0;\n#declare TiltAzimuthDeg = 0;", 1e-9},
                     LiquidSurface{"tilted", R"(, "surface": {"tilt_deg": 4, "tilt_azimuth_deg": 40})",
                                   "#declare TiltDeg = 4;\n#declare TiltAzimuthDeg = 40;", 1e-9},
                     LiquidSurface{"meniscus", kMeniscus,
-                                  "#declare ContactAngleDeg = 30;\n#declare CapillaryLengthMm = 2.73;", 1e-4},
-                    LiquidSurface{"paraboloid", "", "#declare CurvaturePerMm = 0.009;", 1e-3, 0.009}),
+                                  "#declare ContactAngleDeg = 30;\n#declare CapillaryLengthMm = 2.73;", 2e-4},
+                    LiquidSurface{"paraboloid", "", "#declare CurvaturePerMm = 0.009;", 3e-4, 0.009}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
