@@ -26,7 +26,7 @@ struct Reader {
   std::string file;
   tinygltf::Model model;
   int placed_meshes = 0;                         ///< so far, by nodes
-  std::vector<bool> placed_nodes = {};           ///< so far, by index
+  std::vector<bool> placed_nodes;                ///< so far, by index
   std::map<std::array<int, 3>, GltfPart> parts;  ///< by material, clear body, whether it has normals
 
   [[noreturn]] void fail(const std::string& where, const std::string& what) const { throw Error(file, where, what); }
@@ -256,7 +256,7 @@ void GltfPart::transform(const Pose& pose) {
 }
 
 std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
-  Reader reader{path.string(), {}, 0, {}};
+  Reader reader{path.string(), {}, 0, {}, {}};
   if (!std::filesystem::is_regular_file(path)) throw Error(path.string(), "no such file");
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
