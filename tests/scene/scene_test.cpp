@@ -147,7 +147,7 @@ TEST(Scene, ImpossibleShapesAreRefused) {
        "inner_profile_mm/1/0: must be a number from 0 to 2000"},
   };
   for (const auto& [shape, message] : shapes)
-    expect_error([&] { changed("/cups/0/shape", shape); }, {"scene.json: /cups/0/shape", message});
+    expect_error([shape = shape] { changed("/cups/0/shape", shape); }, {"scene.json: /cups/0/shape", message});
 }
 
 TEST(Scene, GltfScenesAreRefusedInWords) {
