@@ -80,7 +80,7 @@ TEST_F(GltfCup, WhatIsNotInMetresIsRefused) {
     Mesh mesh = cup;
     for (Eigen::Vector3d& v : mesh.vertices) v *= scale;
     write_gltf(folder_ / "scaled.gltf", mesh);
-    return [this] { read(R"({"position_mm": [0, 400, 400], "liquid": "water", "fill_ml": 1e-9})", "scaled.gltf"); };
+    return [this] { read(R"({"position_mm": [0, 400, 400], "liquid": "water", "fill_ml": 1e-4})", "scaled.gltf"); };
   };
   expect_error(scaled(1000.0), {"/cups/0/shape: scaled.gltf is 100000 mm large, must be from 1 to 2000 mm", "metres"});
   expect_error(scaled(1e-15), {"/cups/0/shape: scaled.gltf is 1e-13 mm large, must be from 1 to 2000 mm"});
