@@ -90,14 +90,14 @@ double JsonReader::metres_or(std::string_view key, double otherwise_m, Range ran
   return has(key) ? metres(key, range_mm) : otherwise_m;
 }
 
-Eigen::Vector2d JsonReader::vector2() const {
-  const std::vector<double> values = numbers();
+Eigen::Vector2d JsonReader::vector2(Range range) const {
+  const std::vector<double> values = numbers(range);
   if (values.size() != 2) fail(fmt::format("must be a list of 2 numbers, got {}", shown(*value_)));
   return {values[0], values[1]};
 }
 
-Eigen::Vector3d JsonReader::vector3() const {
-  const std::vector<double> values = numbers();
+Eigen::Vector3d JsonReader::vector3(Range range) const {
+  const std::vector<double> values = numbers(range);
   if (values.size() != 3) fail(fmt::format("must be a list of 3 numbers, got {}", shown(*value_)));
   return {values[0], values[1], values[2]};
 }

@@ -42,8 +42,8 @@ class JsonReader {
   std::string text() const;
   int integer(int low, int high) const;
   std::vector<double> numbers(Range range = {}) const;
-  Eigen::Vector2d vector2() const;
-  Eigen::Vector3d vector3() const;
+  Eigen::Vector2d vector2(Range range = {}) const;
+  Eigen::Vector3d vector3(Range range = {}) const;
 
   // Members of an object; with a default where the key may be absent.
   double number(std::string_view key, Range range = {}) const { return at(key).number(range); }

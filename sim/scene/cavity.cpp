@@ -23,12 +23,21 @@ std::vector<Triangle> triangles_of(std::span<const Mesh> meshes) {
   return triangles;
 }
 
-/// 0.5 mm, a hundredth of smaller bodies, more for those that would need too much memory.
-double voxel_size(std::span<const Triangle> triangles) {
+/// 0.5 mm, a hundredth of smaller bodies, more for those that would need too much memory or too many layers. Nothing
+/// for bodies that are a single point.
+std::optional<double> voxel_size(std::span<const Triangle> triangles) {
   Eigen::AlignedBox3d box;
   for (const Triangle& triangle : triangles)
     for (const Eigen::Vector3d& corner : triangle) box.extend(corner);
-  return std::max(std::min(kFinestVoxel, box.sizes().maxCoeff() / 100.0), std::cbrt(box.volume() / kMostVoxels));
+  const double extent = box.sizes().maxCoeff();
+  if (extent == 0.0) return std::nullopt;
+  const auto fits = [&](double size) {
+    const Eigen::Array3d voxels = box.sizes().array() / size + 6.0;  // with the empty ones of grid_around
+    return voxels.prod() <= kMostVoxels && voxels.z() < kUnreached;
+  };
+  double size = std::min(kFinestVoxel, extent / 100.0);
+  while (!fits(size)) size *= 1.02;
+  return size;
 }
 
 /// Every voxel of the grid's hull.
@@ -287,7 +296,9 @@ std::optional<Cavity> find_cavity(std::span<const Mesh> meshes) {
   Cavity cavity;
   cavity.triangles_ = triangles_of(meshes);
   if (cavity.triangles_.empty()) return std::nullopt;
-  cavity.grid_ = grid_around(cavity.triangles_, voxel_size(cavity.triangles_));
+  const std::optional<double> size = voxel_size(cavity.triangles_);
+  if (!size) return std::nullopt;
+  cavity.grid_ = grid_around(cavity.triangles_, *size);
   if (!cavity.label_voxels()) return std::nullopt;
   cavity.find_columns();
   cavity.find_rim();

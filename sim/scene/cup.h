@@ -5,6 +5,11 @@
 
 namespace fathom {
 
+/// Sizes and places [mm] that scene files may give a cup. Within them a nanometre, to which levels are bisected, is far
+/// above rounding, and the meshes of wavy liquids fit in memory.
+inline constexpr Range kCupLengthMm{0.0, 2000.0, true};
+inline constexpr Range kCupPlaceMm{-1e5, 1e5};
+
 /// "paper_cup", "mug.glb"
 const std::string& cup_name(const Cup& cup);
 

@@ -1,9 +1,9 @@
 // Reading of a scene's cups, and of what is poured into them.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/units.h"
@@ -21,18 +21,23 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   const std::filesystem::path file = std::filesystem::path(json.file()).parent_path() / shape.text();
   MeshCup cup{file.filename().string(), read_gltf(file), nullptr};
   const Pose turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * rotation_from_json(json));
-  double lowest = std::numeric_limits<double>::infinity();
+  Eigen::AlignedBox3d box;
   for (GltfPart& part : cup.parts) {
     part.transform(turn);
-    for (const Eigen::Vector3d& vertex : part.mesh.vertices) lowest = std::min(lowest, vertex.z());
+    for (const Eigen::Vector3d& vertex : part.mesh.vertices) box.extend(vertex);
   }
+  constexpr double kSmallestMm = 1.0;
+  const double size_mm = mm_from_metres(box.sizes().maxCoeff());
+  if (!(size_mm >= kSmallestMm && size_mm <= kCupLengthMm.high))
+    shape.fail(fmt::format("{} is {:g} mm large, must be from {} to {} mm; lengths in glTF are metres", cup.name,
+                           size_mm, kSmallestMm, kCupLengthMm.high));
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   if (position.value().is_array() && position.value().size() == 3)
-    place = position.vector3() * kMetresPerMm;
+    place = position.vector3(kCupPlaceMm) * kMetresPerMm;
   else
-    place.head<2>() = position.vector2() * kMetresPerMm;
+    place.head<2>() = position.vector2(kCupPlaceMm) * kMetresPerMm;
   for (GltfPart& part : cup.parts)
-    part.transform(Pose(Eigen::Translation3d(place - lowest * Eigen::Vector3d::UnitZ())));
+    part.transform(Pose(Eigen::Translation3d(place - box.min().z() * Eigen::Vector3d::UnitZ())));
   return cup;
 }
 
@@ -151,7 +156,7 @@ Cup cup_from_json(const JsonReader& json) {
     cup.shape = mesh_cup_from_json(json, cup.yaw);
   } else {
     cup.shape = cup_shape_from_json(shape);
-    cup.position = json.at("position_mm").vector2() * kMetresPerMm;
+    cup.position = json.at("position_mm").vector2(kCupPlaceMm) * kMetresPerMm;
     if (json.has("rotation_deg")) json.fail_at("rotation_deg", "is for cups from glTF files; others have yaw_deg");
   }
   if (!json.has("liquid")) {

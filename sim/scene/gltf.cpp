@@ -26,6 +26,7 @@ struct Reader {
   std::string file;
   tinygltf::Model model;
   int placed_meshes = 0;                         ///< so far, by nodes
+  std::vector<bool> placed_nodes;                ///< so far, by index
   std::map<std::array<int, 3>, GltfPart> parts;  ///< by material, clear body, whether it has normals
 
   [[noreturn]] void fail(const std::string& where, const std::string& what) const { throw Error(file, where, what); }
@@ -162,7 +163,9 @@ struct Reader {
   void add_node(int index, const Eigen::Matrix4d& scene_from_parent, int depth) {
     const std::string where = fmt::format("/nodes/{}", index);
     if (index < 0 || index >= static_cast<int>(model.nodes.size())) fail(where, "does not exist");
-    if (depth > 100) fail(where, "is nested more than 100 deep, or in a circle");
+    if (depth > 100) fail(where, "is nested more than 100 deep");
+    if (placed_nodes[index]) fail(where, "stands in the scene twice, must have one parent at most");
+    placed_nodes[index] = true;
     const tinygltf::Node& node = model.nodes[index];
     const Eigen::Matrix4d scene_from_node = scene_from_parent * local_transform(node);
     if (node.mesh >= static_cast<int>(model.meshes.size())) fail(where, "names a mesh that does not exist");
@@ -253,7 +256,7 @@ void GltfPart::transform(const Pose& pose) {
 }
 
 std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
-  Reader reader{path.string(), {}, 0, {}};
+  Reader reader{path.string(), {}, 0, {}, {}};
   if (!std::filesystem::is_regular_file(path)) throw Error(path.string(), "no such file");
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
@@ -271,6 +274,7 @@ std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
   if (reader.model.scenes.empty()) throw Error(path.string(), "/scenes", "is empty, expected at least one scene");
   const int scene = std::max(reader.model.defaultScene, 0);
   if (scene >= static_cast<int>(reader.model.scenes.size())) throw Error(path.string(), "/scene", "does not exist");
+  reader.placed_nodes.resize(reader.model.nodes.size());
   for (const int node : reader.model.scenes[scene].nodes) reader.add_node(node, Eigen::Matrix4d::Identity(), 0);
   std::vector<GltfPart> parts;
   for (auto& [key, part] : reader.parts) parts.push_back(std::move(part));

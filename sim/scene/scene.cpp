@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/units.h"
+#include "sim/scene/cup.h"
 #include "sim/scene/library.h"
 #include "sim/scene/medium_json.h"
 
@@ -28,10 +29,11 @@ Desk desk_from_json(const JsonReader& json) {
 Handle handle_from_json(const JsonReader& json) {
   json.allow_only({"low_mm", "high_mm", "reach_mm", "tube_radius_mm"});
   Handle handle;
-  handle.low = metres_from_mm(json.number_or("low_mm", mm_from_metres(handle.low), kPositive));
-  handle.high = metres_from_mm(json.number_or("high_mm", mm_from_metres(handle.high), kPositive));
-  handle.reach = metres_from_mm(json.number_or("reach_mm", mm_from_metres(handle.reach), kPositive));
-  handle.tube_radius = metres_from_mm(json.number_or("tube_radius_mm", mm_from_metres(handle.tube_radius), kPositive));
+  handle.low = metres_from_mm(json.number_or("low_mm", mm_from_metres(handle.low), kCupLengthMm));
+  handle.high = metres_from_mm(json.number_or("high_mm", mm_from_metres(handle.high), kCupLengthMm));
+  handle.reach = metres_from_mm(json.number_or("reach_mm", mm_from_metres(handle.reach), kCupLengthMm));
+  handle.tube_radius =
+      metres_from_mm(json.number_or("tube_radius_mm", mm_from_metres(handle.tube_radius), kCupLengthMm));
   if (handle.high <= handle.low) json.fail_at("high_mm", "must be above low_mm");
   return handle;
 }
@@ -39,8 +41,7 @@ Handle handle_from_json(const JsonReader& json) {
 std::vector<Eigen::Vector2d> profile_from_json(const JsonReader& json) {
   std::vector<Eigen::Vector2d> profile;
   for (const JsonReader& item : json.items()) {
-    profile.push_back(item.vector2() * kMetresPerMm);
-    if (profile.back().minCoeff() < 0.0) item.fail("must be a radius and a height of at least 0");
+    profile.push_back(item.vector2({0.0, kCupLengthMm.high}) * kMetresPerMm);
     if (profile.size() > 1 && profile.back().y() < profile[profile.size() - 2].y())
       item.fail("must not be lower than the point before it");
   }
@@ -62,10 +63,10 @@ double radius_at(const std::vector<Eigen::Vector2d>& profile, double height) {
 
 /// Straight walls: the paper's cup and every "height, radii, bottom" description.
 void set_cylinder(const JsonReader& json, CupShape& shape) {
-  const double height = metres_from_mm(json.number("height_mm", kPositive));
-  const double bottom = metres_from_mm(json.number("bottom_mm", kPositive));
-  const double inner = metres_from_mm(json.number("inner_radius_mm", kPositive));
-  const double outer = metres_from_mm(json.number("outer_radius_mm", kPositive));
+  const double height = metres_from_mm(json.number("height_mm", kCupLengthMm));
+  const double bottom = metres_from_mm(json.number("bottom_mm", kCupLengthMm));
+  const double inner = metres_from_mm(json.number("inner_radius_mm", kCupLengthMm));
+  const double outer = metres_from_mm(json.number("outer_radius_mm", kCupLengthMm));
   if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
   if (outer <= inner) json.fail_at("outer_radius_mm", "must be above inner_radius_mm");
   shape.inner = {{0.0, bottom}, {inner, bottom}, {inner, height}};

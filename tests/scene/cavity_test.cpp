@@ -230,6 +230,29 @@ TEST(Cavity, WhatHoldsNothingIsNoCavity) {
   EXPECT_FALSE(cavity_of(tube));
   EXPECT_FALSE(cavity_of(Mesh{}));
   EXPECT_FALSE(find_cavity({}));
+  Mesh point;
+  for (int i = 0; i < 3; ++i) point.add_vertex({0.1, 0.2, 0.3});
+  point.add_triangle(0, 1, 2);
+  EXPECT_FALSE(cavity_of(point));
+}
+
+// Without a limit the grid of the plate would have 10^10 voxels, and that of the pole more layers than can be numbered.
+TEST(Cavity, ThinBodiesOfAnySizeAreMeasured) {
+  Mesh flat;
+  for (const Eigen::Vector3d& v : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(20, 0, 0), Eigen::Vector3d(0, 20, 0)})
+    flat.add_vertex(v);
+  flat.add_triangle(0, 1, 2);
+  EXPECT_FALSE(cavity_of(flat));
+
+  Mesh on_pole = sheet_cylinder();
+  const int foot = on_pole.add_vertex({0.041, 0.0, 0.01});
+  on_pole.add_vertex({0.041, 0.0, 20.0});
+  on_pole.add_vertex({0.042, 0.0, 20.0});
+  on_pole.add_triangle(foot, foot + 1, foot + 2);
+  const std::optional<Cavity> cavity = cavity_of(on_pole);
+  ASSERT_TRUE(cavity);
+  // Within the voxels, here of about 2 mm, the columns decide; the walls themselves are cut exactly.
+  EXPECT_NEAR(cavity->volume(0.037) / cylinder_volume(0.030), 1.0, 1e-5);
 }
 
 TEST(Cavity, LevelAndVolumeAreInverse) {

@@ -74,6 +74,20 @@ TEST_F(GltfCup, CanBeLiftedTurnedAndTilted) {
   EXPECT_GT(cavity.spill().y(), 0.45);
 }
 
+TEST_F(GltfCup, WhatIsNotInMetresIsRefused) {
+  Mesh cup = sheet_of_revolution({{0.0, 0.0}, {0.04, 0.0}, {0.04, 0.1}});
+  const auto scaled = [&](double scale) {
+    Mesh mesh = cup;
+    for (Eigen::Vector3d& v : mesh.vertices) v *= scale;
+    write_gltf(folder_ / "scaled.gltf", mesh);
+    return [this] { read(R"({"position_mm": [0, 400, 400], "liquid": "water", "fill_ml": 1e-4})", "scaled.gltf"); };
+  };
+  expect_error(scaled(1000.0), {"/cups/0/shape: scaled.gltf is 100000 mm large, must be from 1 to 2000 mm", "metres"});
+  expect_error(scaled(1e-15), {"/cups/0/shape: scaled.gltf is 1e-13 mm large, must be from 1 to 2000 mm"});
+  expect_error(scaled(0.0), {"/cups/0/shape: scaled.gltf is 0 mm large"});
+  EXPECT_NO_THROW(scaled(0.01)());
+}
+
 TEST_F(GltfCup, WhatCannotBeFilledIsAnsweredInOneLine) {
   write_gltf(folder_ / "plate.gltf", sheet_of_revolution({{0.0, 0.0}, {0.08, 0.0}, {0.08, 0.003}, {0.0, 0.003}}));
   const char* filled = R"({"position_mm": [0, 400], "liquid": "water", "fill_mm": 1})";

@@ -126,10 +126,11 @@ TEST(Gltf, BrokenFilesAreAnsweredInOneLine) {
     const char* message;
   };
   const Break breaks[] = {
-      {"/nodes/0/children", "[0]", "in a circle"},
+      {"/nodes/0/children", "[0]", "/nodes/0: stands in the scene twice"},
       {"/nodes/0/mesh", "7", ""},
       {"/scenes/0/nodes", "[5]", ""},
       {"/scenes/0/nodes", "[]", "has no triangles"},
+      {"/scenes/0/nodes", "[0, 0]", "/nodes/0: stands in the scene twice"},
       {"/scene", "3", ""},
       {"/accessors/0/count", "400000000", "past the end of its buffer"},
       {"/accessors/0/byteOffset", "1000", "past the end of its buffer"},
@@ -160,6 +161,20 @@ TEST(Gltf, BrokenFilesAreAnsweredInOneLine) {
     SCOPED_TRACE(std::string(broken.pointer) + " = " + broken.value);
     expect_error([&] { read(json); }, {"thing.gltf", broken.message});
   }
+}
+
+// Ninety generations of twins that share their children would be 2^90 meshes.
+TEST(Gltf, ANodeHasOneParentAndFewAncestors) {
+  Json json = triangle();
+  const auto generations = [&](int count, int children) {
+    json["nodes"] = Json::array();
+    for (int i = 1; i < count; ++i) json["nodes"].push_back({{"children", std::vector<int>(children, i)}});
+    json["nodes"].push_back({{"mesh", 0}});
+    return [&] { return read(json); };
+  };
+  expect_error(generations(91, 2), {"thing.gltf: /nodes/90: stands in the scene twice"});
+  EXPECT_EQ(generations(101, 1)().size(), 1u);
+  expect_error(generations(102, 1), {"thing.gltf: /nodes/101: is nested more than 100 deep"});
 }
 
 TEST(Gltf, TruncatedAndMissingFilesAreAnsweredInOneLine) {

@@ -108,6 +108,7 @@ TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
       {"/cups", "{}", "/cups: must be a list"},
       {"/cups/0/shape", "\"glass\"", "/cups/0/shape: unknown cup shape 'glass', choose from mug, paper_cup, tapered"},
       {"/cups/0/position_mm", nullptr, "/cups/0/position_mm: is missing"},
+      {"/cups/0/position_mm", "[0, 1e9]", "/cups/0/position_mm/1: must be a number from -100000 to 100000"},
       {"/cups/0/liquid", "\"wtaer\"",
        "/cups/0/liquid: unknown liquid 'wtaer', choose from barley_tea, intralipid_20, milk_tea"},
       {"/cups/0/liquid", nullptr, "/cups/0/fill_mm: needs a liquid"},
@@ -139,9 +140,14 @@ TEST(Scene, ImpossibleShapesAreRefused) {
       {R"({"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33,
            "handle": {"low_mm": 50, "high_mm": 40}})",
        "handle/high_mm: must be above low_mm"},
+      // Of 10^8 m no level could be bisected to a nanometre.
+      {R"({"height_mm": 1e11, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33})",
+       "height_mm: must be a number above 0 and at most 2000"},
+      {R"({"inner_profile_mm": [[0, 4], [-1, 4], [38, 90]], "outer_profile_mm": []})",
+       "inner_profile_mm/1/0: must be a number from 0 to 2000"},
   };
   for (const auto& [shape, message] : shapes)
-    expect_error([&] { changed("/cups/0/shape", shape); }, {"scene.json: /cups/0/shape", message});
+    expect_error([shape = shape] { changed("/cups/0/shape", shape); }, {"scene.json: /cups/0/shape", message});
 }
 
 TEST(Scene, GltfScenesAreRefusedInWords) {
