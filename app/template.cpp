@@ -44,7 +44,7 @@ void require_empty_cups(const std::filesystem::path& cloud) {
     const JsonReader reader(json, record.string());
     if (!reader.has("scene")) return;
     for (const JsonReader& cup : reader.at("scene").items_or_none("cups"))
-      if (cup.number_or("fill_mm", 0.0) > 0.0)
+      if (cup.number_or("fill_mm", 0.0) > 0.0 || cup.number_or("fill_ml", 0.0) > 0.0)
         cup.fail_at("liquid",
                     fmt::format("the cup of {} holds a liquid, a template needs an empty one", cloud.string()));
     return;

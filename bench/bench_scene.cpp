@@ -7,7 +7,8 @@ namespace fathom {
 BenchScene::BenchScene(Setup described)
     : setup(std::move(described)),
       geometry(build_geometry(setup.scene, setup.rig.sensor.wavelength_nm)),
-      world(geometry) {}
+      world(geometry),
+      projector(world, setup.rig.projector_in_world()) {}
 
 Setup paper_water() { return read_setup(data_directory() / "paper_water.json"); }
 

@@ -1,7 +1,7 @@
 // The scenes that are measured, ready to be traced.
 #pragma once
 
-#include "sim/render/intersect.h"
+#include "sim/render/light.h"
 #include "sim/scene/setup.h"
 
 namespace fathom {
@@ -12,6 +12,7 @@ struct BenchScene {
   Setup setup;
   Geometry geometry;
   Intersector world;
+  PointLight projector;
 };
 
 /// scenes/paper_water.json.

@@ -50,7 +50,7 @@ struct Recorder {
     const double height = projector.z() - *liquid.level, depth = *liquid.level - seen.point.z();
     if (height <= 0.0 || depth <= 0.0) return;
     const Eigen::Vector2d across = (seen.point - projector).head<2>();
-    const double offset = cross_flat_interface(height, depth, across.norm(), 1.0, liquid.n).offset;
+    const double offset = cross_flat_interface(height, depth, across.norm(), 1.0, liquid.medium.n).offset;
     Eigen::Vector3d bend(projector.x(), projector.y(), *liquid.level);
     bend.head<2>() += offset * across.normalized();
     if (seen.normal.dot(bend - seen.point) > 0.0 && !add_shadow(seen.point, bend)) add_shadow(bend, projector);

@@ -52,7 +52,7 @@ void require_same_hits(const Yardstick& yardstick, const Recording& recording) {
 Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, const Reference& reference) {
   const SensorModel& sensor = scene.setup.rig.sensor;
   const Image<float> radiance =
-      render_ir(scene.world, scene.setup.rig, pattern, kSamplesAcross, TurbidModel::surface, 1);
+      render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, TurbidModel::surface, 1);
   const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
   const Image<float> depth = depth_image(sensor, match(sensor, ir, reference).disparity_px);
   return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));
@@ -66,7 +66,7 @@ void register_geometric() {
   Recording recording = record_truth(scene.world, scene.setup.rig);
   require_same_hits(*yardstick, recording);
   measure("geometric/fathom", recording.rays(),
-          [yardstick, &scene] { benchmark::DoNotOptimize(trace_truth(scene.world, scene.setup.rig)); });
+          [yardstick, &scene] { benchmark::DoNotOptimize(trace_truth(scene.projector, scene.setup.rig)); });
   measure_embree("geometric/embree", yardstick, std::move(recording));
 }
 
@@ -84,7 +84,7 @@ void register_photometric() {
   require_same_hits(*yardstick, recording);
   measure("photometric/fathom", recording.rays(), [yardstick, &scene, pattern] {
     benchmark::DoNotOptimize(
-        render_ir(scene.world, scene.setup.rig, *pattern, kSamplesAcross, TurbidModel::surface, 1));
+        render_ir(scene.projector, scene.setup.rig, *pattern, kSamplesAcross, TurbidModel::surface, 1));
   });
   measure("photometric/frame", recording.rays(), [yardstick, &scene, pattern, reference] {
     benchmark::DoNotOptimize(whole_frame(scene, *pattern, *reference));

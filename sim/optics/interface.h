@@ -1,4 +1,5 @@
-// What a smooth interface does to a walker: Fresnel's share is reflected, the rest refracted.
+// What becomes of a walker at a smooth interface, where Fresnel's share is reflected and the rest refracted, and at a
+// diffuse wall.
 #pragma once
 
 #include <algorithm>
@@ -34,6 +35,15 @@ void leave_through(Walker& walker, const Eigen::Vector3d& normal, double n_from,
   if (reflectance < 1.0) visitor.leaves(walker, normal, (1.0 - reflectance) * walker.weight);
   walker.weight *= reflectance;
   walker.direction = reflect(walker.direction, normal);
+}
+
+/// A diffuse wall: the visitor is told, `at_wall(walker, normal, albedo)`, with the walker as it arrives; then what the
+/// wall reflects is sent back.
+template <class Visitor>
+void bounce_off_wall(Walker& walker, const Eigen::Vector3d& normal, double albedo, Rng& rng, Visitor& visitor) {
+  visitor.at_wall(walker, normal, albedo);
+  walker.weight *= albedo;
+  walker.direction = sample_diffuse(normal, rng);
 }
 
 }  // namespace fathom

@@ -42,9 +42,7 @@ class StraightCupSpace {
     }
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     if (boundary.face == Face::wall) normal << -walker.position.head<2>().normalized(), 0.0;
-    visitor.at_wall(walker, normal, albedo_);
-    walker.weight *= albedo_;
-    walker.direction = sample_diffuse(normal, rng);
+    bounce_off_wall(walker, normal, albedo_, rng, visitor);
     return true;
   }
 

@@ -66,11 +66,11 @@ void add_new(std::vector<Connection>& found, const std::optional<Connection>& wa
 
 }  // namespace
 
-PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position)
+PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts)
     : world_(world), source_{position, world.bodies_around(position)} {
   if (world.level_liquids_only() && !source_.inside) return;
   fan_.emplace(world, source_, Event::refract);
-  mirrored_fan_.emplace(world, source_, Event::reflect);
+  if (ghosts == Ghosts::sought) mirrored_fan_.emplace(world, source_, Event::reflect);
 }
 
 void PointLight::connect_each(const Receiver& receiver, const Visitor& visit) const {

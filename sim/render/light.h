@@ -16,11 +16,14 @@ struct Receiver {
   const Eigen::Vector3d* facing = nullptr;  ///< ways that come from behind this normal are left out
 };
 
+/// Whether connect_mirrored() will be asked for surfaces that are not level: they must be searched for, too.
+enum class Ghosts { unsought, sought };
+
 class PointLight {
  public:
   /// Keeps a reference to `world`, which must outlive it. A world with more than level liquids in opaque cups is
-  /// searched once for the directions that lead through its clear bodies (about 0.1 s).
-  PointLight(const Intersector& world, const Eigen::Vector3d& position);
+  /// searched for the directions that lead through its clear bodies, up to a second: build one and pass it on.
+  PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts = Ghosts::unsought);
 
   /// Calls `visit` with each connection, in an order that depends on nothing else. Straight and level ways are exact
   /// and complete; of the others those are found that lie near a seed (see Fan). Safe to call from several threads.
@@ -28,7 +31,7 @@ class PointLight {
   void connect(const Receiver& receiver, Visit&& visit) const {
     connect_each(receiver, std::ref(visit));
   }
-  /// The same for light that a liquid's surface mirrors first.
+  /// The same for light that a liquid's surface mirrors first; other than level surfaces only with Ghosts::sought.
   template <class Visit>
   void connect_mirrored(const Receiver& receiver, Visit&& visit) const {
     connect_mirrored_each(receiver, std::ref(visit));

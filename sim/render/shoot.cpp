@@ -90,38 +90,22 @@ struct Aim {
 
 }  // namespace
 
-namespace {
-
-void cross(const Intersector& world, const Crossing& crossing, Flight& flight) {
+void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight) {
   const Hit& hit = crossing.hit;
   const double n_from = index_of(crossing.from), n_to = index_of(crossing.to);
   const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
+  const double reflectance = fresnel_reflectance(cosine, n_from, n_to);  // 1 where the reflection is total
   const SurfaceFrame surface{hit.normal, world.curvature(hit)};
   flight.transmittance *= transmittance(extinction_of(crossing.from), hit.distance);
   advance(flight.pencil, hit.point, hit.normal);
-  if (refract(flight.pencil, surface, n_from, n_to)) {
-    flight.transmittance *= 1.0 - fresnel_reflectance(cosine, n_from, n_to);
+  if (event == Event::refract && refract(flight.pencil, surface, n_from, n_to)) {
+    flight.transmittance *= 1.0 - reflectance;
     flight.inside = crossing.beyond;
   } else {
+    flight.transmittance *= reflectance;
     reflect(flight.pencil, surface);
     flight.inside = crossing.before;
   }
-}
-
-void mirror(const Intersector& world, const Crossing& crossing, Flight& flight) {
-  const Hit& hit = crossing.hit;
-  const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
-  flight.transmittance *= transmittance(extinction_of(crossing.from), hit.distance) *
-                          fresnel_reflectance(cosine, index_of(crossing.from), index_of(crossing.to));
-  advance(flight.pencil, hit.point, hit.normal);
-  reflect(flight.pencil, {hit.normal, world.curvature(hit)});
-  flight.inside = crossing.before;
-}
-
-}  // namespace
-
-void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight) {
-  event == Event::reflect ? mirror(world, crossing, flight) : cross(world, crossing, flight);
 }
 
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,

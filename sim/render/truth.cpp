@@ -35,9 +35,8 @@ std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& 
   return rig.sensor.baseline / parallax;
 }
 
-Image<TruePixel> trace_truth(const Intersector& world, const Rig& rig) {
+Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig) {
   Image<TruePixel> truth(rig.sensor.width, rig.sensor.height);
-  const PointLight projector(world, rig.projector_in_world());
   parallel_ranges(truth.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < truth.width(); ++x) truth(x, y) = trace_pixel(projector, rig, x + 0.5, y + 0.5);

@@ -31,6 +31,6 @@ std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& 
                                          const Eigen::Vector3d& projector_direction);
 
 /// Traces the chief ray of every depth pixel (width × height of the sensor).
-Image<TruePixel> trace_truth(const Intersector& world, const Rig& rig);
+Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig);
 
 }  // namespace fathom

@@ -55,10 +55,7 @@ class BodySpace {
       leave_through(walker, hit.normal, body_.medium.n, hit.entering ? other.medium.n : 1.0, visitor);
       return true;
     }
-    const double albedo = std::get<Diffuse>(hit.surface->optics).albedo;
-    visitor.at_wall(walker, hit.normal, albedo);
-    walker.weight *= albedo;
-    walker.direction = sample_diffuse(hit.normal, rng);
+    bounce_off_wall(walker, hit.normal, std::get<Diffuse>(hit.surface->optics).albedo, rng, visitor);
     return true;
   }
 

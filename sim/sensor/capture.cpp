@@ -26,7 +26,8 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   const SensorModel& sensor = rig_.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
   const Intersector world(geometry_);
-  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(world, rig_); });
+  const PointLight projector = timed(statistics_.build_s, [&] { return PointLight(world, rig_.projector_in_world()); });
+  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(projector, rig_); });
   statistics_.camera_rays = truth_.size();
   if (mode == CaptureMode::geometric) return;
 
@@ -38,7 +39,7 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ =
-      timed(statistics_.render_s, [&] { return render_ir(world, rig_, pattern, samples_across_, turbid, seed); });
+      timed(statistics_.render_s, [&] { return render_ir(projector, rig_, pattern, samples_across_, turbid, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
 }
 

@@ -46,12 +46,11 @@ double sample_radiance(const PointLight& projector, const Rig& rig, const Patter
 
 }  // namespace
 
-Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across,
+Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                        TurbidModel turbid, std::uint64_t seed) {
   const SensorModel& sensor = rig.sensor;
   const double px_per_ir_px = 1.0 / sensor.ir_scale();
   const Eigen::Vector3d camera = rig.camera_in_world();
-  const PointLight projector(world, rig.projector_in_world());
   Image<float> image(sensor.ir_width, sensor.ir_height);
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)

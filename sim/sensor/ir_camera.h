@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/image.h"
-#include "sim/render/intersect.h"
+#include "sim/render/light.h"
 #include "sim/scene/rig.h"
 #include "sim/sensor/pattern.h"
 
@@ -19,7 +19,7 @@ enum class TurbidModel {
 /// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise. Each pixel is sampled on a grid of
 /// `samples_across`² points; the dots are smooth, so a grid converges faster than random points and adds no noise. Only
 /// light in scattering bodies walks at random, keyed by (seed, pixel, sample).
-Image<float> render_ir(const Intersector& world, const Rig& rig, const Pattern& pattern, int samples_across,
+Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                        TurbidModel turbid, std::uint64_t seed);
 
 /// Speckle of a static scene: one gain of unit mean for every dot, Gamma(shape, 1/shape).

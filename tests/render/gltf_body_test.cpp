@@ -17,7 +17,8 @@ TEST(GltfBody, ASlabOfWaterIsTheWaterInTheCup) {
   with_slab.scene.objects.push_back({file, Pose(Eigen::Translation3d(0.0, 0.300, 0.0))});
   const LitScene poured(cup_of(kPaperCup, kWater)), slab(with_slab);
   EXPECT_FALSE(slab.world.level_liquids_only());
-  const Image<TruePixel> expected = trace_truth(poured.world, poured.rig), found = trace_truth(slab.world, slab.rig);
+  const Image<TruePixel> expected = trace_truth(poured.projector, poured.rig),
+                         found = trace_truth(slab.projector, slab.rig);
   int refracted = 0, lit = 0, differently = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const TruePixel &a = expected.pixels()[i], &b = found.pixels()[i];

@@ -13,7 +13,7 @@ namespace {
 Image<TruePixel> truth_of(const Setup& setup) {
   const Geometry geometry = build_geometry(setup.scene, setup.rig.sensor.wavelength_nm);
   const Intersector world(geometry);
-  return trace_truth(world, setup.rig);
+  return trace_truth(PointLight(world, setup.rig.projector_in_world()), setup.rig);
 }
 
 TEST(GltfCup, HasTheDepthsOfItsParametricTwin) {

@@ -122,7 +122,7 @@ TEST_P(AgainstPovRay, TheFirstDiffusePointsAreTheSame) {
   for (const double distance_mm : {200.0, 300.0}) {
     const TemporaryFolder folder;
     const LitScene scene(setup_of(surface, distance_mm, folder / ""));
-    const Image<TruePixel> truth = trace_truth(scene.world, scene.rig);
+    const Image<TruePixel> truth = trace_truth(scene.projector, scene.rig);
     std::map<Pixel, Eigen::Vector3d> refracted;  // [mm]
     Eigen::AlignedBox2i box;
     for (int y = 0; y < truth.height(); ++y)

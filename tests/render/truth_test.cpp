@@ -14,7 +14,7 @@ struct Traced {
       : rig(setup.rig),
         geometry(build_geometry(setup.scene, rig.sensor.wavelength_nm)),
         world(geometry),
-        truth(trace_truth(world, rig)) {}
+        truth(trace_truth(PointLight(world, rig.projector_in_world()), rig)) {}
 
   /// The point that a camera measures at a pixel's centre.
   Eigen::Vector3d measured(int x, int y) const {
