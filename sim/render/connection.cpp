@@ -8,15 +8,14 @@
 #include "sim/optics/snell.h"
 
 namespace fathom {
+namespace {
 
-std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside) {
-  Ray ray = camera_ray;
+/// Follows a ray from the first surface that it hits.
+std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional<Hit> hit, BodySet inside) {
   const double n_camera = index_of(medium_in(world.geometry(), inside));
   double through = 1.0;
   bool refracted = false;
-  for (int crossings = 0; crossings < kMostCrossings;) {
-    const std::optional<Hit> hit = world.first_hit(ray);
-    if (!hit) return std::nullopt;
+  for (int crossings = 0; hit && crossings < kMostCrossings; hit = world.first_hit(ray)) {
     const Body* medium = medium_in(world.geometry(), inside);
     const double n_from = index_of(medium);
     if (medium) through *= transmittance(medium->extinction(), hit->distance);
@@ -50,10 +49,28 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
   return std::nullopt;
 }
 
+}  // namespace
+
+std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside) {
+  return follow(world, camera_ray, world.first_hit(camera_ray), inside);
+}
+
+SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays) {
+  std::array<std::optional<Hit>, kPacket> hits;
+  SeenPoints seen;
+  world.first_hits(camera_rays, hits);
+  for (std::size_t i = 0; i < camera_rays.size(); ++i) seen[i] = follow(world, camera_rays[i], hits[i], 0);
+  return seen;
+}
+
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {
-  std::optional<Illumination> strongest;
-  for_each_illumination(projector, seen, [&](const Illumination& light) {
-    if (!strongest || light.irradiance > strongest->irradiance) strongest = light;
+  return illuminate(projector, SeenPoints{seen})[0];
+}
+
+Illuminations illuminate(const PointLight& projector, const SeenPoints& seen) {
+  Illuminations strongest;
+  for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& light) {
+    if (!strongest[i] || light.irradiance > strongest[i]->irradiance) strongest[i] = light;
   });
   return strongest;
 }

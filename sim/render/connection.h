@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
+#include <span>
 
 #include "sim/render/light.h"
 
@@ -28,19 +30,32 @@ struct Illumination {
   double irradiance;          ///< [1/m²] on the surface per unit radiant intensity of the projector in that direction
 };
 
+/// Of the rays of a packet; those beyond its last ray stay empty.
+using SeenPoints = std::array<std::optional<SeenPoint>, kPacket>;
+using Illuminations = std::array<std::optional<Illumination>, kPacket>;
+
 /// Follows a ray that starts in the bodies `inside` (none: in air). Where it cannot leave a body it is totally
 /// reflected; partial reflections are left out.
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
+/// The same for at most kPacket rays in air that lie side by side.
+SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays);
 
-/// Calls `visit` with the Illumination of each way in which the projector's light gets to the point.
+/// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
 template <class Visit>
-void for_each_illumination(const PointLight& projector, const SeenPoint& seen, Visit&& visit) {
-  projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
-    visit(Illumination{way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival)});
+void for_each_illumination(const PointLight& projector, const SeenPoints& seen, Visit&& visit) {
+  std::array<Receiver, kPacket> receivers;
+  std::array<std::size_t, kPacket> number;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kPacket; ++i)
+    if (seen[i]) receivers[count] = {seen[i]->point, seen[i]->around, &seen[i]->normal}, number[count++] = i;
+  projector.connect(std::span(receivers).first(count), [&](std::size_t receiver, const Connection& way) {
+    const std::size_t i = number[receiver];
+    visit(i, Illumination{way.direction, -way.spreading * way.transmittance * seen[i]->normal.dot(way.arrival)});
   });
 }
 
-/// The strongest of them; nothing when the projector does not reach the point.
+/// The strongest of them; nothing where the projector does not reach the point.
+Illuminations illuminate(const PointLight& projector, const SeenPoints& seen);
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen);
 
 }  // namespace fathom

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -17,6 +18,22 @@ struct Plane {
   Eigen::Vector3d normal;
   double offset;  ///< normal · x = offset on the plane
 };
+
+/// Which rays of a packet Embree is to trace.
+struct Lanes {
+  explicit Lanes(std::size_t count) {
+    assert(count <= kPacket);
+    std::fill_n(valid, count, -1);
+  }
+  alignas(32) int valid[kPacket] = {};
+};
+
+void set_lane(RTCRay8& rays, std::size_t i, const RTCRay& ray) {
+  rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
+  rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
+  rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar;
+  rays.time[i] = ray.time, rays.mask[i] = ray.mask, rays.flags[i] = ray.flags;
+}
 
 }  // namespace
 
@@ -63,6 +80,13 @@ struct Intersector::Impl {
     planes.push_back(std::move(of_triangles));
   }
 
+  static RTCIntersectContext coherent() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+  }
+
   static RTCRay embree_ray(const Ray& ray, double near, double far) {
     RTCRay result;
     result.org_x = static_cast<float>(ray.origin.x());
@@ -79,11 +103,36 @@ struct Intersector::Impl {
     return result;
   }
 
-  std::optional<Hit> trace(RTCScene scene, const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    double near = kClearance;
+  /// Where the ray meets the shape that the triangle stands for. Nothing where it passes by, and where it starts: rays
+  /// that start on a surface may meet it once more, rounded to float at a grazing angle, or as triangles of a smooth
+  /// one.
+  std::optional<Hit> hit_on(unsigned geometry, unsigned triangle, const Ray& ray) const {
+    const Surface& surface = *surfaces[geometry];
+    const Plane& plane = planes[geometry][triangle];
+    const double facing = plane.normal.dot(ray.direction);
+    if (facing == 0.0) return std::nullopt;
+    const double distance = (plane.offset - plane.normal.dot(ray.origin)) / facing;
+    const std::optional<SurfacePoint> at = std::holds_alternative<Facets>(surface.shape)
+                                               ? SurfacePoint{distance, plane.normal}
+                                               : polish(surface, triangle, plane.normal, ray, distance);
+    if (!at || at->distance <= kClearance) return std::nullopt;
+    const bool entering = at->normal.dot(ray.direction) < 0.0;
+    return Hit{at->distance,
+               ray.origin + at->distance * ray.direction,
+               entering ? at->normal : Eigen::Vector3d(-at->normal),
+               &surface,
+               triangle,
+               entering};
+  }
+
+  static RTCRay embree_ray(const Piece& piece) {
+    const Eigen::Vector3d path = piece.to - piece.from;
+    const double length = path.norm();
+    return embree_ray({piece.from, path / length}, kClearance, length - kClearance);
+  }
+
+  std::optional<Hit> trace(RTCScene scene, const Ray& ray, double near = kClearance) const {
+    RTCIntersectContext context = coherent();
     for (;;) {
       RTCRayHit query;
       query.ray = embree_ray(ray, near, std::numeric_limits<float>::infinity());
@@ -91,29 +140,8 @@ struct Intersector::Impl {
       query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
       rtcIntersect1(scene, &context, &query);
       if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-      const Surface& surface = *surfaces[query.hit.geomID];
-      const Plane& plane = planes[query.hit.geomID][query.hit.primID];
-      const double facing = plane.normal.dot(ray.direction);
-      std::optional<SurfacePoint> at;
-      if (facing != 0.0) {
-        const double distance = (plane.offset - plane.normal.dot(ray.origin)) / facing;
-        at = std::holds_alternative<Facets>(surface.shape)
-                 ? SurfacePoint{distance, plane.normal}
-                 : polish(surface, query.hit.primID, plane.normal, ray, distance);
-      }
-      // A ray that starts on a surface may meet it once more: rounded to float at a grazing angle, or the triangles
-      // that stand for a smooth one.
-      if (!at || at->distance <= kClearance) {
-        near = std::max<double>(query.ray.tfar, near) + kClearance;
-        continue;
-      }
-      const bool entering = at->normal.dot(ray.direction) < 0.0;
-      return Hit{at->distance,
-                 ray.origin + at->distance * ray.direction,
-                 entering ? at->normal : Eigen::Vector3d(-at->normal),
-                 &surface,
-                 query.hit.primID,
-                 entering};
+      if (const std::optional<Hit> hit = hit_on(query.hit.geomID, query.hit.primID, ray)) return hit;
+      near = std::max<double>(query.ray.tfar, near) + kClearance;
     }
   }
 
@@ -144,15 +172,41 @@ std::optional<Hit> Intersector::first_interface(const Ray& ray) const { return i
 
 std::optional<Hit> Intersector::first_opaque(const Ray& ray) const { return impl_->trace(impl_->opaque, ray); }
 
+void Intersector::first_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+  RTCIntersectContext context = Impl::coherent();
+  Lanes lanes(rays.size());
+  RTCRayHit8 query;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    set_lane(query.ray, i, Impl::embree_ray(rays[i], kClearance, std::numeric_limits<float>::infinity()));
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect8(lanes.valid, impl_->all, &context, &query);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits[i].reset();
+    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[i] = impl_->hit_on(query.hit.geomID[i], query.hit.primID[i], rays[i]);
+    if (!hits[i])
+      hits[i] = impl_->trace(impl_->all, rays[i], std::max<double>(query.ray.tfar[i], kClearance) + kClearance);
+  }
+}
+
 bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  const Eigen::Vector3d path = to - from;
-  const double length = path.norm();
-  RTCRay ray = Impl::embree_ray({from, path / length}, kClearance, length - kClearance);
+  RTCIntersectContext context = Impl::coherent();
+  RTCRay ray = Impl::embree_ray({from, to});
   rtcOccluded1(impl_->opaque, &context, &ray);
   return ray.tfar < 0.0f;
+}
+
+std::bitset<kPacket> Intersector::occluded(std::span<const Piece> pieces) const {
+  RTCIntersectContext context = Impl::coherent();
+  Lanes lanes(pieces.size());
+  RTCRay8 query;
+  for (std::size_t i = 0; i < pieces.size(); ++i) set_lane(query, i, Impl::embree_ray(pieces[i]));
+  rtcOccluded8(lanes.valid, impl_->opaque, &context, &query);
+  std::bitset<kPacket> result;
+  for (std::size_t i = 0; i < pieces.size(); ++i) result[i] = query.tfar[i] < 0.0f;
+  return result;
 }
 
 Eigen::Matrix3d Intersector::curvature(const Hit& hit) const {

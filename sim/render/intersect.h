@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bitset>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/pose.h"
 #include "sim/scene/geometry.h"
@@ -20,6 +22,14 @@ struct Hit {
   bool entering;      ///< whether the ray goes to the inner side
 };
 
+/// So many rays are traced together: side by side they cost Embree a third of what each costs alone.
+inline constexpr std::size_t kPacket = 8;
+
+/// A straight piece of a light's way.
+struct Piece {
+  Eigen::Vector3d from, to;  ///< [m] world
+};
+
 class Intersector {
  public:
   /// Keeps a reference to `geometry`, which must outlive it.
@@ -30,12 +40,16 @@ class Intersector {
 
   /// First surface of any kind.
   std::optional<Hit> first_hit(const Ray& ray) const;
+  /// The same of at most kPacket rays; hits[i] is of rays[i].
+  void first_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
   /// First boundary of a clear body, as if opaque surfaces were not there.
   std::optional<Hit> first_interface(const Ray& ray) const;
   /// First opaque surface, as if the boundaries of bodies were not there.
   std::optional<Hit> first_opaque(const Ray& ray) const;
   /// Whether an opaque surface stands strictly between two points, each moved `kClearance` towards the other.
   bool occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  /// The same of at most kPacket pieces, bit by bit.
+  std::bitset<kPacket> occluded(std::span<const Piece> pieces) const;
 
   /// d normal / d point of a hit's surface [1/m], for the normal that the hit has.
   Eigen::Matrix3d curvature(const Hit& hit) const;

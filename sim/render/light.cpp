@@ -1,6 +1,7 @@
 #include "sim/render/light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/optics/flat_refraction.h"
@@ -14,38 +15,43 @@ bool from_behind(const Receiver& receiver, const Eigen::Vector3d& arrival) {
   return receiver.facing && receiver.facing->dot(arrival) >= 0.0;
 }
 
+/// A way on which nothing opaque has been looked for yet.
+struct OpenWay {
+  Connection connection;
+  std::optional<Eigen::Vector3d> bend;  ///< where it is not straight
+};
+
 /// The straight way through one medium.
-std::optional<Connection> straight(const Source& source, const Receiver& receiver) {
+std::optional<OpenWay> straight(const Source& source, const Receiver& receiver) {
   const Eigen::Vector3d path = receiver.point - source.position;
   const double squared = path.squaredNorm(), length = std::sqrt(squared);
   const Eigen::Vector3d direction = path / length;
   if (from_behind(receiver, direction)) return std::nullopt;
-  return Connection{direction, direction, 1.0 / squared, transmittance(extinction_of(receiver.around), length),
-                    0,         false};
+  const double through = transmittance(extinction_of(receiver.around), length);
+  return OpenWay{{direction, direction, 1.0 / squared, through, 0, false}, std::nullopt};
 }
 
 /// The way that bends once, at a level surface: exact root of Snell's law.
-std::optional<Connection> through_level(const Intersector& world, const Eigen::Vector3d& source,
-                                        const Receiver& receiver) {
+std::optional<OpenWay> through_level(const Source& source, const Receiver& receiver) {
   const Body& liquid = *receiver.around;
-  const double height = source.z() - *liquid.level, depth = *liquid.level - receiver.point.z();
+  const double height = source.position.z() - *liquid.level, depth = *liquid.level - receiver.point.z();
   if (height <= 0.0 || depth <= 0.0) return std::nullopt;
-  const Eigen::Vector2d across = (receiver.point - source).head<2>();
+  const Eigen::Vector2d across = (receiver.point - source.position).head<2>();
   const double separation = across.norm();
   const FlatCrossing crossing = cross_flat_interface(height, depth, separation, 1.0, liquid.medium.n);
   const double share = separation > 0.0 ? crossing.offset / separation : 0.0;
-  const Eigen::Vector3d bend(source.x() + share * across.x(), source.y() + share * across.y(), *liquid.level);
+  const Eigen::Vector3d bend(source.position.x() + share * across.x(), source.position.y() + share * across.y(),
+                             *liquid.level);
   const Eigen::Vector3d from_bend = receiver.point - bend;
   const double path_in_liquid = from_bend.norm();
   const Eigen::Vector3d arrival = from_bend / path_in_liquid;
   if (from_behind(receiver, arrival)) return std::nullopt;
-  if (world.occluded(receiver.point, bend) || world.occluded(bend, source)) return std::nullopt;
-  const Eigen::Vector3d direction = (bend - source).normalized();
+  const Eigen::Vector3d direction = (bend - source.position).normalized();
   const double cos_above = std::min(-direction.z(), 1.0);
   const double through =
       (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) * transmittance(liquid.extinction(), path_in_liquid);
-  return Connection{direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n),
-                    through,   1,       false};
+  return OpenWay{{direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false},
+                 bend};
 }
 
 /// Whether a way of the same kind has been found near where a candidate leads.
@@ -73,24 +79,47 @@ PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position
   if (ghosts == Ghosts::sought) mirrored_fan_.emplace(world, source_, Event::reflect);
 }
 
-void PointLight::connect_each(const Receiver& receiver, const Visitor& visit) const {
-  if (!fan_) {
-    if (receiver.around) {
-      if (const auto way = through_level(world_, source_.position, receiver)) visit(*way);
-    } else if (const auto way = straight(source_, receiver)) {
-      if (!world_.occluded(receiver.point, source_.position)) visit(*way);
-    }
-    return;
-  }
+void PointLight::connect_each(std::span<const Receiver> receivers, const Visitor& visit) const {
+  if (!fan_) return connect_exactly(receivers, visit);
   std::vector<Connection> found;
-  const Eigen::Vector3d towards = (receiver.point - source_.position).normalized();
-  if (!from_behind(receiver, towards))
-    add_new(found, shoot(world_, source_, receiver.point, receiver.around, towards, 0));
-  connect_from(*fan_, Event::refract, receiver, found);
-  for (const Connection& way : found) visit(way);
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    const Receiver& receiver = receivers[i];
+    found.clear();
+    const Eigen::Vector3d towards = (receiver.point - source_.position).normalized();
+    if (!from_behind(receiver, towards))
+      add_new(found, shoot(world_, source_, receiver.point, receiver.around, towards, 0));
+    connect_from(*fan_, Event::refract, receiver, found);
+    for (const Connection& way : found) visit(i, way);
+  }
 }
 
-void PointLight::connect_mirrored_each(const Receiver& receiver, const Visitor& visit) const {
+void PointLight::connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const {
+  std::array<OpenWay, kPacket> ways;
+  std::array<std::size_t, kPacket> of_way;  // receivers
+  std::array<Piece, kPacket> below, above;
+  std::array<std::size_t, kPacket> of_above;  // ways
+  std::size_t open = 0, bent = 0;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    const std::optional<OpenWay> way =
+        receivers[i].around ? through_level(source_, receivers[i]) : straight(source_, receivers[i]);
+    if (!way) continue;
+    below[open] = {receivers[i].point, way->bend.value_or(source_.position)};
+    if (way->bend) above[bent] = {*way->bend, source_.position}, of_above[bent++] = open;
+    ways[open] = *way, of_way[open++] = i;
+  }
+  if (!open) return;
+  std::bitset<kPacket> blocked = world_.occluded(std::span(below).first(open));
+  if (bent) {
+    const std::bitset<kPacket> blocked_above = world_.occluded(std::span(above).first(bent));
+    for (std::size_t i = 0; i < bent; ++i)
+      if (blocked_above[i]) blocked.set(of_above[i]);
+  }
+  for (std::size_t i = 0; i < open; ++i)
+    if (!blocked[i]) visit(of_way[i], ways[i].connection);
+}
+
+void PointLight::connect_mirrored_each(const Receiver& receiver,
+                                       const std::function<void(const Connection&)>& visit) const {
   std::vector<Connection> found;
   if (mirrored_fan_) connect_from(*mirrored_fan_, Event::reflect, receiver, found);
   for (const Body& liquid : world_.geometry().bodies) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "sim/render/fan.h"
 #include "sim/render/shoot.h"
@@ -25,11 +26,17 @@ class PointLight {
   /// searched for the directions that lead through its clear bodies, up to a second: build one and pass it on.
   PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts = Ghosts::unsought);
 
-  /// Calls `visit` with each connection, in an order that depends on nothing else. Straight and level ways are exact
-  /// and complete; of the others those are found that lie near a seed (see Fan). Safe to call from several threads.
+  /// Calls `visit(i, connection)` for each connection of each of at most kPacket receivers, by rising i. Straight and
+  /// level ways are exact and complete; of the others those are found that lie near a seed (see Fan). Safe to call from
+  /// several threads.
+  template <class Visit>
+  void connect(std::span<const Receiver> receivers, Visit&& visit) const {
+    connect_each(receivers, std::ref(visit));
+  }
+  /// The same for one: `visit(connection)`.
   template <class Visit>
   void connect(const Receiver& receiver, Visit&& visit) const {
-    connect_each(receiver, std::ref(visit));
+    connect(std::span(&receiver, 1), [&](std::size_t, const Connection& way) { visit(way); });
   }
   /// The same for light that a liquid's surface mirrors first; other than level surfaces only with Ghosts::sought.
   template <class Visit>
@@ -41,9 +48,10 @@ class PointLight {
   const Eigen::Vector3d& position() const { return source_.position; }
 
  private:
-  using Visitor = std::function<void(const Connection&)>;
-  void connect_each(const Receiver& receiver, const Visitor& visit) const;
-  void connect_mirrored_each(const Receiver& receiver, const Visitor& visit) const;
+  using Visitor = std::function<void(std::size_t receiver, const Connection&)>;
+  void connect_each(std::span<const Receiver> receivers, const Visitor& visit) const;
+  void connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const;
+  void connect_mirrored_each(const Receiver& receiver, const std::function<void(const Connection&)>& visit) const;
   void connect_from(const Fan& fan, Event first, const Receiver& receiver, std::vector<Connection>& found) const;
 
   const Intersector& world_;

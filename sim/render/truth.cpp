@@ -1,36 +1,41 @@
 #include "sim/render/truth.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
 #include "sim/render/radiance.h"
 
 namespace fathom {
 namespace {
 
-TruePixel trace_pixel(const PointLight& projector, const Rig& rig, double x_px, double y_px) {
-  TruePixel pixel;
-  const Ray chief{rig.camera_in_world(), rig.direction_in_world(x_px, y_px)};
-  const std::optional<SeenPoint> seen = see(projector.world(), chief);
-  if (!seen) return pixel;
-  pixel.position = seen->point;
-  pixel.object = seen->object;
-  pixel.path = seen->entered ? PathKind::scattered : seen->refracted ? PathKind::refracted : PathKind::direct;
-  const std::optional<Illumination> light = illuminate(projector, *seen);
-  if (!light) return pixel;
-  pixel.apparent_depth = triangulated_depth(rig, chief.direction, light->direction);
-  pixel.intensity = radiance_dn(rig.sensor, *seen, *light);
-  return pixel;
+PathKind path_of(const SeenPoint& seen) {
+  return seen.entered ? PathKind::scattered : seen.refracted ? PathKind::refracted : PathKind::direct;
+}
+
+/// The pixels from (x, y) on to the right.
+void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std::span<TruePixel> pixels) {
+  std::array<Ray, kPacket> chiefs;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    chiefs[i] = {rig.camera_in_world(), rig.direction_in_world(x + static_cast<int>(i) + 0.5, y + 0.5)};
+  const SeenPoints seen = see(projector.world(), std::span(chiefs).first(pixels.size()));
+  const Illuminations lights = illuminate(projector, seen);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (!seen[i]) continue;
+    TruePixel& pixel = pixels[i];
+    pixel.position = seen[i]->point;
+    pixel.object = seen[i]->object;
+    pixel.path = path_of(*seen[i]);
+    if (!lights[i]) continue;
+    pixel.apparent_depth = triangulated_depth(rig, chiefs[i].direction, lights[i]->direction);
+    pixel.intensity = radiance_dn(rig.sensor, *seen[i], *lights[i]);
+  }
 }
 
 }  // namespace
 
-Eigen::Vector2d rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world) {
-  const Eigen::Vector3d in_camera = rig.world_from_camera.linear().transpose() * direction_in_world;
-  return in_camera.head<2>() / in_camera.z();
-}
-
 std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& camera_direction,
                                          const Eigen::Vector3d& projector_direction) {
-  const double parallax = rectified(rig, camera_direction).x() - rectified(rig, projector_direction).x();
+  const double parallax = rig.rectified(camera_direction).x() - rig.rectified(projector_direction).x();
   if (parallax <= 0.0) return std::nullopt;
   return rig.sensor.baseline / parallax;
 }
@@ -39,7 +44,10 @@ Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig) {
   Image<TruePixel> truth(rig.sensor.width, rig.sensor.height);
   parallel_ranges(truth.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < truth.width(); ++x) truth(x, y) = trace_pixel(projector, rig, x + 0.5, y + 0.5);
+      for (int x = 0; x < truth.width(); x += kPacket) {
+        const std::size_t count = std::min<std::size_t>(kPacket, truth.width() - x);
+        trace_packet(projector, rig, x, y, {&truth(x, y), count});
+      }
   });
   return truth;
 }

@@ -22,9 +22,6 @@ struct TruePixel {
   PathKind path = PathKind::nothing;
 };
 
-/// Image coordinates, in units of the focal length, of a world direction in the rectified frame: x right, y down.
-Eigen::Vector2d rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world);
-
 /// Depth from the horizontal parallax of two rays: Z = b / (ξ_camera − ξ_projector) [m]; nothing when they do not meet
 /// in front of the sensor.
 std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& camera_direction,

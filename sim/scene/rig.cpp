@@ -149,12 +149,6 @@ void add_direction(const Eigen::Matrix3d& world_from_camera, const Eigen::Vector
 
 }  // namespace
 
-Eigen::Vector3d Rig::direction_in_world(double x_px, double y_px) const {
-  const Eigen::Vector3d in_camera((x_px - sensor.principal_px.x()) / sensor.focal_px,
-                                  (y_px - sensor.principal_px.y()) / sensor.focal_px, 1.0);
-  return world_from_camera.linear() * in_camera.normalized();
-}
-
 Pose camera_pose(const Eigen::Vector3d& midpoint_in_world, double pitch, double yaw, double roll, double baseline) {
   // Columns: the camera's right, down and forward in the world when it looks along +y.
   Eigen::Matrix3d world_from_level;

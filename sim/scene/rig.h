@@ -64,7 +64,16 @@ struct Rig {
   Eigen::Vector3d camera_in_world() const { return world_from_camera.translation(); }
   Eigen::Vector3d projector_in_world() const { return world_from_camera * Eigen::Vector3d(sensor.baseline, 0.0, 0.0); }
   /// Unit direction in the world of a point of the depth image; (0.5, 0.5) is the first pixel's centre.
-  Eigen::Vector3d direction_in_world(double x_px, double y_px) const;
+  Eigen::Vector3d direction_in_world(double x_px, double y_px) const {
+    const Eigen::Vector3d in_camera((x_px - sensor.principal_px.x()) / sensor.focal_px,
+                                    (y_px - sensor.principal_px.y()) / sensor.focal_px, 1.0);
+    return world_from_camera.linear() * in_camera.normalized();
+  }
+  /// Rectified image coordinates of a direction, in units of the focal length; the same for camera and projector.
+  Eigen::Vector2d rectified(const Eigen::Vector3d& direction_in_world) const {
+    const Eigen::Vector3d in_camera = world_from_camera.linear().transpose() * direction_in_world;
+    return in_camera.head<2>() / in_camera.z();
+  }
 };
 
 /// A pose from the baseline's midpoint: `pitch` below the horizontal, `yaw` to the left of +y, `roll` clockwise.

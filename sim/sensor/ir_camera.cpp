@@ -1,15 +1,14 @@
 #include "sim/sensor/ir_camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "sim/render/connection.h"
 #include "sim/render/radiance.h"
-#include "sim/render/truth.h"
 #include "sim/render/turbid.h"
-#include "sim/sensor/pixel_mean.h"
 
 namespace fathom {
 namespace {
@@ -21,49 +20,79 @@ constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
 /// Walks per camera ray that enters a scattering body.
 constexpr int kWalks = 4;
 
-/// Radiance [DN] along one camera ray; `rng` is for light that walks through scattering bodies.
-double sample_radiance(const PointLight& projector, const Rig& rig, const Pattern& pattern, const Ray& ray,
-                       TurbidModel turbid, Rng rng) {
-  const std::optional<SeenPoint> seen = see(projector.world(), ray);
-  if (!seen) return 0.0;
-  const auto intensity = [&](const Eigen::Vector3d& direction) {
-    const Eigen::Vector2d at = rectified(rig, direction);
+/// What a camera's samples look at, and what they look with.
+struct Renderer {
+  const PointLight& projector;
+  const Rig& rig;
+  const Pattern& pattern;
+  int samples_across;
+  TurbidModel turbid;
+  std::uint64_t seed;
+
+  double intensity(const Eigen::Vector3d& direction) const {
+    const Eigen::Vector2d at = rig.rectified(direction);
     return pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
-  };
-  double radiance = 0.0;
-  if (!seen->entered || turbid == TurbidModel::surface) {
-    for_each_illumination(projector, *seen, [&](const Illumination& light) {
-      radiance += radiance_dn(rig.sensor, *seen, light) * intensity(light.direction);
-    });
-    return radiance;
   }
-  for (int walk = 0; walk < kWalks; ++walk)
-    walk_turbid(projector, *seen, ray.direction, rng, [&](const ReturnedLight& light) {
-      radiance += radiance_dn(rig.sensor, light.reflected) * intensity(light.direction);
+
+  int samples_per_pixel() const { return samples_across * samples_across; }
+  int samples_per_row() const { return samples_per_pixel() * rig.sensor.ir_width; }
+
+  /// Ray of a sample of row y; the samples of a pixel follow one another.
+  Ray camera_ray(int y, int sample) const {
+    const int x = sample / samples_per_pixel(), within = sample % samples_per_pixel();
+    const double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
+    const double x_ir_px = x + (within % samples_across + 0.5) / samples_across;
+    const double y_ir_px = y - rig.sensor.ir_first_row() + (within / samples_across + 0.5) / samples_across;
+    return {rig.camera_in_world(), rig.direction_in_world(x_ir_px * px_per_ir_px, y_ir_px * px_per_ir_px)};
+  }
+
+  /// Radiance [DN] of at most kPacket samples of row y, from `first` on.
+  std::array<double, kPacket> radiances(int y, int first, int count) const {
+    std::array<Ray, kPacket> rays;
+    for (int i = 0; i < count; ++i) rays[i] = camera_ray(y, first + i);
+    SeenPoints seen = see(projector.world(), std::span(rays.data(), count));
+    std::array<double, kPacket> sums{};
+    if (turbid == TurbidModel::walk)
+      for (int i = 0; i < count; ++i)
+        if (seen[i] && seen[i]->entered) {
+          Rng rng(seed, kWalkStream, y, first + i);
+          sums[i] = walked_radiance(*seen[i], rays[i].direction, rng);
+          seen[i].reset();
+        }
+    for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& light) {
+      sums[i] += radiance_dn(rig.sensor, *seen[i], light) * intensity(light.direction);
     });
-  return radiance / kWalks;
-}
+    return sums;
+  }
+
+  double walked_radiance(const SeenPoint& entry, const Eigen::Vector3d& arriving, Rng& rng) const {
+    double sum = 0.0;
+    for (int walk = 0; walk < kWalks; ++walk)
+      walk_turbid(projector, entry, arriving, rng, [&](const ReturnedLight& light) {
+        sum += radiance_dn(rig.sensor, light.reflected) * intensity(light.direction);
+      });
+    return sum / kWalks;
+  }
+};
 
 }  // namespace
 
 Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                        TurbidModel turbid, std::uint64_t seed) {
-  const SensorModel& sensor = rig.sensor;
-  const double px_per_ir_px = 1.0 / sensor.ir_scale();
-  const Eigen::Vector3d camera = rig.camera_in_world();
-  Image<float> image(sensor.ir_width, sensor.ir_height);
+  const Renderer renderer{projector, rig, pattern, samples_across, turbid, seed};
+  Image<float> image(rig.sensor.ir_width, rig.sensor.ir_height);
+  const int per_pixel = renderer.samples_per_pixel(), per_row = renderer.samples_per_row();
   parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < image.width(); ++x) {
-        const auto pixel = static_cast<std::uint64_t>(y) * image.width() + x;
-        std::uint64_t samples = 0;
-        const auto sample = [&](double dx, double dy) {
-          const double x_px = (x + dx) * px_per_ir_px, y_px = (y - sensor.ir_first_row() + dy) * px_per_ir_px;
-          return sample_radiance(projector, rig, pattern, {camera, rig.direction_in_world(x_px, y_px)}, turbid,
-                                 Rng(seed, kWalkStream, pixel, samples++));
-        };
-        image(x, y) = static_cast<float>(pixel_mean(samples_across, sample));
+    std::vector<double> sums(image.width());
+    for (int y = begin; y < end; ++y) {
+      std::fill(sums.begin(), sums.end(), 0.0);
+      for (int first = 0; first < per_row; first += kPacket) {
+        const int count = std::min<int>(kPacket, per_row - first);
+        const std::array<double, kPacket> radiances = renderer.radiances(y, first, count);
+        for (int i = 0; i < count; ++i) sums[(first + i) / per_pixel] += radiances[i];
       }
+      for (int x = 0; x < image.width(); ++x) image(x, y) = static_cast<float>(sums[x] / per_pixel);
+    }
   });
   return image;
 }
