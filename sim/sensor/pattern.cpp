@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -161,19 +162,10 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
 
 Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px)
     : dots_(make_dot_tile(model)),
-      near_(model.tile_columns, model.tile_rows),
-      tile_columns_(model.tile_columns),
-      tile_rows_(model.tile_rows),
-      columns_(model.tile_columns * model.tiles_across),
-      rows_(model.tile_rows * model.tiles_down),
+      brightness_(model.tile_columns * model.tiles_across, model.tile_rows * model.tiles_down),
       step_px_(model.step_px),
       sigma_steps_(model.dot_sigma_ir_px / (ir_px_per_depth_px * model.step_px)) {
-  for (int y = 0; y < tile_rows_; ++y)
-    for (int x = 0; x < tile_columns_; ++x)
-      for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c)
-          if (dots_((x - 1 + c + tile_columns_) % tile_columns_, (y - 1 + r + tile_rows_) % tile_rows_))
-            near_(x, y) |= static_cast<std::uint16_t>(1u << (4 * r + c));
+  set_dot_gains({});
   for (int i = 0; i <= kTableSize; ++i)
     for (int c = 0; c < 4; ++c) {
       const double steps = (static_cast<double>(i) / kTableSize - (c - 1)) / sigma_steps_;
@@ -181,25 +173,27 @@ Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px)
     }
 }
 
+void Pattern::set_dot_gains(std::span<const float> gains) {
+  assert(gains.empty() || gains.size() == brightness_.size());
+  for (int row = 0, dot = 0; row < rows(); ++row)
+    for (int column = 0; column < columns(); ++column, ++dot)
+      brightness_(column, row) = !has_dot(column, row) ? 0.0f : gains.empty() ? 1.0f : gains[dot];
+}
+
 double Pattern::intensity(double x, double y, double focal_px) const {
   // Grid coordinates: dot (i, j) has its centre at (i, j), the grid's middle lies on the projector's axis.
-  const double column = x * focal_px / step_px_ + 0.5 * (columns_ - 1);
-  const double row = y * focal_px / step_px_ + 0.5 * (rows_ - 1);
+  const double column = x * focal_px / step_px_ + 0.5 * (columns() - 1);
+  const double row = y * focal_px / step_px_ + 0.5 * (rows() - 1);
   const double left = std::floor(column), top = std::floor(row);
-  if (!(left >= 1.0 && top >= 1.0 && left < columns_ - 2 && top < rows_ - 2)) return 0.0;
-  const int i = static_cast<int>(left), j = static_cast<int>(top);
-  unsigned dots = near_(i % tile_columns_, j % tile_rows_);
-  const auto& across = profile_[static_cast<int>((column - left) * kTableSize + 0.5)];
-  const auto& down = profile_[static_cast<int>((row - top) * kTableSize + 0.5)];
-  float sum = 0.0f;
-  while (dots) {
-    const int bit = std::countr_zero(dots);
-    dots &= dots - 1;
-    float spot = across[bit & 3] * down[bit >> 2];
-    if (!gains_.empty()) spot *= gains_[static_cast<std::size_t>(j - 1 + (bit >> 2)) * columns_ + (i - 1 + (bit & 3))];
-    sum += spot;
+  if (!(left >= 1.0 && top >= 1.0 && left < columns() - 2 && top < rows() - 2)) return 0.0;
+  const Eigen::Array4f& across = profile_[static_cast<int>((column - left) * kTableSize + 0.5)];
+  const Eigen::Array4f& down = profile_[static_cast<int>((row - top) * kTableSize + 0.5)];
+  Eigen::Array4f sums = Eigen::Array4f::Zero();
+  for (int r = 0; r < 4; ++r) {
+    const float* dots = &brightness_(static_cast<int>(left) - 1, static_cast<int>(top) - 1 + r);
+    sums += down[r] * Eigen::Map<const Eigen::Array4f>(dots);
   }
-  return sum;
+  return (across * sums).sum();
 }
 
 double Pattern::mean_intensity() const {

@@ -1,9 +1,10 @@
 // The projected dots: a tile of pseudo-random positions, repeated, each dot a Gaussian spot.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "core/image.h"
 #include "sim/scene/rig.h"
@@ -24,12 +25,12 @@ class Pattern {
   /// `ir_px_per_depth_px` turns the model's dot size into grid steps.
   Pattern(const PatternModel& model, double ir_px_per_depth_px);
 
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  bool has_dot(int column, int row) const { return dots_(column % tile_columns_, row % tile_rows_) != 0; }
+  int columns() const { return brightness_.width(); }
+  int rows() const { return brightness_.height(); }
+  bool has_dot(int column, int row) const { return dots_(column % dots_.width(), row % dots_.height()) != 0; }
 
-  /// Gives every dot of the grid its own brightness, columns × rows, row by row; an empty vector takes it back to 1.
-  void set_dot_gains(std::vector<float> gains) { gains_ = std::move(gains); }
+  /// Gives every dot of the grid its own brightness, columns × rows, row by row; none: 1 for all.
+  void set_dot_gains(std::span<const float> gains);
 
   /// Relative radiant intensity in a direction: 1 at an isolated dot's centre, 0 outside the grid. `x`, `y` are the
   /// rectified image coordinates in units of the focal length, `focal_px` the focal length in depth pixels.
@@ -41,13 +42,11 @@ class Pattern {
  private:
   static constexpr int kTableSize = 512;
 
-  Image<std::uint8_t> dots_;   ///< one tile
-  Image<std::uint16_t> near_;  ///< bit 4 r + c: a dot at (column − 1 + c, row − 1 + r); one tile
-  std::array<std::array<float, 4>, kTableSize + 1> profile_{};  ///< Gaussian at −1 … 2 steps from a fraction of a step
-  int tile_columns_, tile_rows_, columns_, rows_;
+  Image<std::uint8_t> dots_;                            ///< one tile
+  Image<float> brightness_;                             ///< of the whole grid; 0 where there is no dot
+  std::array<Eigen::Array4f, kTableSize + 1> profile_;  ///< Gaussian at −1 … 2 steps from a fraction of a step
   double step_px_;
   double sigma_steps_;
-  std::vector<float> gains_;
 };
 
 }  // namespace fathom
