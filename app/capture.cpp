@@ -22,7 +22,7 @@ namespace {
 
 struct CaptureOptions {
   std::filesystem::path scene;
-  std::string mode = "photometric", turbid = "surface";
+  std::string mode = "photometric", light = "direct";
   int spp = kDefaultSamplesPerPixel;
   int frames = 1;
 };
@@ -55,8 +55,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
   const Setup setup = read_setup(options.scene);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
-  const TurbidModel turbid = options.turbid == "walk" ? TurbidModel::walk : TurbidModel::surface;
-  Camera camera(setup, mode, options.spp, common.seed, turbid);
+  const LightModel light = options.light == "full" ? LightModel::full : LightModel::direct;
+  Camera camera(setup, mode, options.spp, common.seed, light);
   make_directory(common.output);
   remove_capture(common.output);
   write_truth(common.output, camera.truth());
@@ -77,7 +77,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   Json record = run_record(setup, camera);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
-  record["turbid"] = options.turbid;
+  record["light"] = options.light;
   record["spp"] = camera.samples_per_pixel();
   record["frames"] = options.frames;
   record["seed"] = common.seed;
@@ -100,9 +100,11 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  app.add_option("--turbid", options->turbid,
-                 "Liquids that scatter, in images; surface: opaque; walk: random walks of light, a minute a frame")
-      ->check(CLI::IsMember({"surface", "walk"}))
+  app.add_option(
+         "--light", options->light,
+         "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
+         "thrown on, mirrored and scattered as well")
+      ->check(CLI::IsMember({"direct", "full"}))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")
       ->check(CLI::Range(1, 100000))

@@ -5,6 +5,7 @@ namespace fathom {
 
 void register_geometric();
 void register_photometric();
+void register_light();
 void register_match();
 void register_detect();
 

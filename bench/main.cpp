@@ -18,9 +18,10 @@ struct Group {
   std::string_view summary;
 };
 
-constexpr std::array<Group, 4> kGroups{{
+constexpr std::array<Group, 5> kGroups{{
     {"geometric", fathom::register_geometric, "trace_truth() beside a bare Embree loop over the same rays"},
     {"photometric", fathom::register_photometric, "render_ir() beside a bare Embree loop, and a whole frame"},
+    {"light", fathom::register_light, "render_ir() with all light in clear, turbid and glass scenes, with its noise"},
     {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
     {"detect", fathom::register_detect, "the paper's method on a captured cloud, stage by stage"},
 }};

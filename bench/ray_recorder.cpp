@@ -10,6 +10,8 @@
 namespace fathom {
 namespace {
 
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
 struct Recorder {
   const Intersector& world;
   Eigen::Vector3d projector;
@@ -29,12 +31,14 @@ struct Recorder {
     return blocked;
   }
 
+  void add_camera_ray(const Ray& ray) {
+    add(ray.origin, ray.direction, kForEver, RayKind::camera, world.first_hit(ray).has_value());
+  }
+
   /// see() and illuminate() for one camera ray.
   void add_path(const Ray& camera_ray) {
-    constexpr double kForEver = std::numeric_limits<double>::infinity();
+    add_camera_ray(camera_ray);
     const std::optional<SeenPoint> seen = see(world, camera_ray);
-    const bool hit = seen || world.first_hit(camera_ray);
-    add(camera_ray.origin, camera_ray.direction, kForEver, RayKind::camera, hit);
     if (!seen) return;
     if (!seen->around) {
       if (seen->normal.dot(projector - seen->point) > 0.0) add_shadow(seen->point, projector);
@@ -89,26 +93,36 @@ Recording record_truth(const Intersector& world, const Rig& rig) {
   });
 }
 
-Recording record_render(const Intersector& world, const Rig& rig, int samples_across) {
-  const SensorModel& sensor = rig.sensor;
+namespace {
+
+/// Calls use(x_px, y_px) for every sample of a row of infrared pixels.
+template <class Use>
+void for_each_sample(const SensorModel& sensor, int samples_across, int y, Use use) {
   const double px_per_ir_px = 1.0 / sensor.ir_scale();
-  return record(world, rig, sensor.ir_height, [&](int y, auto use) {
-    for (int x = 0; x < sensor.ir_width; ++x)
-      for (int j = 0; j < samples_across; ++j)
-        for (int i = 0; i < samples_across; ++i)
-          use((x + (i + 0.5) / samples_across) * px_per_ir_px,
-              (y - sensor.ir_first_row() + (j + 0.5) / samples_across) * px_per_ir_px);
-  });
+  for (int x = 0; x < sensor.ir_width; ++x)
+    for (int j = 0; j < samples_across; ++j)
+      for (int i = 0; i < samples_across; ++i)
+        use((x + (i + 0.5) / samples_across) * px_per_ir_px,
+            (y - sensor.ir_first_row() + (j + 0.5) / samples_across) * px_per_ir_px);
 }
 
-Recording camera_rays_of(const Recording& recording) {
-  Recording result;
-  for (const std::vector<RecordedRay>& row : recording.rows) {
-    std::vector<RecordedRay>& kept = result.rows.emplace_back();
-    for (const RecordedRay& ray : row)
-      if (ray.kind == RayKind::camera) kept.push_back(ray);
+}  // namespace
+
+Recording record_render(const Intersector& world, const Rig& rig, int samples_across) {
+  return record(world, rig, rig.sensor.ir_height,
+                [&](int y, auto use) { for_each_sample(rig.sensor, samples_across, y, use); });
+}
+
+Recording record_camera_rays(const Intersector& world, const Rig& rig, int samples_across) {
+  Recording recording{std::vector<std::vector<RecordedRay>>(rig.sensor.ir_height)};
+  for (int y = 0; y < rig.sensor.ir_height; ++y) {
+    Recorder recorder{world, rig.projector_in_world(), recording.rows[y]};
+    for_each_sample(rig.sensor, samples_across, y, [&](double x_px, double y_px) {
+      recorder.add_camera_ray({rig.camera_in_world(), rig.direction_in_world(x_px, y_px)});
+    });
+    recording.hits += recorder.hits;
   }
-  return result;
+  return recording;
 }
 
 }  // namespace fathom

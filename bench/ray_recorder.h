@@ -32,7 +32,7 @@ Recording record_truth(const Intersector& world, const Rig& rig);
 /// What render_ir() fires for `samples_across`² samples per infrared pixel.
 Recording record_render(const Intersector& world, const Rig& rig, int samples_across);
 
-/// The camera rays alone.
-Recording camera_rays_of(const Recording& recording);
+/// Its camera rays alone.
+Recording record_camera_rays(const Intersector& world, const Rig& rig, int samples_across);
 
 }  // namespace fathom

@@ -8,6 +8,7 @@
 #include "bench/bench_scene.h"
 #include "bench/embree_loop.h"
 #include "bench/groups.h"
+#include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "sim/render/truth.h"
 #include "sim/sensor/depth.h"
@@ -21,23 +22,8 @@ struct Yardstick {
   BenchScene scene{paper_water()};
   EmbreeLoop embree{scene.geometry};
 };
-
-/// Times `work`, which traces `rays` rays each time, by the whole process's processor time.
-template <class Work>
-void measure(const char* name, std::uint64_t rays, Work work) {
-  benchmark::RegisterBenchmark(name,
-                               [rays, work](benchmark::State& state) {
-                                 for (auto _ : state) work();
-                                 state.counters["rays"] = static_cast<double>(rays);
-                               })
-      ->MeasureProcessCPUTime()
-      ->UseRealTime()
-      ->Unit(benchmark::kMillisecond);
-}
-
-void measure_embree(const char* name, const std::shared_ptr<const Yardstick>& yardstick, Recording recording) {
-  const auto shared = std::make_shared<const Recording>(std::move(recording));
-  measure(name, shared->rays(), [=] { benchmark::DoNotOptimize(yardstick->embree.trace(*shared)); });
+std::shared_ptr<const EmbreeLoop> embree_of(const std::shared_ptr<const Yardstick>& yardstick) {
+  return {yardstick, &yardstick->embree};
 }
 
 /// The loop must find what the capture found, or it is no yardstick. A refracted ray's direction is rounded anew, so a
@@ -52,7 +38,7 @@ void require_same_hits(const Yardstick& yardstick, const Recording& recording) {
 Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, const Reference& reference) {
   const SensorModel& sensor = scene.setup.rig.sensor;
   const Image<float> radiance =
-      render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, TurbidModel::surface, 1);
+      render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, LightModel::direct, 1);
   const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
   const Image<float> depth = depth_image(sensor, match(sensor, ir, reference).disparity_px);
   return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));
@@ -65,9 +51,9 @@ void register_geometric() {
   const BenchScene& scene = yardstick->scene;
   Recording recording = record_truth(scene.world, scene.setup.rig);
   require_same_hits(*yardstick, recording);
-  measure("geometric/fathom", recording.rays(),
+  measure("geometric/fathom", {{"rays", static_cast<double>(recording.rays())}},
           [yardstick, &scene] { benchmark::DoNotOptimize(trace_truth(scene.projector, scene.setup.rig)); });
-  measure_embree("geometric/embree", yardstick, std::move(recording));
+  measure_embree("geometric/embree", embree_of(yardstick), std::move(recording));
 }
 
 void register_photometric() {
@@ -82,15 +68,17 @@ void register_photometric() {
 
   Recording recording = record_render(scene.world, scene.setup.rig, kSamplesAcross);
   require_same_hits(*yardstick, recording);
-  measure("photometric/fathom", recording.rays(), [yardstick, &scene, pattern] {
+  const std::map<std::string, double> rays{{"rays", static_cast<double>(recording.rays())}};
+  measure("photometric/fathom", rays, [yardstick, &scene, pattern] {
     benchmark::DoNotOptimize(
-        render_ir(scene.projector, scene.setup.rig, *pattern, kSamplesAcross, TurbidModel::surface, 1));
+        render_ir(scene.projector, scene.setup.rig, *pattern, kSamplesAcross, LightModel::direct, 1));
   });
-  measure("photometric/frame", recording.rays(), [yardstick, &scene, pattern, reference] {
+  measure("photometric/frame", rays, [yardstick, &scene, pattern, reference] {
     benchmark::DoNotOptimize(whole_frame(scene, *pattern, *reference));
   });
-  measure_embree("photometric/camera_rays", yardstick, camera_rays_of(recording));
-  measure_embree("photometric/embree", yardstick, std::move(recording));
+  measure_embree("photometric/camera_rays", embree_of(yardstick),
+                 record_camera_rays(scene.world, scene.setup.rig, kSamplesAcross));
+  measure_embree("photometric/embree", embree_of(yardstick), std::move(recording));
 }
 
 }  // namespace fathom

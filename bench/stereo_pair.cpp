@@ -55,7 +55,7 @@ StereoPair make_stereo_pair(Setup setup, const NoiseModel& noise) {
   const Image<float> reference = reference_image(sensor, pattern, margin, kSamplesAcross);
   pattern.set_dot_gains(speckle_gains(noise, pattern, kSeed));
   Image<float> ir =
-      expose(render_ir(scene.projector, rig, pattern, kSamplesAcross, TurbidModel::surface, kSeed), noise, kSeed, 0);
+      expose(render_ir(scene.projector, rig, pattern, kSamplesAcross, LightModel::direct, kSeed), noise, kSeed, 0);
 
   StereoPair pair;
   pair.sensor = sensor;

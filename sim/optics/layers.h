@@ -26,14 +26,14 @@ class LayerSpace {
     bool below;       ///< the layer's lower face
   };
 
-  const Turbid& medium(int region) const { return layers_[static_cast<std::size_t>(region)].medium; }
+  const Turbid& medium(std::uint64_t region) const { return layers_[region].medium; }
   const std::vector<Layer>& layers() const { return layers_; }
   double n_outside() const { return n_outside_; }
 
-  Boundary next_boundary(const Walker& walker) const {
+  Boundary next_boundary(const Walker& walker, double) const {
     const double dz = walker.direction.z();
     if (dz == 0.0) return {std::numeric_limits<double>::infinity(), true};
-    const std::size_t face = static_cast<std::size_t>(walker.region) + (dz < 0.0 ? 1 : 0);
+    const std::size_t face = walker.region + (dz < 0.0 ? 1 : 0);
     // Rounding may have left the walker a little beyond the face that it was put on.
     return {std::fmax(0.0, (face_z_[face] - walker.position.z()) / dz), dz < 0.0};
   }
@@ -45,8 +45,8 @@ class LayerSpace {
       if (walker.weight > 0.0) visitor.leaves(walker, normal, walker.weight);
       return false;
     }
-    const int beyond = walker.region + (boundary.below ? 1 : -1);
-    if (beyond < 0 || beyond == static_cast<int>(layers_.size()))
+    const std::uint64_t beyond = walker.region + (boundary.below ? 1 : -1);  // above the top: a huge number
+    if (beyond >= layers_.size())
       leave_through(walker, normal, medium(walker.region).n, n_outside_, visitor);
     else if (cross_interface(walker, normal, medium(walker.region).n, medium(beyond).n, rng))
       walker.region = beyond;

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
+#include <limits>
 
 #include "core/rng.h"
 #include "sim/optics/phase.h"
@@ -25,20 +27,21 @@ struct Walker {
   Eigen::Vector3d position;   ///< [m]
   Eigen::Vector3d direction;  ///< unit
   double weight = 1.0;        ///< power that is left of the packet
-  int region = 0;             ///< which of the space's media it is in
+  std::uint64_t region = 0;   ///< which of the space's media it is in
 };
 
 /// What a walk goes through. A boundary is anything with a `distance` [m] (infinite where there is none):
 ///   medium(region)          the medium of a region;
-///   next_boundary(walker)   the first boundary ahead of it;
+///   next_boundary(walker, reach)
+///                           the first boundary ahead of it; any one beyond `reach` [m] if it lies beyond;
 ///   meet(boundary, walker, rng, visitor)
 ///                           what happens there, the walker standing on it: reflects or refracts it, scatters it or
 ///                           lowers its weight, tells the visitor what left; false where the walk ends.
 template <class Space, class Visitor>
 concept WalkSpace = requires(const Space& space, Walker& walker, Rng& rng, Visitor& visitor) {
   { space.medium(walker.region) } -> std::convertible_to<const Turbid&>;
-  { space.next_boundary(walker).distance } -> std::convertible_to<double>;
-  { space.meet(space.next_boundary(walker), walker, rng, visitor) } -> std::same_as<bool>;
+  { space.next_boundary(walker, 1.0).distance } -> std::convertible_to<double>;
+  { space.meet(space.next_boundary(walker, 1.0), walker, rng, visitor) } -> std::same_as<bool>;
 };
 
 /// A walk with less than this share of the weight it started with plays Russian roulette. From 0.05 to 1 the time for a
@@ -69,9 +72,9 @@ requires WalkSpace<Space, Visitor>
 void random_walk(const Space& space, Walker walker, double least_weight, Rng& rng, Visitor& visitor) {
   while (survives(walker, least_weight, rng)) {
     const Turbid& medium = space.medium(walker.region);
-    const auto boundary = space.next_boundary(walker);
     // Where nothing scatters the flight is infinite, or no number once in 2^53 times: not shorter either way.
     const double flight = -std::log(1.0 - rng.uniform()) / medium.scattering;
+    const auto boundary = space.next_boundary(walker, flight);
     if (flight < boundary.distance) {
       advance(walker, medium, flight);
       visitor.at_scattering(walker);
@@ -90,7 +93,7 @@ template <class Space, class Visitor>
 requires WalkSpace<Space, Visitor>
 void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Visitor& visitor) {
   const Turbid& medium = space.medium(walker.region);
-  const auto boundary = space.next_boundary(walker);
+  const auto boundary = space.next_boundary(walker, std::numeric_limits<double>::infinity());
   const double scattered = medium.scattering > 0.0 ? -std::expm1(-medium.scattering * boundary.distance) : 0.0;
   if (scattered < 1.0) {
     Walker straight = walker;

@@ -20,9 +20,9 @@ class StraightCupSpace {
     Face face;
   };
 
-  const Turbid& medium(int) const { return liquid_; }
+  const Turbid& medium(std::uint64_t) const { return liquid_; }
 
-  Boundary next_boundary(const Walker& walker) const {
+  Boundary next_boundary(const Walker& walker, double) const {
     const Eigen::Vector3d &p = walker.position, &d = walker.direction;
     const double level = d.z() > 0.0 ? 0.0 : -depth_;
     const double to_level = (level - p.z()) / d.z();  // infinite where the light runs level

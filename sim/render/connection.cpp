@@ -21,7 +21,8 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
     if (medium) through *= transmittance(medium->extinction(), hit->distance);
     if (const auto* diffuse = std::get_if<Diffuse>(&hit->surface->optics)) {
       through *= n_camera * n_camera / (n_from * n_from);
-      return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object, medium, refracted, through};
+      return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object,
+                       inside,     medium,      refracted,       through};
     }
     const BodySet after = beyond(*hit, inside);
     const Body* next = medium_in(world.geometry(), after);
@@ -32,8 +33,9 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
     }
     if (next && next->scatters()) {
       through *= n_camera * n_camera / (n_from * n_from);
-      return SeenPoint{hit->point, hit->normal, next->surface_albedo, hit->surface->object, medium, refracted,
-                       through,    next};
+      return SeenPoint{
+          hit->point, hit->normal, next->surface_albedo, hit->surface->object, inside, medium, refracted, through,
+          next,       after};
     }
     ++crossings;
     if (const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next))) {

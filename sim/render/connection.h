@@ -18,10 +18,12 @@ struct SeenPoint {
   Eigen::Vector3d normal;  ///< unit, towards the camera's side
   double albedo;           ///< of a body that scatters, its surface_albedo
   int object;
-  const Body* around;             ///< the medium at the point; nullptr is air
+  BodySet inside;                 ///< the bodies around it, on the camera's side
+  const Body* around;             ///< the medium there; nullptr is air
   bool refracted;                 ///< whether the ray bent on its way
   double transmittance;           ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
   const Body* entered = nullptr;  ///< the body that scatters, if any
+  BodySet beyond = 0;             ///< with it, the bodies on its side
 };
 
 /// How the projector lights a point.

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "core/error.h"
@@ -137,6 +140,7 @@ class Builder {
     const int body = add_body(object, filling.medium, Priority::liquid);
     bodies_[body].body.level = level;
     bodies_[body].body.plain = plain;
+    if (plain && shape) bodies_[body].body.vessel = Vessel{cup.position, shape->inner};
     Surface surface{object, std::move(mesh), Interface{body}};
     if (top) {
       top->move(cup.position);
@@ -153,6 +157,18 @@ class Builder {
 };
 
 }  // namespace
+
+double Vessel::clearance(const Eigen::Vector3d& point) const {
+  const Eigen::Vector2d at((point.head<2>() - axis).norm(), point.z());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const Eigen::Vector2d piece = profile[i] - profile[i - 1], from = at - profile[i - 1];
+    const double share = std::clamp(from.dot(piece) / piece.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (from - share * piece).squaredNorm());
+  }
+  const double distance = std::sqrt(least), radius = at.x() + distance;
+  return distance - radius * (1.0 - std::cos(std::numbers::pi / kFacetsAround));  // less the facets' sagitta
+}
 
 Geometry build_geometry(const Scene& scene, double wavelength_nm) {
   Geometry geometry;

@@ -14,13 +14,23 @@
 
 namespace fathom {
 
+/// Room inside an upright wall of revolution.
+struct Vessel {
+  Eigen::Vector2d axis;                  ///< [m] world
+  std::vector<Eigen::Vector2d> profile;  ///< of the wall, (radius, height) [m], from the bottom's centre to the rim
+
+  /// Least distance [m] from a point inside to the wall's mesh, or a little less.
+  double clearance(const Eigen::Vector3d& point) const;
+};
+
 /// A body that light enters: a liquid, a cup's glass wall, a transmissive glTF mesh.
 struct Body {
-  int object;                        ///< as in Surface
-  Turbid medium;                     ///< at the scene's wavelength; air has the index 1
-  double surface_albedo = 0.0;       ///< of a body that scatters, if it were opaque (diffuse_reflectance)
-  std::optional<double> level = {};  ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
-  bool plain = false;                ///< whether it is level all over, in an opaque cup: light can enter only there
+  int object;                         ///< as in Surface
+  Turbid medium;                      ///< at the scene's wavelength; air has the index 1
+  double surface_albedo = 0.0;        ///< of a body that scatters, if it were opaque (diffuse_reflectance)
+  std::optional<double> level = {};   ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
+  bool plain = false;                 ///< whether it is level all over, in an opaque cup: light can enter only there
+  std::optional<Vessel> vessel = {};  ///< around a plain liquid in a cup of revolution
 
   bool scatters() const { return medium.scattering > 0.0; }
   /// What unscattered light loses on its way [1/m].

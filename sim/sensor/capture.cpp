@@ -21,7 +21,7 @@ auto timed(double& seconds, Work work) {
 
 }  // namespace
 
-Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed, TurbidModel turbid)
+Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed, LightModel light)
     : rig_(setup.rig), mode_(mode), seed_(seed) {
   const SensorModel& sensor = rig_.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
@@ -39,7 +39,7 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ =
-      timed(statistics_.render_s, [&] { return render_ir(projector, rig_, pattern, samples_across_, turbid, seed); });
+      timed(statistics_.render_s, [&] { return render_ir(projector, rig_, pattern, samples_across_, light, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
 }
 

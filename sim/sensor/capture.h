@@ -36,7 +36,7 @@ struct CaptureStatistics {
 class Camera {
  public:
   Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
-         TurbidModel turbid = TurbidModel::surface);
+         LightModel light = LightModel::direct);
 
   /// The frame of that number; only the noise differs from frame to frame.
   Frame shoot(std::uint64_t frame);

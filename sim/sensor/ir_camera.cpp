@@ -7,8 +7,8 @@
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "sim/render/connection.h"
+#include "sim/render/light_walk.h"
 #include "sim/render/radiance.h"
-#include "sim/render/turbid.h"
 
 namespace fathom {
 namespace {
@@ -17,8 +17,8 @@ constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
 constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
 
-/// Walks per camera ray that enters a scattering body.
-constexpr int kWalks = 4;
+/// Walks per camera ray that enters a scattering body; other surfaces get one.
+constexpr int kWalksIntoBody = 4;
 
 /// What a camera's samples look at, and what they look with.
 struct Renderer {
@@ -26,7 +26,7 @@ struct Renderer {
   const Rig& rig;
   const Pattern& pattern;
   int samples_across;
-  TurbidModel turbid;
+  LightModel light;
   std::uint64_t seed;
 
   double intensity(const Eigen::Vector3d& direction) const {
@@ -52,34 +52,36 @@ struct Renderer {
     for (int i = 0; i < count; ++i) rays[i] = camera_ray(y, first + i);
     SeenPoints seen = see(projector.world(), std::span(rays.data(), count));
     std::array<double, kPacket> sums{};
-    if (turbid == TurbidModel::walk)
+    if (light == LightModel::full)
       for (int i = 0; i < count; ++i)
-        if (seen[i] && seen[i]->entered) {
+        if (seen[i]) {
           Rng rng(seed, kWalkStream, y, first + i);
-          sums[i] = walked_radiance(*seen[i], rays[i].direction, rng);
-          seen[i].reset();
+          sums[i] = indirect_radiance(*seen[i], rays[i].direction, rng);
+          if (seen[i]->entered) seen[i].reset();
         }
-    for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& light) {
-      sums[i] += radiance_dn(rig.sensor, *seen[i], light) * intensity(light.direction);
+    for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
+      sums[i] += radiance_dn(rig.sensor, *seen[i], from_projector) * intensity(from_projector.direction);
     });
     return sums;
   }
 
-  double walked_radiance(const SeenPoint& entry, const Eigen::Vector3d& arriving, Rng& rng) const {
+  /// Radiance [DN] by walks, and by reflections in liquids.
+  double indirect_radiance(const SeenPoint& seen, const Eigen::Vector3d& arriving, Rng& rng) const {
     double sum = 0.0;
-    for (int walk = 0; walk < kWalks; ++walk)
-      walk_turbid(projector, entry, arriving, rng, [&](const ReturnedLight& light) {
-        sum += radiance_dn(rig.sensor, light.reflected) * intensity(light.direction);
+    const int walks = seen.entered ? kWalksIntoBody : 1;
+    for (int walk = 0; walk < walks; ++walk)
+      walk_light(projector, seen, arriving, rng, [&](const ReturnedLight& returned) {
+        sum += radiance_dn(rig.sensor, returned.reflected) * intensity(returned.direction);
       });
-    return sum / kWalks;
+    return sum / walks;
   }
 };
 
 }  // namespace
 
 Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
-                       TurbidModel turbid, std::uint64_t seed) {
-  const Renderer renderer{projector, rig, pattern, samples_across, turbid, seed};
+                       LightModel light, std::uint64_t seed) {
+  const Renderer renderer{projector, rig, pattern, samples_across, light, seed};
   Image<float> image(rig.sensor.ir_width, rig.sensor.ir_height);
   const int per_pixel = renderer.samples_per_pixel(), per_row = renderer.samples_per_row();
   parallel_ranges(image.height(), [&](int begin, int end) {

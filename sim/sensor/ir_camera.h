@@ -10,17 +10,17 @@
 
 namespace fathom {
 
-/// How a body that scatters looks in an image.
-enum class TurbidModel {
-  surface,  ///< like an opaque diffuse surface: fast, but light does not enter it
-  walk      ///< by random walks through it: dots blur and sink in
+/// Which light an image is made of.
+enum class LightModel {
+  direct,  ///< from the projector to what the camera sees, refracted or not; bodies that scatter are opaque
+  full     ///< all: thrown from wall to wall, mirrored by liquids, scattered within bodies
 };
 
 /// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise. Each pixel is sampled on a grid of
 /// `samples_across`² points; the dots are smooth, so a grid converges faster than random points and adds no noise. Only
-/// light in scattering bodies walks at random, keyed by (seed, pixel, sample).
+/// light that is not direct walks at random, keyed by (seed, row, sample).
 Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
-                       TurbidModel turbid, std::uint64_t seed);
+                       LightModel light, std::uint64_t seed);
 
 /// Speckle of a static scene: one gain of unit mean for every dot, Gamma(shape, 1/shape).
 std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed);

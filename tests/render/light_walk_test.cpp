@@ -1,5 +1,5 @@
 // Light that walks through a liquid: what comes back is what closed forms say where there are any.
-#include "sim/render/turbid.h"
+#include "sim/render/light_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ struct CupOfLiquid {
     for (int walk = 0; walk < walks; ++walk) {
       Rng rng(1, walk);
       double one = 0.0;
-      walk_turbid(projector, seen, ray.direction, rng, [&](const ReturnedLight& light) { one += light.reflected; });
+      walk_light(projector, seen, ray.direction, rng, [&](const ReturnedLight& light) { one += light.reflected; });
       sum += one, squares += one * one;
     }
     const double mean = sum / walks;
@@ -61,7 +61,7 @@ struct CupOfLiquid {
   }
 };
 
-TEST(TurbidWalk, WithNextToNoScatteringIsTheClearLiquid) {
+TEST(LightWalk, WithNextToNoScatteringIsTheClearLiquid) {
   // Black but for 1 %: what bounces twice is below 1 % of what bounces once.
   const CupOfLiquid clear(3.0, 0.0, 0.0, 0.01), thin(3.0, 1e-6, 0.0, 0.01);
   ASSERT_FALSE(clear.seen.entered);
@@ -74,7 +74,7 @@ TEST(TurbidWalk, WithNextToNoScatteringIsTheClearLiquid) {
   EXPECT_LT(walked.mean, 1.01 * once + 4.0 * walked.standard_error);
 }
 
-TEST(TurbidWalk, BetweenBlackWallsIsSingleScatteringWhereLittleScatters) {
+TEST(LightWalk, BetweenBlackWallsIsSingleScatteringWhereLittleScatters) {
   // μs 0.02 per m over 30 mm: twice scattered light is below 1e-3 of the once scattered.
   constexpr double kScattering = 0.02, kAbsorption = 3.0, kAnisotropy = 0.7;
   const CupOfLiquid cup(kAbsorption, kScattering, kAnisotropy, 0.0);
@@ -99,7 +99,7 @@ TEST(TurbidWalk, BetweenBlackWallsIsSingleScatteringWhereLittleScatters) {
   EXPECT_LT(walked.standard_error, 0.02 * expected);
 }
 
-TEST(TurbidWalk, DenserLiquidReturnsMoreLightAndNeverMoreThanArrives) {
+TEST(LightWalk, DenserLiquidReturnsMoreLightAndNeverMoreThanArrives) {
   double last = 0.0;
   for (const double scattering_per_m : {10.0, 100.0, 1000.0, 10000.0}) {
     const CupOfLiquid cup(0.0, scattering_per_m, 0.0, 0.0);

@@ -1,0 +1,25 @@
+// Light that gets to the camera in more than one step: scattered in a body, thrown from wall to wall, totally
+// reflected, out of a liquid and in again. A random walk from what the camera sees, joined to the projector wherever it
+// scatters.
+#pragma once
+
+#include <functional>
+
+#include "core/rng.h"
+#include "sim/render/connection.h"
+
+namespace fathom {
+
+/// Light from the projector that ends in the camera, by the direction in which it left.
+struct ReturnedLight {
+  Eigen::Vector3d direction;  ///< unit, world
+  double reflected;           ///< [1/m²] π · radiance per unit radiant intensity of the projector, see radiance_dn()
+};
+
+/// Walks once from the point `seen`, which a ray of direction `arriving` has met, and calls `visit` with each
+/// ReturnedLight. Their sum is an unbiased estimate: where a body that scatters is entered, of all that it returns, its
+/// surface's mirror image included; at a diffuse point, of what arrives there other than by for_each_illumination().
+void walk_light(const PointLight& projector, const SeenPoint& seen, const Eigen::Vector3d& arriving, Rng& rng,
+                const std::function<void(const ReturnedLight&)>& visit);
+
+}  // namespace fathom
