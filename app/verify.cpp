@@ -106,7 +106,7 @@ std::string compare(const Case& row, const std::vector<Estimate>& found, Json& r
                     {"published_uncertainty", published.uncertainty},
                     {"passed", passed},
                     {"source", row.source}});
-    text += fmt::format("{:<53}  {:<19}  {:>8.6f}  {:>8.6f}  {:>9.6g}  {:>6.2f}  {:<7}  {}\n", row.name,
+    text += fmt::format("{:<53}  {:<19}  {:>9.6f}  {:>8.6f}  {:>9.6g}  {:>6.2f}  {:<7}  {}\n", row.name,
                         published.quantity, found[i].value, found[i].standard_error, published.value, sigmas,
                         passed ? "passed" : "FAILED", row.source);
   }
@@ -118,7 +118,7 @@ void verify_cases(const std::string& name, std::initializer_list<const std::vect
                   const CommonOptions& common) {
   Json rows = Json::array();
   int failures = 0;
-  std::string text = fmt::format("{:<53}  {:<19}  {:>8}  {:>8}  {:>9}  {:>6}  {:<7}  {}\n", "case", "quantity", "value",
+  std::string text = fmt::format("{:<53}  {:<19}  {:>9}  {:>8}  {:>9}  {:>6}  {:<7}  {}\n", "case", "quantity", "value",
                                  "std.err", "published", "sigmas", "verdict", "source");
   for (const std::vector<Case>* table : tables)
     for (const Case& row : *table) {
@@ -173,7 +173,7 @@ std::function<void()> define_verify(CLI::App& app, const CommonOptions& common) 
     if (*slab) verify_slab(*options, common);
     if (*fresnel) verify_fresnel(*options, common);
     if (*furnace) verify_cases("furnace", {&furnace_cases()}, common);
-    if (*all) verify_cases("verify", {&published_cases(), &furnace_cases()}, common);
+    if (*all) verify_cases("verify", {&published_cases(), &refraction_cases(), &furnace_cases()}, common);
   };
 }
 

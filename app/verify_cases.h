@@ -24,8 +24,9 @@ struct Case {
   std::vector<Estimate> (*compute)(std::uint64_t seed, const SamplingPlan& plan);
 };
 
-const std::vector<Case>& published_cases();  ///< tables
-const std::vector<Case>& furnace_cases();    ///< conservation of energy
+const std::vector<Case>& published_cases();   ///< tables of reflectance, transmittance and what leaves where
+const std::vector<Case>& refraction_cases();  ///< angles and apparent depths
+const std::vector<Case>& furnace_cases();     ///< conservation of energy
 
 /// How far a value lies from the published one, in standard errors; the published uncertainty counts as a further
 /// error.
