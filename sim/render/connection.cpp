@@ -31,13 +31,14 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
       inside = after;
       continue;
     }
-    if (next && next->scatters()) {
+    const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next));
+    if (bent && next && next->scatters()) {
       through *= n_camera * n_camera / (n_from * n_from);
       return SeenPoint{hit->point, hit->normal, next->surface_albedo, hit->surface->object, medium, refracted,
                        through,    next};
     }
     ++crossings;
-    if (const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next))) {
+    if (bent) {
       const double cosine = std::min(-ray.direction.dot(hit->normal), 1.0);
       through *= 1.0 - fresnel_reflectance(cosine, n_from, index_of(next));
       ray.direction = *bent;
@@ -48,6 +49,10 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
     }
   }
   return std::nullopt;
+}
+
+bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
+  return !seen.entered || refract(arrival, seen.normal, index_of(seen.around), seen.entered->medium.n);
 }
 
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {

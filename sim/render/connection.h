@@ -32,11 +32,16 @@ struct Illumination {
 /// reflected; partial reflections are left out.
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
 
+/// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
+/// totally.
+bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival);
+
 /// Calls `visit` with the Illumination of each way in which the projector's light gets to the point.
 template <class Visit>
 void for_each_illumination(const PointLight& projector, const SeenPoint& seen, Visit&& visit) {
   projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
-    visit(Illumination{way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival)});
+    if (takes_up(seen, way.arrival))
+      visit(Illumination{way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival)});
   });
 }
 
