@@ -71,6 +71,8 @@ Outcome shoot(std::uint64_t seed, std::uint64_t number, const std::filesystem::p
     const Setup setup = read_setup(folder / "scene.json");
     Camera camera(setup, shot.mode, 1, seed, shot.turbid);
     outcome.broken = broken_capture_laws(setup.rig.sensor, camera, camera.shoot(0));
+    // The projector's search of clear bodies takes longer than all else and would be made twice for every scene.
+    if (shot.mode == CaptureMode::photometric) return outcome;
     const Intersector world(camera.geometry());
     const PointLight projector(world, setup.rig.projector_in_world());
     for (std::string& law : broken_light_laws(projector, setup.rig, counts)) outcome.broken.push_back(std::move(law));

@@ -60,7 +60,7 @@ Json random_pattern(Draw& draw) {
 /// A small sensor that looks at `target_mm` from anywhere above the desk, now and then past it.
 Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
   const int width = draw.whole(16, 22), height = draw.whole(16, 22);
-  Json sensor = {{"height_mm", draw.chance(0.2) ? draw.from(20.0, 150.0) : draw.from(150.0, 1200.0)},
+  Json sensor = {{"height_mm", draw.chance(0.15) ? draw.from(20.0, 250.0) : draw.from(250.0, 1200.0)},
                  {"baseline_mm", draw.scale(10.0, 200.0)},
                  {"ir_size_px", {2 * width, 2 * (height + draw.whole(0, 3))}},
                  {"depth_size_px", {width, height}},
@@ -89,7 +89,7 @@ Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
 Json random_profile(Draw& draw, double height_mm, double bottom_mm, double wall_mm) {
   Json inner = {{0.0, bottom_mm}}, outer = {{0.0, 0.0}};
   const int corners = draw.whole(2, 5);
-  double inner_mm = draw.from(10.0, 45.0);
+  double inner_mm = draw.scale(8.0, 40.0);
   if (draw.chance(0.7)) inner.push_back({inner_mm, bottom_mm});
   for (const double z_mm : {0.0, bottom_mm}) outer.push_back({inner_mm + wall_mm, z_mm});
   for (int corner = 1; corner < corners; ++corner) {
@@ -104,8 +104,8 @@ Json random_profile(Draw& draw, double height_mm, double bottom_mm, double wall_
 
 /// A cup of revolution that is described, not named.
 Json random_shape(Draw& draw) {
-  const double height_mm = draw.from(15.0, 130.0), bottom_mm = std::min(draw.scale(0.5, 15.0), 0.5 * height_mm);
-  const double wall_mm = draw.scale(0.3, 8.0), inner_mm = draw.from(8.0, 50.0);
+  const double height_mm = draw.scale(12.0, 120.0), bottom_mm = std::min(draw.scale(0.5, 15.0), 0.5 * height_mm);
+  const double wall_mm = draw.scale(0.3, 8.0), inner_mm = draw.scale(6.0, 45.0);
   Json shape;
   if (draw.chance(0.4))
     shape = random_profile(draw, height_mm, bottom_mm, wall_mm);
@@ -114,7 +114,7 @@ Json random_shape(Draw& draw) {
              {"bottom_mm", bottom_mm},
              {"inner_radius_mm", inner_mm},
              {"outer_radius_mm", inner_mm + wall_mm}};
-  if (draw.chance(0.5)) {
+  if (draw.chance(0.6)) {
     shape["albedo"] = draw.chance(0.1) ? 1.0 : draw.from(0.0, 1.0);
     if (draw.chance(0.3))
       shape["handle"] = {{"low_mm", 0.2 * height_mm}, {"high_mm", 0.8 * height_mm}, {"reach_mm", draw.from(5.0, 40.0)}};
@@ -182,7 +182,7 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
   else
     cup["fill_mm"] = depth_mm;
   const double level = read.bottom() + metres_from_mm(depth_mm);
-  if (draw.chance(0.5))
+  if (draw.chance(0.4))
     cup["surface"] = random_surface(draw, depth_mm, room_mm - depth_mm, mm_from_metres(read.inner_radius(level)));
   return cup;
 }
@@ -203,7 +203,7 @@ Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::
 /// A prism, opaque or clear.
 Json random_object(Draw& draw, const Eigen::Vector2d& position_mm, const std::filesystem::path& folder) {
   const int sides = draw.whole(3, 12);
-  const double radius = draw.from(0.005, 0.06), height = draw.from(0.002, 0.12);
+  const double radius = draw.from(0.005, 0.04), height = draw.from(0.002, 0.08);
   const Mesh mesh = prism(sides, radius, 0.0, height);
   const double index = draw.from(1.0, 2.0);
   if (draw.chance(0.3))
@@ -232,11 +232,11 @@ Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::fil
                      {"size_mm", {draw.from(100.0, 3000.0), draw.from(100.0, 3000.0)}}};
   scene["cups"] = Json::array();
   if (draw.chance(0.95)) scene["cups"].push_back(random_cup(draw, middle_mm));
-  while (draw.chance(0.2)) scene["cups"].push_back(random_cup(draw, nearby(150.0)));
+  while (draw.chance(0.12)) scene["cups"].push_back(random_cup(draw, nearby(150.0)));
   if (draw.chance(0.05)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
-  if (draw.chance(0.2)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
+  if (draw.chance(0.15)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
   write_json(folder / "scene.json", scene);
-  return {draw.chance(0.3) ? CaptureMode::geometric : CaptureMode::photometric,
+  return {draw.chance(0.4) ? CaptureMode::geometric : CaptureMode::photometric,
           draw.chance(0.3) ? TurbidModel::walk : TurbidModel::surface};
 }
 
