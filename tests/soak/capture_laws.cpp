@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+
+#include "sim/render/radiance.h"
 
 namespace fathom {
 namespace {
@@ -32,9 +38,37 @@ class Laws {
 bool finite(float value) { return std::isfinite(value); }
 bool a_power(double value) { return std::isfinite(value) && value >= 0.0; }
 
+/// Greatest intensity of the pattern: no two dots are adjacent, so of 2 × 2 positions at most one holds a dot, and of
+/// two neighbouring pairs of columns one is at least half a step away; likewise of rows.
+double most_intensity(const SensorModel& sensor) {
+  const double half_step_ir_px = 0.5 * sensor.ir_scale() * sensor.pattern.step_px;
+  const double share = half_step_ir_px / sensor.pattern.dot_sigma_ir_px;
+  const double across = 1.0 + std::exp(-0.5 * share * share);
+  return across * across;
+}
+
+/// Upper bound of every pixel's radiance [DN]: white, facing the projector, as near as the nearest surface. Going into
+/// a denser medium through a level surface light only spreads, and its intensity along the ray falls; any other surface
+/// may focus it. Speckle has no bound, and light that walks may leave in lobes.
+std::optional<double> most_radiance(const Rig& rig, const Geometry& geometry, TurbidModel turbid) {
+  if (rig.sensor.noise.speckle_shape > 0.0) return std::nullopt;
+  for (const Body& body : geometry.bodies)
+    if (!body.plain || (body.scatters() && turbid == TurbidModel::walk)) return std::nullopt;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Surface& surface : geometry.surfaces) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : surface.mesh.vertices) box.extend(vertex);
+    nearest = std::min(nearest, box.exteriorDistance(rig.projector_in_world()));
+  }
+  if (nearest == 0.0) return std::nullopt;
+  return radiance_dn(rig.sensor, 1.0 / (nearest * nearest)) * most_intensity(rig.sensor);
+}
+
 }  // namespace
 
-std::vector<std::string> broken_capture_laws(const SensorModel& sensor, const Camera& camera, const Frame& frame) {
+std::vector<std::string> broken_capture_laws(const Rig& rig, const Camera& camera, TurbidModel turbid,
+                                             const Frame& frame) {
+  const SensorModel& sensor = rig.sensor;
   Laws laws;
   const int objects = static_cast<int>(camera.geometry().objects.size());
   laws.of_size("the truth has the depth image's size", camera.truth(), sensor.width, sensor.height);
@@ -48,14 +82,18 @@ std::vector<std::string> broken_capture_laws(const SensorModel& sensor, const Ca
   });
 
   laws.of_pixels("radiance is finite and not negative", camera.radiance(), a_power);
+  if (const auto most = most_radiance(rig, camera.geometry(), turbid))
+    laws.of_pixels("no pixel is brighter than white at the nearest surface", camera.radiance(), [&](float radiance) {
+      constexpr double kRounding = 1e-6;  // of pixels, and of the pattern's profile, to float
+      return radiance <= *most * (1.0 + kRounding);
+    });
   laws.of_pixels("the infrared image is finite", frame.ir, finite);
   if (!frame.ir.empty()) laws.of_size("the infrared image is whole", frame.ir, sensor.ir_width, sensor.ir_height);
 
   laws.of_size("the depth image is whole", frame.depth, sensor.width, sensor.height);
   laws.of_pixels("disparity is finite and not negative", frame.disparity_px, a_power);
-  // Half a millimetre: floats of at most 10 m are rounded far below it, whole mm of the device far above.
   laws.of_pixels("depth is in range or invalid", frame.depth, [&](float depth) {
-    constexpr float kRounding = 1e-6f;
+    constexpr float kRounding = 1e-6f;  // of depths to float
     return depth == 0.0f || (depth >= static_cast<float>(sensor.near) * (1.0f - kRounding) &&
                              depth <= static_cast<float>(sensor.far) * (1.0f + kRounding));
   });

@@ -70,7 +70,7 @@ Outcome shoot(std::uint64_t seed, std::uint64_t number, const std::filesystem::p
     outcome.command = capture_command(folder, shot, seed);
     const Setup setup = read_setup(folder / "scene.json");
     Camera camera(setup, shot.mode, 1, seed, shot.turbid);
-    outcome.broken = broken_capture_laws(setup.rig.sensor, camera, camera.shoot(0));
+    outcome.broken = broken_capture_laws(setup.rig, camera, shot.turbid, camera.shoot(0));
     // The projector's search of clear bodies takes longer than all else and would be made twice for every scene.
     if (shot.mode == CaptureMode::photometric) return outcome;
     const Intersector world(camera.geometry());
