@@ -23,16 +23,17 @@ TruePixel trace_pixel(const PointLight& projector, const Rig& rig, double x_px, 
 
 }  // namespace
 
-Eigen::Vector2d rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world) {
+std::optional<Eigen::Vector2d> rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world) {
   const Eigen::Vector3d in_camera = rig.world_from_camera.linear().transpose() * direction_in_world;
+  if (in_camera.z() <= 0.0) return std::nullopt;
   return in_camera.head<2>() / in_camera.z();
 }
 
 std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& camera_direction,
                                          const Eigen::Vector3d& projector_direction) {
-  const double parallax = rectified(rig, camera_direction).x() - rectified(rig, projector_direction).x();
-  if (parallax <= 0.0) return std::nullopt;
-  return rig.sensor.baseline / parallax;
+  const auto seen = rectified(rig, camera_direction), sent = rectified(rig, projector_direction);
+  if (!seen || !sent || seen->x() <= sent->x()) return std::nullopt;
+  return rig.sensor.baseline / (seen->x() - sent->x());
 }
 
 Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig) {

@@ -23,7 +23,8 @@ struct TruePixel {
 };
 
 /// Image coordinates, in units of the focal length, of a world direction in the rectified frame: x right, y down.
-Eigen::Vector2d rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world);
+/// Nothing for a direction that does not go forward.
+std::optional<Eigen::Vector2d> rectified(const Rig& rig, const Eigen::Vector3d& direction_in_world);
 
 /// Depth from the horizontal parallax of two rays: Z = b / (ξ_camera − ξ_projector) [m]; nothing when they do not meet
 /// in front of the sensor.

@@ -27,8 +27,8 @@ double sample_radiance(const PointLight& projector, const Rig& rig, const Patter
   const std::optional<SeenPoint> seen = see(projector.world(), ray);
   if (!seen) return 0.0;
   const auto intensity = [&](const Eigen::Vector3d& direction) {
-    const Eigen::Vector2d at = rectified(rig, direction);
-    return pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+    const auto at = rectified(rig, direction);
+    return at ? pattern.intensity(at->x(), at->y(), rig.sensor.focal_px) : 0.0;
   };
   double radiance = 0.0;
   if (!seen->entered || turbid == TurbidModel::surface) {
