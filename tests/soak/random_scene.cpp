@@ -60,7 +60,7 @@ Json random_pattern(Draw& draw) {
 /// A small sensor that looks at `target_mm` from anywhere above the desk, now and then past it.
 Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
   const int width = draw.whole(16, 22), height = draw.whole(16, 22);
-  Json sensor = {{"height_mm", draw.chance(0.15) ? draw.from(20.0, 250.0) : draw.from(250.0, 1200.0)},
+  Json sensor = {{"height_mm", draw.chance(0.1) ? draw.from(20.0, 400.0) : draw.from(400.0, 1200.0)},
                  {"baseline_mm", draw.scale(10.0, 200.0)},
                  {"ir_size_px", {2 * width, 2 * (height + draw.whole(0, 3))}},
                  {"depth_size_px", {width, height}},
@@ -114,7 +114,7 @@ Json random_shape(Draw& draw) {
              {"bottom_mm", bottom_mm},
              {"inner_radius_mm", inner_mm},
              {"outer_radius_mm", inner_mm + wall_mm}};
-  if (draw.chance(0.6)) {
+  if (draw.chance(0.7)) {
     shape["albedo"] = draw.chance(0.1) ? 1.0 : draw.from(0.0, 1.0);
     if (draw.chance(0.3))
       shape["handle"] = {{"low_mm", 0.2 * height_mm}, {"high_mm", 0.8 * height_mm}, {"reach_mm", draw.from(5.0, 40.0)}};
@@ -135,7 +135,7 @@ Json random_liquid(Draw& draw) {
   Json liquid = {{"index", draw.chance(0.1) ? 1.0 : draw.from(1.0, 2.0)}};
   if (draw.chance(0.7)) liquid["absorption_per_mm"] = draw.scale(1e-4, 1.0);
   if (draw.chance(0.4)) {
-    liquid["scattering_per_mm"] = draw.scale(1e-3, 30.0);
+    liquid["scattering_per_mm"] = draw.scale(1e-3, 10.0);
     liquid["anisotropy"] = draw.from(-0.95, 0.99);
   }
   return liquid;
@@ -182,7 +182,7 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
   else
     cup["fill_mm"] = depth_mm;
   const double level = read.bottom() + metres_from_mm(depth_mm);
-  if (draw.chance(0.4))
+  if (draw.chance(0.3))
     cup["surface"] = random_surface(draw, depth_mm, room_mm - depth_mm, mm_from_metres(read.inner_radius(level)));
   return cup;
 }
@@ -234,10 +234,10 @@ Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::fil
   if (draw.chance(0.95)) scene["cups"].push_back(random_cup(draw, middle_mm));
   while (draw.chance(0.12)) scene["cups"].push_back(random_cup(draw, nearby(150.0)));
   if (draw.chance(0.05)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
-  if (draw.chance(0.15)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
+  if (draw.chance(0.1)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
   write_json(folder / "scene.json", scene);
   return {draw.chance(0.4) ? CaptureMode::geometric : CaptureMode::photometric,
-          draw.chance(0.3) ? TurbidModel::walk : TurbidModel::surface};
+          draw.chance(0.15) ? TurbidModel::walk : TurbidModel::surface};
 }
 
 }  // namespace fathom
