@@ -26,14 +26,15 @@ struct FigureEntry {
   std::variant<FromSettings, FromHeights> reproduce;
 };
 
-constexpr std::array<FigureEntry, 8> kFigures{{{"fig2", reproduce_fig2},
+constexpr std::array<FigureEntry, 9> kFigures{{{"fig2", reproduce_fig2},
                                                {"fig3", reproduce_fig3},
                                                {"fig4", reproduce_fig4},
                                                {"fig5", reproduce_fig5},
                                                {"fig10", reproduce_fig10},
                                                {"fig12", reproduce_fig12},
                                                {"fig13", reproduce_fig13},
-                                               {"fig14", reproduce_fig14}}};
+                                               {"fig14", reproduce_fig14},
+                                               {"scattering", reproduce_scattering}}};
 
 struct ReproduceOptions {
   std::vector<std::string> figures{"all"};

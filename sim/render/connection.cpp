@@ -31,14 +31,15 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
       inside = after;
       continue;
     }
-    if (next && next->scatters()) {
+    const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next));
+    if (bent && next && next->scatters()) {
       through *= n_camera * n_camera / (n_from * n_from);
       return SeenPoint{
           hit->point, hit->normal, next->surface_albedo, hit->surface->object, inside, medium, refracted, through,
           next,       after};
     }
     ++crossings;
-    if (const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next))) {
+    if (bent) {
       const double cosine = std::min(-ray.direction.dot(hit->normal), 1.0);
       through *= 1.0 - fresnel_reflectance(cosine, n_from, index_of(next));
       ray.direction = *bent;
@@ -63,6 +64,10 @@ SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays) {
   world.first_hits(camera_rays, hits);
   for (std::size_t i = 0; i < camera_rays.size(); ++i) seen[i] = follow(world, camera_rays[i], hits[i], 0);
   return seen;
+}
+
+bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
+  return !seen.entered || refract(arrival, seen.normal, index_of(seen.around), seen.entered->medium.n);
 }
 
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {

@@ -42,6 +42,14 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
 /// The same for at most kPacket rays in air that lie side by side.
 SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays);
 
+/// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
+/// totally.
+bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival);
+
+inline Illumination illumination_by(const Connection& way, const SeenPoint& seen) {
+  return {way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival)};
+}
+
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
 template <class Visit>
 void for_each_illumination(const PointLight& projector, const SeenPoints& seen, Visit&& visit) {
@@ -52,7 +60,8 @@ void for_each_illumination(const PointLight& projector, const SeenPoints& seen, 
     if (seen[i]) receivers[count] = {seen[i]->point, seen[i]->around, &seen[i]->normal}, number[count++] = i;
   projector.connect(std::span(receivers).first(count), [&](std::size_t receiver, const Connection& way) {
     const std::size_t i = number[receiver];
-    visit(i, Illumination{way.direction, -way.spreading * way.transmittance * seen[i]->normal.dot(way.arrival)});
+    if (!takes_up(*seen[i], way.arrival)) return;
+    visit(i, illumination_by(way, *seen[i]));
   });
 }
 

@@ -74,6 +74,14 @@ void add_new(std::vector<Connection>& found, const std::optional<Connection>& wa
 
 PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts)
     : world_(world), source_{position, world.bodies_around(position)} {
+  for (const Surface& surface : world.geometry().surfaces)
+    if (const auto* interface = std::get_if<Interface>(&surface.optics)) {
+      const Body& body = world.geometry().bodies[interface->body];
+      if (!body.plain) continue;
+      Eigen::AlignedBox2d area;
+      for (const Eigen::Vector3d& vertex : surface.mesh.vertices) area.extend(vertex.head<2>());
+      mirrors_.push_back({*body.level, area});
+    }
   if (world.level_liquids_only() && !source_.inside) return;
   fan_.emplace(world, source_, Event::refract);
   if (ghosts == Ghosts::sought) mirrored_fan_.emplace(world, source_, Event::reflect);
@@ -122,13 +130,15 @@ void PointLight::connect_mirrored_each(const Receiver& receiver,
                                        const std::function<void(const Connection&)>& visit) const {
   std::vector<Connection> found;
   if (mirrored_fan_) connect_from(*mirrored_fan_, Event::reflect, receiver, found);
-  for (const Body& liquid : world_.geometry().bodies) {
-    if (!liquid.plain || receiver.around) continue;
-    const double height = source_.position.z() - *liquid.level, above = receiver.point.z() - *liquid.level;
+  for (const Mirror& mirror : mirrors_) {
+    if (receiver.around) break;
+    const double height = source_.position.z() - mirror.level, above = receiver.point.z() - mirror.level;
     if (height <= 0.0 || above <= 0.0) continue;
-    const Eigen::Vector3d image(receiver.point.x(), receiver.point.y(), *liquid.level - above);
-    add_new(found, shoot(world_, source_, receiver.point, nullptr, (image - source_.position).normalized(), 1,
-                         Event::reflect));
+    const Eigen::Vector3d image(receiver.point.x(), receiver.point.y(), mirror.level - above);
+    const Eigen::Vector3d towards = image - source_.position;
+    const Eigen::Vector2d meeting = source_.position.head<2>() + height / (height + above) * towards.head<2>();
+    if (!mirror.area.contains(meeting)) continue;
+    add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, Event::reflect));
   }
   for (const Connection& way : found)
     if (!from_behind(receiver, way.arrival)) visit(way);

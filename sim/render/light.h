@@ -1,9 +1,11 @@
 // A point of light and every way in which it reaches a point: straight, through clear bodies, or mirrored by a liquid.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sim/render/fan.h"
 #include "sim/render/shoot.h"
@@ -56,6 +58,11 @@ class PointLight {
 
   const Intersector& world_;
   Source source_;
+  struct Mirror {
+    double level;              ///< [m]
+    Eigen::AlignedBox2d area;  ///< around the surface
+  };
+  std::vector<Mirror> mirrors_;  ///< level liquids
   std::optional<Fan> fan_, mirrored_fan_;
 };
 

@@ -22,7 +22,7 @@ class Connector {
     const double chance = worth(*body, walker.position);
     if (chance < 1.0 && rng_.uniform() >= chance) return;
     const double factor = std::numbers::pi * walker.weight / (chance * body->medium.n * body->medium.n);
-    projector_.connect({walker.position, body}, [&](const Connection& way) {
+    connect({walker.position, body}, [&](const Connection& way) {
       // Seen from the light: it arrives and is sent towards where the walk came from.
       const double phase = henyey_greenstein(-way.arrival.dot(walker.direction), body->medium.anisotropy);
       visit_({way.direction, factor * phase * way.spreading * way.transmittance});
@@ -34,12 +34,18 @@ class Connector {
     const double chance = body ? worth(*body, walker.position) : 1.0;
     if (chance < 1.0 && rng_.uniform() >= chance) return;
     const double n = index_of(body), factor = albedo * walker.weight / (chance * n * n);
-    projector_.connect({walker.position, body, &normal}, [&](const Connection& way) {
+    connect({walker.position, body, &normal}, [&](const Connection& way) {
       visit_({way.direction, -factor * normal.dot(way.arrival) * way.spreading * way.transmittance});
     });
   }
 
  private:
+  template <class Visit>
+  void connect(const Receiver& receiver, Visit visit) {
+    projector_.connect(receiver, visit);
+    projector_.connect_mirrored(receiver, visit);
+  }
+
   /// Chance with which a place is joined to the projector: deep in a turbid liquid next to no light arrives
   /// unscattered.
   static double worth(const Body& body, const Eigen::Vector3d& point) {

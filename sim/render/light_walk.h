@@ -18,7 +18,8 @@ struct ReturnedLight {
 
 /// Walks once from the point `seen`, which a ray of direction `arriving` has met, and calls `visit` with each
 /// ReturnedLight. Their sum is an unbiased estimate: where a body that scatters is entered, of all that it returns, its
-/// surface's mirror image included; at a diffuse point, of what arrives there other than by for_each_illumination().
+/// surface's mirror image included; at a diffuse point, of what arrives there other than from the projector or its
+/// mirror image in a liquid.
 void walk_light(const PointLight& projector, const SeenPoint& seen, const Eigen::Vector3d& arriving, Rng& rng,
                 const std::function<void(const ReturnedLight&)>& visit);
 

@@ -37,6 +37,7 @@ struct Aim {
           next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
       if (!next) return std::nullopt;
       pass(world, *next, i == 0 ? first : Event::refract, flight);
+      if (left_scattering(world, *next, flight)) return std::nullopt;
       result.bends[i] = next->hit.point;
     }
     if (medium_in(world.geometry(), flight.inside) != around) return std::nullopt;
@@ -106,6 +107,10 @@ void pass(const Intersector& world, const Crossing& crossing, Event event, Fligh
     reflect(flight.pencil, surface);
     flight.inside = crossing.before;
   }
+}
+
+bool left_scattering(const Intersector& world, const Crossing& crossing, const Flight& flight) {
+  return crossing.from && crossing.from->scatters() && medium_in(world.geometry(), flight.inside) != crossing.from;
 }
 
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,

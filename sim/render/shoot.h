@@ -43,6 +43,10 @@ enum class Event { refract, reflect };
 /// Carries the flight to the crossing and over it, or back from it. Refraction becomes total reflection where it must.
 void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight);
 
+/// Whether the flight, at the crossing that it has just passed, came out of a body that scatters. Such light is not
+/// followed on: what the body is taken to reflect (Body::surface_albedo, or a walk in it) would count it again.
+bool left_scattering(const Intersector& world, const Crossing& crossing, const Flight& flight);
+
 /// Aims at `target`, which lies in the medium `around` (nullptr: air), by way of exactly `crossings` interfaces,
 /// starting from `direction`. Nothing when Newton's method finds no such way or something opaque stands in it.
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,

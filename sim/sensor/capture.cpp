@@ -26,7 +26,9 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   const SensorModel& sensor = rig_.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
   const Intersector world(geometry_);
-  const PointLight projector = timed(statistics_.build_s, [&] { return PointLight(world, rig_.projector_in_world()); });
+  const PointLight projector = timed(statistics_.build_s, [&] {
+    return PointLight(world, rig_.projector_in_world(), light == LightModel::full ? Ghosts::sought : Ghosts::unsought);
+  });
   truth_ = timed(statistics_.truth_s, [&] { return trace_truth(projector, rig_); });
   statistics_.camera_rays = truth_.size();
   if (mode == CaptureMode::geometric) return;

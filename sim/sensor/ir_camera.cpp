@@ -30,8 +30,8 @@ struct Renderer {
   std::uint64_t seed;
 
   double intensity(const Eigen::Vector3d& direction) const {
-    const Eigen::Vector2d at = rig.rectified(direction);
-    return pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+    const std::optional<Eigen::Vector2d> at = rig.rectified(direction);
+    return at ? pattern.intensity(at->x(), at->y(), rig.sensor.focal_px) : 0.0;
   }
 
   int samples_per_pixel() const { return samples_across * samples_across; }
@@ -65,15 +65,19 @@ struct Renderer {
     return sums;
   }
 
-  /// Radiance [DN] by walks, and by reflections in liquids.
+  /// Radiance [DN] by reflections in liquids and by walks.
   double indirect_radiance(const SeenPoint& seen, const Eigen::Vector3d& arriving, Rng& rng) const {
-    double sum = 0.0;
+    double ghosts = 0.0, sum = 0.0;
+    if (!seen.entered)
+      projector.connect_mirrored({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
+        ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
+      });
     const int walks = seen.entered ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
       walk_light(projector, seen, arriving, rng, [&](const ReturnedLight& returned) {
         sum += radiance_dn(rig.sensor, returned.reflected) * intensity(returned.direction);
       });
-    return sum / walks;
+    return ghosts + sum / walks;
   }
 };
 
