@@ -60,7 +60,7 @@ class SparseDots {
     pattern.set_dot_gains(std::move(gains));
     middle_ = 0.5 * Eigen::Vector2d(pattern.columns() - 1, pattern.rows() - 1);
     constexpr int kSamplesAcross = 2;  // as captures have it
-    image_ = render_ir(view_.projector, view_.rig, pattern, kSamplesAcross, TurbidModel::surface, 1);
+    image_ = render_ir(view_.projector, view_.rig, pattern, kSamplesAcross, LightModel::direct, 1);
     truth_ = trace_truth(view_.projector, view_.rig);
   }
 
