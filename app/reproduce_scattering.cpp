@@ -12,10 +12,11 @@
 namespace fathom {
 namespace {
 
-constexpr std::array kReducedScatteringPerMm{0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 10.0};
+constexpr std::array kReducedScatteringPerMm{0.5, 1.0, 2.0, 3.0, 4.0, 8.0};
 constexpr double kFillMm = 20.0, kDistanceMm = 300.0;
 /// The paper's milk tea reads so much too low, and is matched.
 constexpr double kLeastLowMm = 1.0, kMostLowMm = 2.0, kMatchedEnough = 0.5;
+constexpr double kChance = 0.1;  ///< a smaller matched share is a few false matches and what the rim's windows see
 
 struct Reading {
   double matched = 0.0;  ///< share of the surface's pixels that the projector lights
@@ -24,26 +25,31 @@ struct Reading {
 
 Reading read_milk_tea(double reduced_scattering_per_mm, std::uint64_t seed) {
   constexpr double kOutlierMm = 10.0;  // matched to something else
+  constexpr int kDesk = 1;             // the first object
   Setup setup = paper_setup({"milk_tea", kFillMm}, kDistanceMm);
   Medium& tea = setup.scene.cups.front().filling->medium;
   tea.scattering = per_metre_from_per_mm(reduced_scattering_per_mm) / (1.0 - tea.anisotropy);
   Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed, LightModel::full);
   const Frame frame = camera.shoot(0);
+  // Against the desk in the same cloud, as the paper measures: the device's law moves both alike.
   Reading reading;
-  double lit = 0.0, matched = 0.0;
+  double lit = 0.0, matched = 0.0, desk = 0.0, desk_low_mm = 0.0;
   for (std::size_t i = 0; i < camera.truth().size(); ++i) {
     const TruePixel& truth = camera.truth().pixels()[i];
-    if (truth.path != PathKind::scattered || !truth.apparent_depth) continue;
-    ++lit;
-    const CloudPoint& point = frame.cloud.pixels()[i];
+    const bool on_tea = truth.path == PathKind::scattered;
+    if (!truth.apparent_depth) continue;
+    lit += on_tea;
     if (!(frame.depth.pixels()[i] > 0.0f)) continue;
+    const CloudPoint& point = frame.cloud.pixels()[i];
     const double height = (setup.rig.world_from_camera * Eigen::Vector3d(point.x, point.y, point.z)).z();
     const double low_mm = mm_from_metres(truth.position.z() - height);
     if (std::abs(low_mm) > kOutlierMm) continue;
-    ++matched;
-    reading.low_mm += low_mm;
+    if (on_tea)
+      ++matched, reading.low_mm += low_mm;
+    else if (truth.object == kDesk)
+      ++desk, desk_low_mm += low_mm;
   }
-  if (matched > 0.0) reading.low_mm /= matched;
+  if (matched > 0.0) reading.low_mm = reading.low_mm / matched - desk_low_mm / desk;
   if (lit > 0.0) reading.matched = matched / lit;
   return reading;
 }
@@ -68,9 +74,9 @@ Figure reproduce_scattering(const ReproduceSettings& settings) {
   for (const double per_mm : kReducedScatteringPerMm) {
     const Reading reading = read_milk_tea(per_mm, settings.seed);
     figure.table.add({fmt::format("{:g}", per_mm), fmt::format("{:.3f}", reading.matched),
-                      reading.matched > 0.0 ? mm_text(reading.low_mm) : ""});
+                      reading.matched >= kChance ? mm_text(reading.low_mm) : ""});
     const bool is_matched = reading.matched >= kMatchedEnough;
-    const bool is_low = reading.matched > 0.0 && reading.low_mm >= kLeastLowMm && reading.low_mm <= kMostLowMm;
+    const bool is_low = reading.matched >= kChance && reading.low_mm >= kLeastLowMm && reading.low_mm <= kMostLowMm;
     if (is_matched) matched.push_back(per_mm);
     if (is_low) low.push_back(per_mm);
     if (is_matched && is_low) both.push_back(per_mm);
@@ -87,8 +93,8 @@ set title '{:g} mm of milk tea, {:g} mm away: what the sensor matches, over its 
 set xlabel 'reduced scattering coefficient μs'' [1/mm]'
 set ylabel 'mean depth below the surface of what is matched [mm]' textcolor rgb blue
 set y2label 'share of the surface that is matched' textcolor rgb orange
-set logscale x; set xtics (0.25, 0.5, 1, 2, 4, 10); set y2tics; set y2range [0:1]; set border 11
-set key top right
+set logscale x; set xtics (0.5, 1, 2, 3, 4, 8); set y2tics; set y2range [0:1]; set border 11
+set yrange [-1:3]; set key at graph 0.98, 0.62 right
 set object 1 rectangle from graph 0, first 1 to graph 1, first 2 fs solid noborder fc rgb '#EEEEEE' behind
 set label 1 'the paper: 1–2 mm low' at graph 0.02, first 1.5 textcolor rgb ink
 plot 'scattering.csv' using 'reduced_scattering_per_mm':'low_mm' with linespoints lw 3 pt 7 lc rgb blue title 'reads low by', \
