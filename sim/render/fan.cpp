@@ -74,7 +74,6 @@ Fan::Fan(const Intersector& world, const Source& source, Event first) {
     send(world, source, first, (axis + basis * Eigen::Vector2d(i + 0.5, j + 0.5) * kSpacing).normalized(), kSpacing, 0);
   for (std::uint32_t seed = 0; seed < seeds_.size(); ++seed) file(seed);
   std::sort(entries_.begin(), entries_.end());
-  entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
 }
 
 void Fan::send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
@@ -111,6 +110,7 @@ void Fan::file(std::uint32_t number) {
   const Seed& seed = seeds_[number];
   const double begin = seed.begin - kBeyond, length = seed.end + kBeyond - begin;
   const int steps = static_cast<int>(std::ceil(length / kBox));
+  const auto filed = static_cast<std::ptrdiff_t>(entries_.size());
   for (int step = 0; step <= steps; ++step) {
     const double distance = begin + length * step / steps;
     const Eigen::Vector3d middle = seed.pencil.origin + distance * seed.pencil.direction;
@@ -120,6 +120,9 @@ void Fan::file(std::uint32_t number) {
       for (int j = low.y(); j <= high.y(); ++j)
         for (int k = low.z(); k <= high.z(); ++k) entries_.push_back({box_of({i, j, k}), number});
   }
+  // Steps share most of their boxes; sorted one by one, seeds take a fraction of the memory and time.
+  std::sort(entries_.begin() + filed, entries_.end());
+  entries_.erase(std::unique(entries_.begin() + filed, entries_.end()), entries_.end());
 }
 
 std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body* around) const {
