@@ -68,6 +68,7 @@ class Builder {
     }
     for (Surface& surface : geometry_.surfaces)
       if (auto* interface = std::get_if<Interface>(&surface.optics)) interface->body = rank[interface->body];
+    forget_plain_where_bodies_meet();
   }
 
  private:
@@ -80,6 +81,29 @@ class Builder {
   /// Among glTF bodies the denser one wins: glass over the liquid in it.
   static std::pair<Priority, double> key(const RankedBody& ranked) {
     return {ranked.priority, ranked.priority == Priority::gltf ? ranked.body.medium.n : 0.0};
+  }
+
+  /// A level liquid that may share its place with another body, as in a cup that stands in a bowl, has more than its
+  /// own surface in the light's way.
+  void forget_plain_where_bodies_meet() {
+    std::vector<Eigen::AlignedBox2d> boxes(geometry_.bodies.size());
+    std::vector<double> radii(boxes.size());  // of circles about the boxes' centres
+    for_each_corner([&](int body, const Eigen::Vector2d& corner) { boxes[body].extend(corner); });
+    for_each_corner([&](int body, const Eigen::Vector2d& corner) {
+      radii[body] = std::max(radii[body], (corner - boxes[body].center()).norm());
+    });
+    for (std::size_t a = 0; a < boxes.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if ((boxes[a].center() - boxes[b].center()).norm() < radii[a] + radii[b])
+          geometry_.bodies[a].plain = geometry_.bodies[b].plain = false;
+  }
+
+  /// Calls `visit` with the body and the x and y of every vertex of the bodies' boundaries.
+  template <class Visit>
+  void for_each_corner(Visit visit) const {
+    for (const Surface& surface : geometry_.surfaces)
+      if (const auto* interface = std::get_if<Interface>(&surface.optics))
+        for (const Eigen::Vector3d& vertex : surface.mesh.vertices) visit(interface->body, vertex.head<2>());
   }
 
   int add_body(int object, const Medium& medium, Priority priority) {

@@ -25,11 +25,11 @@ struct Vessel {
 
 /// A body that light enters: a liquid, a cup's glass wall, a transmissive glTF mesh.
 struct Body {
-  int object;                         ///< as in Surface
-  Turbid medium;                      ///< at the scene's wavelength; air has the index 1
-  double surface_albedo = 0.0;        ///< of a body that scatters, if it were opaque (diffuse_reflectance)
-  std::optional<double> level = {};   ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
-  bool plain = false;                 ///< whether it is level all over, in an opaque cup: light can enter only there
+  int object;                        ///< as in Surface
+  Turbid medium;                     ///< at the scene's wavelength; air has the index 1
+  double surface_albedo = 0.0;       ///< of a body that scatters, if it were opaque (diffuse_reflectance)
+  std::optional<double> level = {};  ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
+  bool plain = false;                ///< a level liquid in an opaque cup, apart from other bodies: all light bends once
   std::optional<Vessel> vessel = {};  ///< around a plain liquid in a cup of revolution
 
   bool scatters() const { return medium.scattering > 0.0; }
