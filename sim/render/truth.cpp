@@ -35,9 +35,9 @@ void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std
 
 std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& camera_direction,
                                          const Eigen::Vector3d& projector_direction) {
-  const double parallax = rig.rectified(camera_direction).x() - rig.rectified(projector_direction).x();
-  if (parallax <= 0.0) return std::nullopt;
-  return rig.sensor.baseline / parallax;
+  const auto seen = rig.rectified(camera_direction), sent = rig.rectified(projector_direction);
+  if (!seen || !sent || seen->x() <= sent->x()) return std::nullopt;
+  return rig.sensor.baseline / (seen->x() - sent->x());
 }
 
 Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig) {

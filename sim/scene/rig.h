@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/json.h"
@@ -70,8 +71,10 @@ struct Rig {
     return world_from_camera.linear() * in_camera.normalized();
   }
   /// Rectified image coordinates of a direction, in units of the focal length; the same for camera and projector.
-  Eigen::Vector2d rectified(const Eigen::Vector3d& direction_in_world) const {
+  /// Nothing for a direction that does not go forward.
+  std::optional<Eigen::Vector2d> rectified(const Eigen::Vector3d& direction_in_world) const {
     const Eigen::Vector3d in_camera = world_from_camera.linear().transpose() * direction_in_world;
+    if (in_camera.z() <= 0.0) return std::nullopt;
     return in_camera.head<2>() / in_camera.z();
   }
 };

@@ -30,8 +30,8 @@ struct Renderer {
   std::uint64_t seed;
 
   double intensity(const Eigen::Vector3d& direction) const {
-    const Eigen::Vector2d at = rig.rectified(direction);
-    return pattern.intensity(at.x(), at.y(), rig.sensor.focal_px);
+    const auto at = rig.rectified(direction);
+    return at ? pattern.intensity(at->x(), at->y(), rig.sensor.focal_px) : 0.0;
   }
 
   int samples_per_pixel() const { return samples_across * samples_across; }

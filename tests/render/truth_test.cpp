@@ -129,5 +129,15 @@ TEST(Truth, NothingIsSeenWhereNothingStands) {
   }
 }
 
+TEST(Truth, LightThatLeavesBackwardsHasNoPlaceInAnImage) {
+  const Rig rig = desk_setup().rig;
+  const Eigen::Vector3d right = rig.world_from_camera.linear().col(0), forward = rig.world_from_camera.linear().col(2);
+  const Eigen::Vector3d ahead = (forward + 0.1 * right).normalized(), left = (forward - 0.1 * right).normalized();
+  EXPECT_NEAR(rig.rectified(ahead)->x(), 0.1, 1e-12);  // rounding
+  EXPECT_FALSE(rig.rectified(-ahead));
+  EXPECT_TRUE(triangulated_depth(rig, ahead, left));
+  EXPECT_FALSE(triangulated_depth(rig, ahead, -left)) << "its mirror image lies at a depth";
+}
+
 }  // namespace
 }  // namespace fathom
