@@ -21,8 +21,8 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
     if (medium) through *= transmittance(medium->extinction(), hit->distance);
     if (const auto* diffuse = std::get_if<Diffuse>(&hit->surface->optics)) {
       through *= n_camera * n_camera / (n_from * n_from);
-      return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object,
-                       inside,     medium,      refracted,       through};
+      return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object, inside,
+                       medium,     refracted,   through,         ray.direction};
     }
     const BodySet after = beyond(*hit, inside);
     const Body* next = medium_in(world.geometry(), after);
@@ -31,14 +31,23 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
       inside = after;
       continue;
     }
-    if (next && next->scatters()) {
+    const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next));
+    if (bent && next && next->scatters()) {
       through *= n_camera * n_camera / (n_from * n_from);
-      return SeenPoint{
-          hit->point, hit->normal, next->surface_albedo, hit->surface->object, inside, medium, refracted, through,
-          next,       after};
+      return SeenPoint{hit->point,
+                       hit->normal,
+                       next->surface_albedo,
+                       hit->surface->object,
+                       inside,
+                       medium,
+                       refracted,
+                       through,
+                       ray.direction,
+                       next,
+                       after};
     }
     ++crossings;
-    if (const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next))) {
+    if (bent) {
       const double cosine = std::min(-ray.direction.dot(hit->normal), 1.0);
       through *= 1.0 - fresnel_reflectance(cosine, n_from, index_of(next));
       ray.direction = *bent;
@@ -65,6 +74,10 @@ SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays) {
   return seen;
 }
 
+bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
+  return !seen.entered || refract(arrival, seen.normal, index_of(seen.around), seen.entered->medium.n);
+}
+
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {
   return illuminate(projector, SeenPoints{seen})[0];
 }
@@ -72,6 +85,7 @@ std::optional<Illumination> illuminate(const PointLight& projector, const SeenPo
 Illuminations illuminate(const PointLight& projector, const SeenPoints& seen) {
   Illuminations strongest;
   for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& light) {
+    if (light.through_scattering) return;
     if (!strongest[i] || light.irradiance > strongest[i]->irradiance) strongest[i] = light;
   });
   return strongest;

@@ -22,6 +22,7 @@ struct SeenPoint {
   const Body* around;             ///< the medium there; nullptr is air
   bool refracted;                 ///< whether the ray bent on its way
   double transmittance;           ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
+  Eigen::Vector3d arriving;       ///< unit, in which the camera's ray gets there
   const Body* entered = nullptr;  ///< the body that scatters, if any
   BodySet beyond = 0;             ///< with it, the bodies on its side
 };
@@ -30,6 +31,7 @@ struct SeenPoint {
 struct Illumination {
   Eigen::Vector3d direction;  ///< unit, world: in which the light left the projector
   double irradiance;          ///< [1/m²] on the surface per unit radiant intensity of the projector in that direction
+  bool through_scattering;    ///< as in Connection
 };
 
 /// Of the rays of a packet; those beyond its last ray stay empty.
@@ -42,6 +44,10 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
 /// The same for at most kPacket rays in air that lie side by side.
 SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays);
 
+/// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
+/// totally.
+bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival);
+
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
 template <class Visit>
 void for_each_illumination(const PointLight& projector, const SeenPoints& seen, Visit&& visit) {
@@ -52,11 +58,13 @@ void for_each_illumination(const PointLight& projector, const SeenPoints& seen, 
     if (seen[i]) receivers[count] = {seen[i]->point, seen[i]->around, &seen[i]->normal}, number[count++] = i;
   projector.connect(std::span(receivers).first(count), [&](std::size_t receiver, const Connection& way) {
     const std::size_t i = number[receiver];
-    visit(i, Illumination{way.direction, -way.spreading * way.transmittance * seen[i]->normal.dot(way.arrival)});
+    if (!takes_up(*seen[i], way.arrival)) return;
+    const double cosine = -seen[i]->normal.dot(way.arrival);
+    visit(i, Illumination{way.direction, way.spreading * way.transmittance * cosine, way.through_scattering});
   });
 }
 
-/// The strongest of them; nothing where the projector does not reach the point.
+/// The strongest of them where bodies that scatter are opaque; nothing where the projector does not reach the point.
 Illuminations illuminate(const PointLight& projector, const SeenPoints& seen);
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen);
 

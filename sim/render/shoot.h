@@ -19,6 +19,8 @@ struct Connection {
   double transmittance;       ///< of power on the way: Fresnel and Beer–Lambert
   int crossings;              ///< interfaces on the way; 0 is the straight way
   bool turned_over;           ///< whether neighbouring rays land mirror-inverted, as they do past a caustic
+  /// Whether it has come out of a body that scatters; where such bodies are taken as opaque, this light is not there.
+  bool through_scattering = false;
 };
 
 /// Where the light comes from, and what bodies it starts in.
