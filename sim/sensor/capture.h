@@ -43,6 +43,8 @@ class Camera {
 
   const Geometry& geometry() const { return geometry_; }
   const Image<TruePixel>& truth() const { return truth_; }
+  /// What every infrared pixel receives before noise [DN], ir_width × ir_height; empty in geometric mode.
+  const Image<float>& radiance() const { return radiance_; }
   /// Samples per infrared pixel after rounding up to a square grid; 0 in geometric mode.
   int samples_per_pixel() const { return samples_across_ * samples_across_; }
   const CaptureStatistics& statistics() const { return statistics_; }
