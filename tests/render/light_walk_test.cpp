@@ -123,6 +123,11 @@ TEST(TurbidBodies, EveryWayEndsWhereARayInItsDirectionDoes) {
     for (double y = 0.240; y < 0.401; y += 0.004) {
       const auto seen = see(scene.world, scene.camera_ray({x, y, 0.0}));
       if (!seen) continue;
+      EXPECT_LT(seen->arriving.dot(seen->normal), 0.0);
+      if (seen->entered) {
+        Rng rng(1, on_liquid);
+        walk_light(scene.projector, *seen, rng, [](const ReturnedLight& light) { EXPECT_GE(light.reflected, 0.0); });
+      }
       for_each_illumination(scene.projector, SeenPoints{seen}, [&](std::size_t, const Illumination& light) {
         if (light.through_scattering) return;
         ++(seen->entered ? on_liquid : on_desk);
