@@ -21,8 +21,8 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
     if (medium) through *= transmittance(medium->extinction(), hit->distance);
     if (const auto* diffuse = std::get_if<Diffuse>(&hit->surface->optics)) {
       through *= n_camera * n_camera / (n_from * n_from);
-      return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object,
-                       inside,     medium,      refracted,       through};
+      return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object, inside,
+                       medium,     refracted,   through,         ray.direction};
     }
     const BodySet after = beyond(*hit, inside);
     const Body* next = medium_in(world.geometry(), after);
@@ -34,9 +34,17 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
     const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next));
     if (bent && next && next->scatters()) {
       through *= n_camera * n_camera / (n_from * n_from);
-      return SeenPoint{
-          hit->point, hit->normal, next->surface_albedo, hit->surface->object, inside, medium, refracted, through,
-          next,       after};
+      return SeenPoint{hit->point,
+                       hit->normal,
+                       next->surface_albedo,
+                       hit->surface->object,
+                       inside,
+                       medium,
+                       refracted,
+                       through,
+                       ray.direction,
+                       next,
+                       after};
     }
     ++crossings;
     if (bent) {
@@ -77,6 +85,7 @@ std::optional<Illumination> illuminate(const PointLight& projector, const SeenPo
 Illuminations illuminate(const PointLight& projector, const SeenPoints& seen) {
   Illuminations strongest;
   for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& light) {
+    if (light.through_scattering) return;
     if (!strongest[i] || light.irradiance > strongest[i]->irradiance) strongest[i] = light;
   });
   return strongest;

@@ -22,6 +22,7 @@ struct SeenPoint {
   const Body* around;             ///< the medium there; nullptr is air
   bool refracted;                 ///< whether the ray bent on its way
   double transmittance;           ///< of radiance on the way to the camera: Fresnel, 1/n², Beer–Lambert
+  Eigen::Vector3d arriving;       ///< unit, in which the camera's ray gets there
   const Body* entered = nullptr;  ///< the body that scatters, if any
   BodySet beyond = 0;             ///< with it, the bodies on its side
 };
@@ -30,6 +31,7 @@ struct SeenPoint {
 struct Illumination {
   Eigen::Vector3d direction;  ///< unit, world: in which the light left the projector
   double irradiance;          ///< [1/m²] on the surface per unit radiant intensity of the projector in that direction
+  bool through_scattering;    ///< as in Connection
 };
 
 /// Of the rays of a packet; those beyond its last ray stay empty.
@@ -47,7 +49,7 @@ SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays);
 bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival);
 
 inline Illumination illumination_by(const Connection& way, const SeenPoint& seen) {
-  return {way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival)};
+  return {way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival), way.through_scattering};
 }
 
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
@@ -65,7 +67,7 @@ void for_each_illumination(const PointLight& projector, const SeenPoints& seen, 
   });
 }
 
-/// The strongest of them; nothing where the projector does not reach the point.
+/// The strongest of them where bodies that scatter are opaque; nothing where the projector does not reach the point.
 Illuminations illuminate(const PointLight& projector, const SeenPoints& seen);
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen);
 

@@ -96,7 +96,6 @@ void Fan::send(const Intersector& world, const Source& source, Event first, cons
     }
     if (ends) break;
     pass(world, *next, crossings == 0 ? first : Event::refract, flight);
-    if (left_scattering(world, *next, flight)) break;
   }
   if (!too_wide || halvings == kMostHalvings) return;
   seeds_.resize(sent);

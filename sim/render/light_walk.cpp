@@ -62,10 +62,10 @@ class Connector {
 
 }  // namespace
 
-void walk_light(const PointLight& projector, const SeenPoint& seen, const Eigen::Vector3d& arriving, Rng& rng,
+void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
                 const std::function<void(const ReturnedLight&)>& visit) {
   const double n = index_of(seen.around);
-  Walker walker{seen.point, arriving, seen.transmittance * n * n, seen.inside};
+  Walker walker{seen.point, seen.arriving, seen.transmittance * n * n, seen.inside};
   const WorldSpace space(projector.world());
   Connector connector(projector, rng, visit);
   if (!seen.entered) {

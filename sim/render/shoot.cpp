@@ -17,6 +17,7 @@ struct Trial {
   Flight flight;
   std::array<Eigen::Vector3d, kMostCrossings> bends;
   Landing landing;
+  bool through_scattering = false;
 
   double miss() const { return landing.miss.norm(); }
 };
@@ -37,7 +38,8 @@ struct Aim {
           next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
       if (!next) return std::nullopt;
       pass(world, *next, i == 0 ? first : Event::refract, flight);
-      if (left_scattering(world, *next, flight)) return std::nullopt;
+      const bool left = medium_in(world.geometry(), flight.inside) != next->from;
+      result.through_scattering |= left && next->from && next->from->scatters();
       result.bends[i] = next->hit.point;
     }
     if (medium_in(world.geometry(), flight.inside) != around) return std::nullopt;
@@ -109,10 +111,6 @@ void pass(const Intersector& world, const Crossing& crossing, Event event, Fligh
   }
 }
 
-bool left_scattering(const Intersector& world, const Crossing& crossing, const Flight& flight) {
-  return crossing.from && crossing.from->scatters() && medium_in(world.geometry(), flight.inside) != crossing.from;
-}
-
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
                                 const Body* around, const Eigen::Vector3d& direction, int crossings, Event first) {
   const Aim aim{world, source, target, around, crossings, first};
@@ -125,7 +123,8 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
                     1.0 / std::fabs(area),
                     flight.transmittance * transmittance(extinction_of(around), found->landing.distance),
                     crossings,
-                    area < 0.0};
+                    area < 0.0,
+                    found->through_scattering};
 }
 
 }  // namespace fathom

@@ -19,6 +19,8 @@ struct Connection {
   double transmittance;       ///< of power on the way: Fresnel and Beer–Lambert
   int crossings;              ///< interfaces on the way; 0 is the straight way
   bool turned_over;           ///< whether neighbouring rays land mirror-inverted, as they do past a caustic
+  /// Whether it has come out of a body that scatters; where such bodies are taken as opaque, this light is not there.
+  bool through_scattering = false;
 };
 
 /// Where the light comes from, and what bodies it starts in.
@@ -42,10 +44,6 @@ enum class Event { refract, reflect };
 
 /// Carries the flight to the crossing and over it, or back from it. Refraction becomes total reflection where it must.
 void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight);
-
-/// Whether the flight, at the crossing that it has just passed, came out of a body that scatters. Such light is not
-/// followed on: what the body is taken to reflect (Body::surface_albedo, or a walk in it) would count it again.
-bool left_scattering(const Intersector& world, const Crossing& crossing, const Flight& flight);
 
 /// Aims at `target`, which lies in the medium `around` (nullptr: air), by way of exactly `crossings` interfaces,
 /// starting from `direction`. Nothing when Newton's method finds no such way or something opaque stands in it.

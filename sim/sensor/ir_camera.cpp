@@ -56,17 +56,18 @@ struct Renderer {
       for (int i = 0; i < count; ++i)
         if (seen[i]) {
           Rng rng(seed, kWalkStream, y, first + i);
-          sums[i] = indirect_radiance(*seen[i], rays[i].direction, rng);
+          sums[i] = indirect_radiance(*seen[i], rng);
           if (seen[i]->entered) seen[i].reset();
         }
     for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
+      if (light == LightModel::direct && from_projector.through_scattering) return;
       sums[i] += radiance_dn(rig.sensor, *seen[i], from_projector) * intensity(from_projector.direction);
     });
     return sums;
   }
 
   /// Radiance [DN] by reflections in liquids and by walks.
-  double indirect_radiance(const SeenPoint& seen, const Eigen::Vector3d& arriving, Rng& rng) const {
+  double indirect_radiance(const SeenPoint& seen, Rng& rng) const {
     double ghosts = 0.0, sum = 0.0;
     if (!seen.entered)
       projector.connect_mirrored({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
@@ -74,7 +75,7 @@ struct Renderer {
       });
     const int walks = seen.entered ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
-      walk_light(projector, seen, arriving, rng, [&](const ReturnedLight& returned) {
+      walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
         sum += radiance_dn(rig.sensor, returned.reflected) * intensity(returned.direction);
       });
     return ghosts + sum / walks;

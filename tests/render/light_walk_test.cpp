@@ -53,7 +53,7 @@ struct CupOfLiquid {
     for (int walk = 0; walk < walks; ++walk) {
       Rng rng(1, walk);
       double one = 0.0;
-      walk_light(projector, seen, ray.direction, rng, [&](const ReturnedLight& light) { one += light.reflected; });
+      walk_light(projector, seen, rng, [&](const ReturnedLight& light) { one += light.reflected; });
       sum += one, squares += one * one;
     }
     const double mean = sum / walks;
@@ -123,7 +123,13 @@ TEST(TurbidBodies, EveryWayEndsWhereARayInItsDirectionDoes) {
     for (double y = 0.240; y < 0.401; y += 0.004) {
       const auto seen = see(scene.world, scene.camera_ray({x, y, 0.0}));
       if (!seen) continue;
-      for_each_illumination(scene.projector, SeenPoints{*seen}, [&](std::size_t, const Illumination& light) {
+      EXPECT_LT(seen->arriving.dot(seen->normal), 0.0);
+      if (seen->entered) {
+        Rng rng(1, on_liquid);
+        walk_light(scene.projector, *seen, rng, [](const ReturnedLight& light) { EXPECT_GE(light.reflected, 0.0); });
+      }
+      for_each_illumination(scene.projector, SeenPoints{seen}, [&](std::size_t, const Illumination& light) {
+        if (light.through_scattering) return;
         ++(seen->entered ? on_liquid : on_desk);
         const auto end = see(scene.world, {scene.projector.position(), light.direction});
         ASSERT_TRUE(end);
@@ -182,8 +188,7 @@ Irradiance irradiance_at(const PointLight& source, const SeenPoint& seen, Rng& r
   const Receiver receiver{seen.point, seen.around, &seen.normal};
   source.connect(receiver, add);
   source.connect_mirrored(receiver, add);
-  walk_light(source, seen, -seen.normal, rng,
-             [&](const ReturnedLight& light) { result.thrown += light.reflected / seen.albedo; });
+  walk_light(source, seen, rng, [&](const ReturnedLight& light) { result.thrown += light.reflected / seen.albedo; });
   return result;
 }
 
@@ -234,7 +239,8 @@ TEST(IntegratingSphere, KeepsAllLightWhateverItBendsAndMirrors) {
                          in_liquid ? BodySet{1} : BodySet{0},
                          in_liquid ? &geometry.bodies[0] : nullptr,
                          false,
-                         1.0};
+                         1.0,
+                         outward};
     const Irradiance at = irradiance_at(source, seen, rng);
     const double one = at.direct + at.thrown;
     sum += one, squares += one * one, thrown += at.thrown;

@@ -49,7 +49,7 @@ double most_intensity(const SensorModel& sensor) {
 
 /// Upper bound of every pixel's radiance [DN]: white, facing the projector, as near as the nearest surface. Going into
 /// a denser medium through a level surface light only spreads, and its intensity along the ray falls; any other surface
-/// may focus it. Speckle has no bound, and light that is thrown on comes on top.
+/// may focus it. Speckle has no bound, and light by several ways adds up.
 std::optional<double> most_radiance(const Rig& rig, const Geometry& geometry, LightModel light) {
   if (rig.sensor.noise.speckle_shape > 0.0 || light == LightModel::full) return std::nullopt;
   for (const Body& body : geometry.bodies)

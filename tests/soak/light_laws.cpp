@@ -13,6 +13,12 @@ namespace fathom {
 namespace {
 
 constexpr double kStep = 1e-6;  // [rad]
+/// By which share of its width a tube may bend. Edges bend it by about its width, smooth surfaces far less.
+constexpr double kBend = 1e-2;
+/// [m] a hundred times what shoot() calls a hit: near caustics rounding grows.
+constexpr double kMiss = 1e-8;
+/// Of the product of a tube's widths. Central differences err by about the square of kBend.
+constexpr double kArea = 1e-3;
 
 /// Where five neighbouring rays land, as seen along the middle one: [m] from where that lands, perpendicular to its
 /// direction there.
@@ -59,7 +65,7 @@ class PointLaws {
   PointLaws(const PointLight& projector, const Tubes& tubes, const SeenPoint& seen, TubeCounts& counts)
       : tubes_(tubes), seen_(seen), counts_(counts) {
     projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
-      if (takes_up(seen, way.arrival)) ways_.push_back(way);
+      if (takes_up(seen, way.arrival) && !way.through_scattering) ways_.push_back(way);
     });
   }
 
@@ -87,17 +93,17 @@ class PointLaws {
       return fmt::format("a way spreads by {}", way.spreading);
     const auto tube = tubes_.sent(way.direction, way.arrival);
     // Beyond a smooth surface's edge rays land elsewhere, or bend by another law.
-    if (!tube || tube->bend.norm() > 1e-2 * kStep * tube->per_angle.norm()) {
+    if (!tube || tube->bend.norm() > kBend * kStep * tube->per_angle.norm()) {
       ++counts_.torn;
       return std::nullopt;
     }
     ++counts_.held;
     const Eigen::Vector3d off = tube->landing - seen_.point;
     const double miss = (off - off.dot(way.arrival) * way.arrival).norm();
-    if (miss > 1e-8) return fmt::format("a way over {} interfaces ends {} m off its point", way.crossings, miss);
-    const double area = std::fabs(tube->per_angle.determinant()),
-                 scale = tube->per_angle.col(0).norm() * tube->per_angle.col(1).norm();
-    if (std::fabs(area - 1.0 / way.spreading) > 1e-3 * scale)
+    if (miss > kMiss) return fmt::format("a way over {} interfaces ends {} m off its point", way.crossings, miss);
+    const double area = std::fabs(tube->per_angle.determinant());
+    const double scale = tube->per_angle.col(0).norm() * tube->per_angle.col(1).norm();
+    if (std::fabs(area - 1.0 / way.spreading) > kArea * scale)
       return fmt::format("a tube over {} interfaces is {} m²/sr wide where its spreading says {}", way.crossings, area,
                          1.0 / way.spreading);
     return std::nullopt;

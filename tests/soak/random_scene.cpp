@@ -142,7 +142,7 @@ Json random_liquid(Draw& draw) {
 }
 
 /// Waves, slope and meniscus that fit between the bottom and the rim of most cups.
-Json random_surface(Draw& draw, double depth_mm, double headroom_mm, double radius_mm) {
+Json random_surface(Draw& draw, double depth_mm, double headroom_mm, double radius_mm, double wall_lean_deg) {
   const double room_mm = 0.3 * std::min(depth_mm, headroom_mm);
   Json surface = Json::object();
   if (draw.chance(0.5)) {
@@ -150,7 +150,8 @@ Json random_surface(Draw& draw, double depth_mm, double headroom_mm, double radi
     surface["tilt_azimuth_deg"] = draw.from(-360.0, 360.0);
   }
   if (draw.chance(0.5)) {
-    surface["contact_angle_deg"] = room_mm > 2.0 ? draw.from(5.0, 175.0) : draw.from(75.0, 105.0);
+    const double angle_deg = room_mm > 2.0 ? draw.from(5.0, 175.0) : draw.from(75.0, 105.0);
+    surface["contact_angle_deg"] = std::clamp(angle_deg, 5.0 - wall_lean_deg, 175.0 - wall_lean_deg);
     surface["capillary_length_mm"] = std::min(draw.from(1.0, 4.0), 0.5 * std::max(room_mm, 0.5));
   }
   if (draw.chance(0.4)) {
@@ -183,7 +184,8 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
     cup["fill_mm"] = depth_mm;
   const double level = read.bottom() + metres_from_mm(depth_mm);
   if (draw.chance(0.3))
-    cup["surface"] = random_surface(draw, depth_mm, room_mm - depth_mm, mm_from_metres(read.inner_radius(level)));
+    cup["surface"] = random_surface(draw, depth_mm, room_mm - depth_mm, mm_from_metres(read.inner_radius(level)),
+                                    deg_from_radians(read.wall_lean(level)));
   return cup;
 }
 
