@@ -24,39 +24,46 @@ struct Case {
   EmbreeLoop embree;
 
   explicit Case(const std::string& file)
-      : scene(read_setup(data_directory() / file)),
-        pattern(scene.setup.rig.sensor.pattern, scene.setup.rig.sensor.ir_scale()),
-        embree(scene.geometry) {}
+      : scene(read_setup(data_directory() / file)), pattern(with_speckle(1)), embree(scene.geometry) {}
 
-  Image<float> image(std::uint64_t seed) const {
-    return render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, LightModel::full, seed);
+  Pattern with_speckle(std::uint64_t seed) const {
+    const SensorModel& sensor = scene.setup.rig.sensor;
+    Pattern result(sensor.pattern, sensor.ir_scale());
+    result.set_dot_gains(speckle_gains(sensor.noise, result, seed));
+    return result;
+  }
+
+  Image<float> image(const Pattern& of_projector, std::uint64_t seed) const {
+    return render_ir(scene.projector, scene.setup.rig, of_projector, kSamplesAcross, LightModel::full, seed);
   }
 };
 
 /// Root mean squares [DN] over the pixels that see a cup or a liquid.
 struct Noise {
-  double of_walks;     ///< what another seed changes, as the deviation of one image
-  double of_detector;  ///< shot, read and rounding, from the sensor's model
+  double of_walks;   ///< what another seed of the walks changes, as the deviation of one image
+  double of_sensor;  ///< the same for another speckle, and shot noise, read noise and rounding from the sensor's model
 };
 
 Noise noise_of(const Case& measured) {
   const Rig& rig = measured.scene.setup.rig;
   const NoiseModel& model = rig.sensor.noise;
-  const Image<float> a = measured.image(1), b = measured.image(2);
+  const Image<float> image = measured.image(measured.pattern, 1), other_walks = measured.image(measured.pattern, 2),
+                     other_speckle = measured.image(measured.with_speckle(2), 1);
   const Image<TruePixel> truth = trace_truth(measured.scene.projector, rig);
-  double walks = 0.0, detector = 0.0;
+  double walks = 0.0, sensor = 0.0;
   int pixels = 0;
   for (int y = 0; y < truth.height(); ++y)
     for (int x = 0; x < truth.width(); ++x) {
       constexpr int kDesk = 1;
       if (truth(x, y).object <= kDesk) continue;
       const int ir_x = 2 * x, ir_y = 2 * y + rig.sensor.ir_first_row();
-      const double value = 0.5 * (a(ir_x, ir_y) + b(ir_x, ir_y)), difference = a(ir_x, ir_y) - b(ir_x, ir_y);
-      walks += 0.5 * difference * difference;
-      detector += value / model.electrons_per_dn + model.read_dn * model.read_dn + 1.0 / 12.0;
+      const double value = image(ir_x, ir_y);
+      walks += 0.5 * std::pow(value - other_walks(ir_x, ir_y), 2);
+      sensor += 0.5 * std::pow(value - other_speckle(ir_x, ir_y), 2) + value / model.electrons_per_dn +
+                model.read_dn * model.read_dn + 1.0 / 12.0;
       ++pixels;
     }
-  return {std::sqrt(walks / pixels), std::sqrt(detector / pixels)};
+  return {std::sqrt(walks / pixels), std::sqrt(sensor / pixels)};
 }
 
 }  // namespace
@@ -66,8 +73,8 @@ void register_light() {
     const auto measured = std::make_shared<const Case>(fmt::format("{}.json", name));
     const Noise noise = noise_of(*measured);
     const Recording rays = record_camera_rays(measured->scene.world, measured->scene.setup.rig, kSamplesAcross);
-    measure(fmt::format("light/{}/fathom", name), {{"walks_dn", noise.of_walks}, {"detector_dn", noise.of_detector}},
-            [measured] { benchmark::DoNotOptimize(measured->image(1)); });
+    measure(fmt::format("light/{}/fathom", name), {{"walks_dn", noise.of_walks}, {"sensor_dn", noise.of_sensor}},
+            [measured] { benchmark::DoNotOptimize(measured->image(measured->pattern, 1)); });
     measure_embree(fmt::format("light/{}/embree", name), {measured, &measured->embree},
                    record_camera_rays(measured->scene.world, measured->scene.setup.rig, kSamplesAcross));
   }

@@ -10,6 +10,7 @@ from statistics import median
 
 UNIT_RAYS = 10e6  # camera rays in the unit of work U
 MATCHERS = {"bm": ("StereoBM", 3.0), "sgbm": ("StereoSGBM", 0.5)}  # goals of the time ratio
+LIGHT_SCENES = {"paper_water": 4.0, "meniscus_water": 8.0, "paper_milk_tea": 40.0, "glass_water": None}  # goals in U
 MATCH_CASES = ["water_clean", "water_noisy", "plane_clean", "plane_noisy"]
 
 
@@ -60,7 +61,7 @@ def report_tracing(table):
     for group, what in (("geometric", "geometric frame / Embree, same rays"),
                         ("photometric", "infrared image, 4 spp / Embree, same rays")):
         if f"{group}/fathom" in table.runs:
-            table.add_time(what, f"{group}/fathom", f"{group}/embree", {"geometric": 2.0, "photometric": 2.5}[group])
+            table.add_time(what, f"{group}/fathom", f"{group}/embree", 1.6)
             table.add_rays("  ours", f"{group}/fathom")
             table.add_rays("  Embree", f"{group}/embree")
     unit = "photometric/camera_rays"
@@ -72,6 +73,20 @@ def report_tracing(table):
         frame_cpu, frame_wall = (table.value("photometric/frame", key) for key in ("cpu_time", "real_time"))
         table.add("render + match + depth + cloud / U", f"{frame_cpu:.0f} ms", f"{cpu:.0f} ms", frame_cpu / cpu,
                   frame_wall / wall)
+
+
+def report_light(table):
+    for scene, goal in LIGHT_SCENES.items():
+        ours, beside = f"light/{scene}/fathom", f"light/{scene}/embree"
+        if ours not in table.runs:
+            continue
+        scale = UNIT_RAYS / table.value(beside, "rays")
+        cpu, wall = ([table.value(ours, key), scale * table.value(beside, key)] for key in ("cpu_time", "real_time"))
+        table.add(f"{scene}: infrared image, all light / U", f"{cpu[0]:.0f} ms", f"{cpu[1]:.0f} ms", cpu[0] / cpu[1],
+                  wall[0] / wall[1], goal)
+        walks, sensor = table.value(ours, "walks_dn"), table.value(ours, "sensor_dn")
+        table.add("  noise of walks / of the sensor [DN]", f"{walks:.1f}", f"{sensor:.1f}", walks / sensor, None, 1.0,
+                  below=True)
 
 
 def report_matching(table):
@@ -110,6 +125,7 @@ if __name__ == "__main__":
     results = Path(sys.argv[1])
     everything = Table(read_runs(results))
     report_tracing(everything)
+    report_light(everything)
     report_matching(everything)
     report_detection(everything)
     report_memory(everything, results)
