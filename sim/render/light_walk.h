@@ -16,10 +16,9 @@ struct ReturnedLight {
   double reflected;           ///< [1/m²] π · radiance per unit radiant intensity of the projector, see radiance_dn()
 };
 
-/// Walks once from the point `seen` and calls `visit` with each
-/// ReturnedLight. Their sum is an unbiased estimate: where a body that scatters is entered, of all that it returns, its
-/// surface's mirror image included; at a diffuse point, of what arrives there other than from the projector or its
-/// mirror image in a liquid.
+/// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an unbiased estimate: where
+/// a body that scatters is entered, of all that it returns, its surface's mirror image included; at a diffuse point, of
+/// what arrives there other than from the projector or its mirror image in a liquid.
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
                 const std::function<void(const ReturnedLight&)>& visit);
 
