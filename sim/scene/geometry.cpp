@@ -148,10 +148,11 @@ class Builder {
 
   void add_filling(const Cup& cup, const std::string& prefix) {
     const Filling& filling = *cup.filling;
-    const double level = liquid_level(cup);
+    constexpr double kBelowRim = 1e-5;  // [m] of a brimful clear cup, so that liquid and rim share no plane
     const int object = add_object(geometry_, prefix + filling.medium.name);
     const auto* shape = std::get_if<CupShape>(&cup.shape);
     const bool in_clear_wall = shape && shape->material;
+    const double level = in_clear_wall ? std::min(liquid_level(cup), shape->height() - kBelowRim) : liquid_level(cup);
     const bool plain = filling.form.level() && !in_clear_wall;
     std::optional<LiquidTop> top;
     if (!plain) top.emplace(*shape, level, filling.form);

@@ -245,6 +245,18 @@ TEST(GlassCup, OfTheIndexOfTheLiquidInAPaperCupsPlaceIsNotThere) {
   EXPECT_LT((seen->point - expected).norm(), 1e-12);
 }
 
+TEST(GlassCup, FilledToTheBrimStillHasItsRim) {
+  const LitScene scene(cup_of(kGlassCup, R"(, "liquid": {"index": 1.3281}, "fill_mm": 80)"));
+  for (int degree = 0; degree < 360; ++degree) {
+    const double azimuth = radians_from_deg(degree), radius = 0.0411;  // where the liquid's disc reaches into the wall
+    const auto hit = scene.world.first_interface(
+        {{radius * std::cos(azimuth), 0.300 + radius * std::sin(azimuth), 0.200}, -Eigen::Vector3d::UnitZ()});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->point.z(), 0.087, 1e-12);
+    EXPECT_EQ(std::get<Interface>(hit->surface->optics).body, 1) << degree;
+  }
+}
+
 TEST(LiquidsAboveEachOther, BothBendTheLight) {
   // A cup of one liquid that stands at the bottom of a bowl of another.
   const LitScene scene(setup_from_json(Json::parse(R"({"sensor": {"height_mm": 650, "aim_mm": [0, 300, 0]}, "cups": [
