@@ -199,6 +199,7 @@ bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& t
 }
 
 std::bitset<kPacket> Intersector::occluded(std::span<const Piece> pieces) const {
+  if (pieces.size() == 1) return occluded(pieces[0].from, pieces[0].to);  // alone it is cheaper by itself
   RTCIntersectContext context = Impl::coherent();
   Lanes lanes(pieces.size());
   RTCRay8 query;

@@ -25,7 +25,7 @@ enum class Ghosts { unsought, sought };
 class PointLight {
  public:
   /// Keeps a reference to `world`, which must outlive it. A world with more than level liquids in opaque cups is
-  /// searched for the directions that lead through its clear bodies, up to a second: build one and pass it on.
+  /// searched for the directions that lead through its clear bodies: a second, more where they fill much of its view.
   PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts = Ghosts::unsought);
 
   /// Calls `visit(i, connection)` for each connection of each of at most kPacket receivers, by rising i. Straight and
