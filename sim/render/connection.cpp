@@ -66,11 +66,12 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
   return follow(world, camera_ray, world.first_hit(camera_ray), inside);
 }
 
-SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays) {
-  std::array<std::optional<Hit>, kPacket> hits;
-  SeenPoints seen;
-  world.first_hits(camera_rays, hits);
-  for (std::size_t i = 0; i < camera_rays.size(); ++i) seen[i] = follow(world, camera_rays[i], hits[i], 0);
+Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays) {
+  const Packet<Hit> hits = world.first_hits(camera_rays);
+  Packet<SeenPoint> seen;
+  for (std::size_t i = 0; i < camera_rays.size(); ++i)
+    if (const Hit* hit = hits.find(i))
+      if (const auto point = follow(world, camera_rays[i], *hit, 0)) seen.set(i, *point);
   return seen;
 }
 
@@ -79,14 +80,19 @@ bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
 }
 
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {
-  return illuminate(projector, SeenPoints{seen})[0];
+  Packet<SeenPoint> alone;
+  alone.set(0, seen);
+  const Packet<Illumination> lights = illuminate(projector, alone);
+  const Illumination* light = lights.find(0);
+  return light ? std::optional(*light) : std::nullopt;
 }
 
-Illuminations illuminate(const PointLight& projector, const SeenPoints& seen) {
-  Illuminations strongest;
+Packet<Illumination> illuminate(const PointLight& projector, const Packet<SeenPoint>& seen) {
+  Packet<Illumination> strongest;
   for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& light) {
     if (light.through_scattering) return;
-    if (!strongest[i] || light.irradiance > strongest[i]->irradiance) strongest[i] = light;
+    const Illumination* other = strongest.find(i);
+    if (!other || light.irradiance > other->irradiance) strongest.set(i, light);
   });
   return strongest;
 }

@@ -34,15 +34,11 @@ struct Illumination {
   bool through_scattering;    ///< as in Connection
 };
 
-/// Of the rays of a packet; those beyond its last ray stay empty.
-using SeenPoints = std::array<std::optional<SeenPoint>, kPacket>;
-using Illuminations = std::array<std::optional<Illumination>, kPacket>;
-
 /// Follows a ray that starts in the bodies `inside` (none: in air). Where it cannot leave a body it is totally
 /// reflected; partial reflections are left out.
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
 /// The same for at most kPacket rays in air that lie side by side.
-SeenPoints see(const Intersector& world, std::span<const Ray> camera_rays);
+Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays);
 
 /// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
 /// totally.
@@ -54,21 +50,22 @@ inline Illumination illumination_by(const Connection& way, const SeenPoint& seen
 
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
 template <class Visit>
-void for_each_illumination(const PointLight& projector, const SeenPoints& seen, Visit&& visit) {
+void for_each_illumination(const PointLight& projector, const Packet<SeenPoint>& seen, Visit&& visit) {
   std::array<Receiver, kPacket> receivers;
   std::array<std::size_t, kPacket> number;
   std::size_t count = 0;
   for (std::size_t i = 0; i < kPacket; ++i)
-    if (seen[i]) receivers[count] = {seen[i]->point, seen[i]->around, &seen[i]->normal}, number[count++] = i;
+    if (const SeenPoint* at = seen.find(i))
+      receivers[count] = {at->point, at->around, &at->normal}, number[count++] = i;
   projector.connect(std::span(receivers).first(count), [&](std::size_t receiver, const Connection& way) {
     const std::size_t i = number[receiver];
-    if (!takes_up(*seen[i], way.arrival)) return;
-    visit(i, illumination_by(way, *seen[i]));
+    const SeenPoint& at = *seen.find(i);
+    if (takes_up(at, way.arrival)) visit(i, illumination_by(way, at));
   });
 }
 
 /// The strongest of them where bodies that scatter are opaque; nothing where the projector does not reach the point.
-Illuminations illuminate(const PointLight& projector, const SeenPoints& seen);
+Packet<Illumination> illuminate(const PointLight& projector, const Packet<SeenPoint>& seen);
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen);
 
 }  // namespace fathom

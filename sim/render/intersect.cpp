@@ -172,7 +172,7 @@ std::optional<Hit> Intersector::first_interface(const Ray& ray) const { return i
 
 std::optional<Hit> Intersector::first_opaque(const Ray& ray) const { return impl_->trace(impl_->opaque, ray); }
 
-void Intersector::first_hits(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+Packet<Hit> Intersector::first_hits(std::span<const Ray> rays) const {
   RTCIntersectContext context = Impl::coherent();
   Lanes lanes(rays.size());
   RTCRayHit8 query;
@@ -182,13 +182,14 @@ void Intersector::first_hits(std::span<const Ray> rays, std::span<std::optional<
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   rtcIntersect8(lanes.valid, impl_->all, &context, &query);
+  Packet<Hit> hits;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i].reset();
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[i] = impl_->hit_on(query.hit.geomID[i], query.hit.primID[i], rays[i]);
-    if (!hits[i])
-      hits[i] = impl_->trace(impl_->all, rays[i], std::max<double>(query.ray.tfar[i], kClearance) + kClearance);
+    std::optional<Hit> hit = impl_->hit_on(query.hit.geomID[i], query.hit.primID[i], rays[i]);
+    if (!hit) hit = impl_->trace(impl_->all, rays[i], std::max<double>(query.ray.tfar[i], kClearance) + kClearance);
+    if (hit) hits.set(i, *hit);
   }
+  return hits;
 }
 
 bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {

@@ -17,17 +17,19 @@ void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std
   std::array<Ray, kPacket> chiefs;
   for (std::size_t i = 0; i < pixels.size(); ++i)
     chiefs[i] = {rig.camera_in_world(), rig.direction_in_world(x + static_cast<int>(i) + 0.5, y + 0.5)};
-  const SeenPoints seen = see(projector.world(), std::span(chiefs).first(pixels.size()));
-  const Illuminations lights = illuminate(projector, seen);
+  const Packet<SeenPoint> seen = see(projector.world(), std::span(chiefs).first(pixels.size()));
+  const Packet<Illumination> lights = illuminate(projector, seen);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    if (!seen[i]) continue;
+    const SeenPoint* at = seen.find(i);
+    if (!at) continue;
     TruePixel& pixel = pixels[i];
-    pixel.position = seen[i]->point;
-    pixel.object = seen[i]->object;
-    pixel.path = path_of(*seen[i]);
-    if (!lights[i]) continue;
-    pixel.apparent_depth = triangulated_depth(rig, chiefs[i].direction, lights[i]->direction);
-    pixel.intensity = radiance_dn(rig.sensor, *seen[i], *lights[i]);
+    pixel.position = at->point;
+    pixel.object = at->object;
+    pixel.path = path_of(*at);
+    const Illumination* light = lights.find(i);
+    if (!light) continue;
+    pixel.apparent_depth = triangulated_depth(rig, chiefs[i].direction, light->direction);
+    pixel.intensity = radiance_dn(rig.sensor, *at, *light);
   }
 }
 

@@ -66,9 +66,8 @@ struct Rig {
   Eigen::Vector3d projector_in_world() const { return world_from_camera * Eigen::Vector3d(sensor.baseline, 0.0, 0.0); }
   /// Unit direction in the world of a point of the depth image; (0.5, 0.5) is the first pixel's centre.
   Eigen::Vector3d direction_in_world(double x_px, double y_px) const {
-    const Eigen::Vector3d in_camera((x_px - sensor.principal_px.x()) / sensor.focal_px,
-                                    (y_px - sensor.principal_px.y()) / sensor.focal_px, 1.0);
-    return world_from_camera.linear() * in_camera.normalized();
+    const Eigen::Vector3d in_camera(x_px - sensor.principal_px.x(), y_px - sensor.principal_px.y(), sensor.focal_px);
+    return world_from_camera.linear() * (1.0 / in_camera.norm() * in_camera);
   }
   /// Rectified image coordinates of a direction, in units of the focal length; the same for camera and projector.
   /// Nothing for a direction that does not go forward.

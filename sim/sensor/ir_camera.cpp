@@ -50,18 +50,18 @@ struct Renderer {
   std::array<double, kPacket> radiances(int y, int first, int count) const {
     std::array<Ray, kPacket> rays;
     for (int i = 0; i < count; ++i) rays[i] = camera_ray(y, first + i);
-    SeenPoints seen = see(projector.world(), std::span(rays.data(), count));
+    Packet<SeenPoint> seen = see(projector.world(), std::span(rays.data(), count));
     std::array<double, kPacket> sums{};
     if (light == LightModel::full)
       for (int i = 0; i < count; ++i)
-        if (seen[i]) {
+        if (const SeenPoint* at = seen.find(i)) {
           Rng rng(seed, kWalkStream, y, first + i);
-          sums[i] = indirect_radiance(*seen[i], rng);
-          if (seen[i]->entered) seen[i].reset();
+          sums[i] = indirect_radiance(*at, rng);
+          if (at->entered) seen.reset(i);
         }
     for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
       if (light == LightModel::direct && from_projector.through_scattering) return;
-      sums[i] += radiance_dn(rig.sensor, *seen[i], from_projector) * intensity(from_projector.direction);
+      sums[i] += radiance_dn(rig.sensor, *seen.find(i), from_projector) * intensity(from_projector.direction);
     });
     return sums;
   }

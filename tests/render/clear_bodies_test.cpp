@@ -270,7 +270,7 @@ TEST(LiquidsAboveEachOther, BothBendTheLight) {
     const auto seen = see(scene.world, scene.camera_ray({x, 0.300, 0.005}));
     ASSERT_TRUE(seen);
     if (std::fabs(seen->point.z() - 0.010) > 1e-9) continue;
-    for_each_illumination(scene.projector, SeenPoints{*seen}, [&](std::size_t, const Illumination& light) {
+    for_each_illumination(scene.projector, alone(*seen), [&](std::size_t, const Illumination& light) {
       const auto end = see(scene.world, {scene.projector.position(), light.direction});
       ASSERT_TRUE(end);
       EXPECT_LT((end->point - seen->point).norm(), 1e-9);  // what shooting calls a hit, 1e-10 m, on a slope

@@ -128,7 +128,7 @@ TEST(TurbidBodies, EveryWayEndsWhereARayInItsDirectionDoes) {
         Rng rng(1, on_liquid);
         walk_light(scene.projector, *seen, rng, [](const ReturnedLight& light) { EXPECT_GE(light.reflected, 0.0); });
       }
-      for_each_illumination(scene.projector, SeenPoints{seen}, [&](std::size_t, const Illumination& light) {
+      for_each_illumination(scene.projector, alone(*seen), [&](std::size_t, const Illumination& light) {
         if (light.through_scattering) return;
         ++(seen->entered ? on_liquid : on_desk);
         const auto end = see(scene.world, {scene.projector.position(), light.direction});
