@@ -72,7 +72,6 @@ void register_light() {
   for (const char* name : {"paper_water", "meniscus_water", "paper_milk_tea", "glass_water"}) {
     const auto measured = std::make_shared<const Case>(fmt::format("{}.json", name));
     const Noise noise = noise_of(*measured);
-    const Recording rays = record_camera_rays(measured->scene.world, measured->scene.setup.rig, kSamplesAcross);
     measure(fmt::format("light/{}/fathom", name), {{"walks_dn", noise.of_walks}, {"sensor_dn", noise.of_sensor}},
             [measured] { benchmark::DoNotOptimize(measured->image(measured->pattern, 1)); });
     measure_embree(fmt::format("light/{}/embree", name), {measured, &measured->embree},

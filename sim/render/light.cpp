@@ -72,7 +72,7 @@ void add_new(std::vector<Connection>& found, const std::optional<Connection>& wa
 
 }  // namespace
 
-PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts)
+PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position)
     : world_(world), source_{position, world.bodies_around(position)} {
   for (const Surface& surface : world.geometry().surfaces)
     if (const auto* interface = std::get_if<Interface>(&surface.optics)) {
@@ -84,7 +84,6 @@ PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position
     }
   if (world.level_liquids_only() && !source_.inside) return;
   fan_.emplace(world, source_, Event::refract);
-  if (ghosts == Ghosts::sought) mirrored_fan_.emplace(world, source_, Event::reflect);
 }
 
 void PointLight::connect_each(std::span<const Receiver> receivers, const Visitor& visit) const {
@@ -129,7 +128,10 @@ void PointLight::connect_exactly(std::span<const Receiver> receivers, const Visi
 void PointLight::connect_mirrored_each(const Receiver& receiver,
                                        const std::function<void(const Connection&)>& visit) const {
   std::vector<Connection> found;
-  if (mirrored_fan_) connect_from(*mirrored_fan_, Event::reflect, receiver, found);
+  if (fan_) {
+    std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Event::reflect); });
+    connect_from(*mirrored_fan_, Event::reflect, receiver, found);
+  }
   for (const Mirror& mirror : mirrors_) {
     if (receiver.around) break;
     const double height = source_.position.z() - mirror.level, above = receiver.point.z() - mirror.level;

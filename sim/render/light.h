@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,14 +20,11 @@ struct Receiver {
   const Eigen::Vector3d* facing = nullptr;  ///< ways that come from behind this normal are left out
 };
 
-/// Whether connect_mirrored() will be asked for surfaces that are not level: they must be searched for, too.
-enum class Ghosts { unsought, sought };
-
 class PointLight {
  public:
   /// Keeps a reference to `world`, which must outlive it. A world with more than level liquids in opaque cups is
   /// searched for the directions that lead through its clear bodies: a second, more where they fill much of its view.
-  PointLight(const Intersector& world, const Eigen::Vector3d& position, Ghosts ghosts = Ghosts::unsought);
+  PointLight(const Intersector& world, const Eigen::Vector3d& position);
 
   /// Calls `visit(i, connection)` for each connection of each of at most kPacket receivers, by rising i. Straight and
   /// level ways are exact and complete; of the others those are found that lie near a seed (see Fan). Safe to call from
@@ -40,7 +38,8 @@ class PointLight {
   void connect(const Receiver& receiver, Visit&& visit) const {
     connect(std::span(&receiver, 1), [&](std::size_t, const Connection& way) { visit(way); });
   }
-  /// The same for light that a liquid's surface mirrors first; other than level surfaces only with Ghosts::sought.
+  /// The same for light that a liquid's surface mirrors first. Surfaces that are not level are searched for when first
+  /// asked.
   template <class Visit>
   void connect_mirrored(const Receiver& receiver, Visit&& visit) const {
     connect_mirrored_each(receiver, std::ref(visit));
@@ -63,7 +62,9 @@ class PointLight {
     Eigen::AlignedBox2d area;  ///< around the surface
   };
   std::vector<Mirror> mirrors_;  ///< level liquids
-  std::optional<Fan> fan_, mirrored_fan_;
+  std::optional<Fan> fan_;
+  mutable std::once_flag mirrored_once_;
+  mutable std::optional<Fan> mirrored_fan_;  ///< where there is a fan
 };
 
 }  // namespace fathom

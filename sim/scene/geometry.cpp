@@ -112,8 +112,8 @@ class Builder {
     if (medium.scatters()) {
       bodies_.back().body.surface_albedo = diffuse_reflectance(medium, at_wavelength.n);
       geometry_.approximations.push_back(
-          fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it, but "
-                      "in images of full light",
+          fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it (in "
+                      "images of full light it does)",
                       medium.name, bodies_.back().body.surface_albedo));
     }
     return static_cast<int>(bodies_.size()) - 1;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 #include "sim/render/intersect.h"
 #include "sim/sensor/depth.h"
@@ -26,10 +27,9 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   const SensorModel& sensor = rig_.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
   const Intersector world(geometry_);
-  const PointLight projector = timed(statistics_.build_s, [&] {
-    return PointLight(world, rig_.projector_in_world(), light == LightModel::full ? Ghosts::sought : Ghosts::unsought);
-  });
-  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(projector, rig_); });
+  const auto projector =
+      timed(statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, rig_.projector_in_world()); });
+  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(*projector, rig_); });
   statistics_.camera_rays = truth_.size();
   if (mode == CaptureMode::geometric) return;
 
@@ -41,7 +41,7 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ =
-      timed(statistics_.render_s, [&] { return render_ir(projector, rig_, pattern, samples_across_, light, seed); });
+      timed(statistics_.render_s, [&] { return render_ir(*projector, rig_, pattern, samples_across_, light, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
 }
 

@@ -7,7 +7,6 @@
 
 #include "core/parallel.h"
 #include "core/simd.h"
-#include "sim/sensor/pixel_mean.h"
 
 namespace fathom {
 namespace {
@@ -92,6 +91,16 @@ void normalise_row(const float* __restrict row, const float* __restrict sums, co
 FATHOM_SIMD_CLONES
 void mean_of_rows(const float* __restrict a, const float* __restrict b, float* __restrict mean, int width) {
   for (int x = 0; x < width; ++x) mean[x] = 0.5f * (a[x] + b[x]);
+}
+
+/// Mean of sample(dx, dy) over a grid of `samples_across`² points, dx and dy in 0 … 1 from the pixel's upper left
+/// corner.
+template <class Sample>
+double pixel_mean(int samples_across, Sample sample) {
+  double sum = 0.0;
+  for (int j = 0; j < samples_across; ++j)
+    for (int i = 0; i < samples_across; ++i) sum += sample((i + 0.5) / samples_across, (j + 0.5) / samples_across);
+  return sum / (samples_across * samples_across);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct LitScene {
       : rig(setup.rig),
         geometry(build_geometry(setup.scene, rig.sensor.wavelength_nm)),
         world(geometry),
-        projector(world, rig.projector_in_world(), Ghosts::sought) {}
+        projector(world, rig.projector_in_world()) {}
 
   Ray camera_ray(const Eigen::Vector3d& at) const {
     return {rig.camera_in_world(), (at - rig.camera_in_world()).normalized()};
