@@ -14,8 +14,10 @@ namespace {
 /// square of the refractive index, which interfaces keep.
 class Connector {
  public:
-  Connector(const PointLight& projector, Rng& rng, const std::function<void(const ReturnedLight&)>& visit)
-      : projector_(projector), rng_(rng), visit_(visit) {}
+  /// The walk begins at `start`, in the direction `beam` or, where that is zero, in any.
+  Connector(const PointLight& projector, const Eigen::Vector3d& start, const Eigen::Vector3d& beam, Rng& rng,
+            const std::function<void(const ReturnedLight&)>& visit)
+      : projector_(projector), start_(start), beam_(beam), rng_(rng), visit_(visit) {}
 
   void at_scattering(const Walker& walker) {
     const Body* body = medium_in(projector_.world().geometry(), walker.region);
@@ -25,7 +27,7 @@ class Connector {
     connect({walker.position, body}, [&](const Connection& way) {
       // Seen from the light: it arrives and is sent towards where the walk came from.
       const double phase = henyey_greenstein(-way.arrival.dot(walker.direction), body->medium.anisotropy);
-      visit_({way.direction, factor * phase * way.spreading * way.transmittance});
+      give(way, factor * phase, walker.position);
     });
   }
 
@@ -34,9 +36,8 @@ class Connector {
     const double chance = body ? worth(*body, walker.position) : 1.0;
     if (chance < 1.0 && rng_.uniform() >= chance) return;
     const double n = index_of(body), factor = albedo * walker.weight / (chance * n * n);
-    connect({walker.position, body, &normal}, [&](const Connection& way) {
-      visit_({way.direction, -factor * normal.dot(way.arrival) * way.spreading * way.transmittance});
-    });
+    connect({walker.position, body, &normal},
+            [&](const Connection& way) { give(way, -factor * normal.dot(way.arrival), walker.position); });
   }
 
  private:
@@ -44,6 +45,13 @@ class Connector {
   void connect(const Receiver& receiver, Visit visit) {
     projector_.connect(receiver, visit);
     projector_.connect_mirrored(receiver, visit);
+  }
+
+  void give(const Connection& way, double factor, const Eigen::Vector3d& point) {
+    // Where walks end differs by as much as this one went aside, and so do the directions that lead there.
+    const Eigen::Vector3d gone = point - start_;
+    const double aside = (gone - gone.dot(beam_) * beam_).norm();
+    visit_({way.direction, factor * way.spreading * way.transmittance, aside * std::sqrt(way.spreading)});
   }
 
   /// Chance with which a place is joined to the projector: deep in a turbid liquid next to no light arrives
@@ -56,6 +64,7 @@ class Connector {
   }
 
   const PointLight& projector_;
+  const Eigen::Vector3d start_, beam_;
   Rng& rng_;
   const std::function<void(const ReturnedLight&)>& visit_;
 };
@@ -67,12 +76,16 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
   const double n = index_of(seen.around);
   Walker walker{seen.point, seen.arriving, seen.transmittance * n * n, seen.inside};
   const WorldSpace space(projector.world());
-  Connector connector(projector, rng, visit);
   if (!seen.entered) {
     walker.weight *= seen.albedo;
     walker.direction = sample_diffuse(seen.normal, rng);
+    Connector connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit);
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
-  } else if (cross_interface(walker, seen.normal, n, seen.entered->medium.n, rng)) {
+    return;
+  }
+  const bool enters = cross_interface(walker, seen.normal, n, seen.entered->medium.n, rng);
+  Connector connector(projector, seen.point, walker.direction, rng, visit);
+  if (enters) {
     walker.region = seen.beyond;
     random_walk_of_beam(space, walker, rng, connector);
   } else {

@@ -14,6 +14,7 @@ namespace fathom {
 struct ReturnedLight {
   Eigen::Vector3d direction;  ///< unit, world
   double reflected;           ///< [1/m²] π · radiance per unit radiant intensity of the projector, see radiance_dn()
+  double spread;              ///< [rad] how far around `direction` light is about as likely to return
 };
 
 /// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an unbiased estimate: where

@@ -9,6 +9,7 @@
 #include "sim/render/connection.h"
 #include "sim/render/light_walk.h"
 #include "sim/render/radiance.h"
+#include "sim/sensor/blurred_pattern.h"
 
 namespace fathom {
 namespace {
@@ -20,18 +21,32 @@ constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
 /// Walks per camera ray that enters a scattering body; other surfaces get one.
 constexpr int kWalksIntoBody = 4;
 
+/// Over which part of a walk's spread the dots are averaged. The average takes out most of what chance makes of dots,
+/// and blurs the light that walked, by this part of the width that it has anyway.
+constexpr double kPartOfSpread = 0.25;
+
 /// What a camera's samples look at, and what they look with.
 struct Renderer {
   const PointLight& projector;
   const Rig& rig;
   const Pattern& pattern;
+  const BlurredPattern& blurred;
   int samples_across;
   LightModel light;
   std::uint64_t seed;
 
   double intensity(const Eigen::Vector3d& direction) const {
     const std::optional<Eigen::Vector2d> at = rig.rectified(direction);
-    return at ? pattern.intensity(at->x(), at->y(), rig.sensor.focal_px) : 0.0;
+    return at ? pattern.intensity(pattern.on_grid(at->x(), at->y(), rig.sensor.focal_px)) : 0.0;
+  }
+
+  /// Mean intensity around the direction of light that walked: of a part of where it could have come from as well.
+  double intensity_around(const ReturnedLight& light) const {
+    const std::optional<Eigen::Vector2d> at = rig.rectified(light.direction);
+    if (!at) return 0.0;
+    const double focal_px = rig.sensor.focal_px;
+    const double sigma_steps = kPartOfSpread * light.spread * focal_px / rig.sensor.pattern.step_px;
+    return blurred.intensity(pattern.on_grid(at->x(), at->y(), focal_px), sigma_steps);
   }
 
   int samples_per_pixel() const { return samples_across * samples_across; }
@@ -76,7 +91,7 @@ struct Renderer {
     const int walks = seen.entered ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
       walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
-        sum += radiance_dn(rig.sensor, returned.reflected) * intensity(returned.direction);
+        sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(returned);
       });
     return ghosts + sum / walks;
   }
@@ -86,7 +101,8 @@ struct Renderer {
 
 Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                        LightModel light, std::uint64_t seed) {
-  const Renderer renderer{projector, rig, pattern, samples_across, light, seed};
+  const BlurredPattern blurred(pattern);
+  const Renderer renderer{projector, rig, pattern, blurred, samples_across, light, seed};
   Image<float> image(rig.sensor.ir_width, rig.sensor.ir_height);
   const int per_pixel = renderer.samples_per_pixel(), per_row = renderer.samples_per_row();
   parallel_ranges(image.height(), [&](int begin, int end) {

@@ -180,10 +180,8 @@ void Pattern::set_dot_gains(std::span<const float> gains) {
       brightness_(column, row) = !has_dot(column, row) ? 0.0f : gains.empty() ? 1.0f : gains[dot];
 }
 
-double Pattern::intensity(double x, double y, double focal_px) const {
-  // Grid coordinates: dot (i, j) has its centre at (i, j), the grid's middle lies on the projector's axis.
-  const double column = x * focal_px / step_px_ + 0.5 * (columns() - 1);
-  const double row = y * focal_px / step_px_ + 0.5 * (rows() - 1);
+double Pattern::intensity(const Eigen::Vector2d& on_grid) const {
+  const double column = on_grid.x(), row = on_grid.y();
   const double left = std::floor(column), top = std::floor(row);
   if (!(left >= 1.0 && top >= 1.0 && left < columns() - 2 && top < rows() - 2)) return 0.0;
   const Eigen::Array4f& across = profile_[static_cast<int>((column - left) * kTableSize + 0.5)];

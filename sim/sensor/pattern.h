@@ -28,13 +28,22 @@ class Pattern {
   int columns() const { return brightness_.width(); }
   int rows() const { return brightness_.height(); }
   bool has_dot(int column, int row) const { return dots_(column % dots_.width(), row % dots_.height()) != 0; }
+  /// Of the dot at each place of the grid, columns × rows; 0 where there is none.
+  const Image<float>& brightness() const { return brightness_; }
+  double sigma_steps() const { return sigma_steps_; }
+
+  /// Where a direction lies on the grid: dot (i, j) has its centre at (i, j), the grid's middle lies on the projector's
+  /// axis. `x`, `y` are the rectified image coordinates in units of the focal length, `focal_px` in depth pixels.
+  Eigen::Vector2d on_grid(double x, double y, double focal_px) const {
+    const double steps = focal_px / step_px_;
+    return {x * steps + 0.5 * (columns() - 1), y * steps + 0.5 * (rows() - 1)};
+  }
 
   /// Gives every dot of the grid its own brightness, columns × rows, row by row; none: 1 for all.
   void set_dot_gains(std::span<const float> gains);
 
-  /// Relative radiant intensity in a direction: 1 at an isolated dot's centre, 0 outside the grid. `x`, `y` are the
-  /// rectified image coordinates in units of the focal length, `focal_px` the focal length in depth pixels.
-  double intensity(double x, double y, double focal_px) const;
+  /// Relative radiant intensity at a place on the grid: 1 at an isolated dot's centre, 0 outside.
+  double intensity(const Eigen::Vector2d& on_grid) const;
 
   /// Mean of intensity() over the grid.
   double mean_intensity() const;
@@ -43,7 +52,7 @@ class Pattern {
   static constexpr int kTableSize = 512;
 
   Image<std::uint8_t> dots_;                            ///< one tile
-  Image<float> brightness_;                             ///< of the whole grid; 0 where there is no dot
+  Image<float> brightness_;                             ///< of the whole grid
   std::array<Eigen::Array4f, kTableSize + 1> profile_;  ///< Gaussian at −1 … 2 steps from a fraction of a step
   double step_px_;
   double sigma_steps_;

@@ -120,8 +120,9 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
       for (int x = 0; x < image.width(); ++x) {
         const auto sample = [&](double dx, double dy) {
           const double x_px = (x + dx) / scale - margin_px, y_px = (y - sensor.ir_first_row() + dy) / scale;
-          return pattern.intensity((x_px - sensor.principal_px.x()) / sensor.focal_px - parallax,
-                                   (y_px - sensor.principal_px.y()) / sensor.focal_px, sensor.focal_px);
+          const Eigen::Vector2d centred(x_px - sensor.principal_px.x(), y_px - sensor.principal_px.y());
+          return pattern.intensity(pattern.on_grid(centred.x() / sensor.focal_px - parallax,
+                                                   centred.y() / sensor.focal_px, sensor.focal_px));
         };
         image(x, y) = static_cast<float>(kBrightness * pixel_mean(samples_across, sample));
       }

@@ -108,17 +108,20 @@ TEST(Pattern, ADotIsAGaussianAndTheGridsMeanIsItsMean) {
   while (!pattern.has_dot(column, row)) ++column;
   const double x = (column - 0.5 * (pattern.columns() - 1)) / focal_px;
   const double y = (row - 0.5 * (pattern.rows() - 1)) / focal_px;
+  const auto intensity = [&](double at_x, double at_y) {
+    return pattern.intensity(pattern.on_grid(at_x, at_y, focal_px));
+  };
   // The nearest other dots stand 2 positions away: at most 8 tails of exp(−½ (2 / 0.45)²) = 5e-5.
-  EXPECT_NEAR(pattern.intensity(x, y, focal_px), 1.0, 5e-4);
+  EXPECT_NEAR(intensity(x, y), 1.0, 5e-4);
   // One σ towards such a neighbour its tail is exp(−½ (1.55 / 0.45)²) = 0.003.
-  EXPECT_NEAR(pattern.intensity(x, y + sigma_px / focal_px, focal_px), std::exp(-0.5), 0.01);
-  EXPECT_EQ(pattern.intensity(2.0, 0.0, focal_px), 0.0);  // outside the grid
+  EXPECT_NEAR(intensity(x, y + sigma_px / focal_px), std::exp(-0.5), 0.01);
+  EXPECT_EQ(intensity(2.0, 0.0), 0.0);  // outside the grid
 
   double sum = 0.0;
   constexpr int kSamples = 400;
   for (int j = 0; j < kSamples; ++j)  // one tile's worth, evenly
     for (int i = 0; i < kSamples; ++i)
-      sum += pattern.intensity((i + 0.5) / kSamples * 211 / focal_px, (j + 0.5) / kSamples * 165 / focal_px, focal_px);
+      sum += intensity((i + 0.5) / kSamples * 211 / focal_px, (j + 0.5) / kSamples * 165 / focal_px);
   // Samples half a step apart see a Gaussian of 0.45 steps almost exactly; the table's steps cost 1e-3.
   EXPECT_NEAR(sum / (kSamples * kSamples) / pattern.mean_intensity(), 1.0, 0.005);
 }

@@ -1,0 +1,30 @@
+// The pattern as it lights what is not seen sharply: blurred by a Gaussian of any width.
+#pragma once
+
+#include <vector>
+
+#include "sim/sensor/pattern.h"
+
+namespace fathom {
+
+/// A pyramid of the pattern: each level is wider blurred than the one before, and sampled half as finely.
+class BlurredPattern {
+ public:
+  /// Keeps a reference to `pattern`, which must outlive it; its brightness is read now.
+  explicit BlurredPattern(const Pattern& pattern);
+
+  /// Pattern::intensity() blurred by a Gaussian of at most `sigma_steps`: by the widest level's that is not wider, or,
+  /// below the first level's, not at all. The mean over the grid stays the same.
+  double intensity(const Eigen::Vector2d& on_grid, double sigma_steps) const;
+
+ private:
+  struct Level {
+    double variance;      ///< [steps²] of its blur, beside a dot's own
+    double spacing;       ///< [steps] between its samples
+    Image<float> values;  ///< the first is at grid position (0, 0)
+  };
+  const Pattern& pattern_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace fathom
