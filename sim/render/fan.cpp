@@ -73,7 +73,6 @@ Fan::Fan(const Intersector& world, const Source& source, Event first) {
   for (const auto& [i, j] : covered_cells(world.geometry(), source.position, axis, basis))
     send(world, source, first, (axis + basis * Eigen::Vector2d(i + 0.5, j + 0.5) * kSpacing).normalized(), kSpacing, 0);
   for (std::uint32_t seed = 0; seed < seeds_.size(); ++seed) file(seed);
-  std::sort(entries_.begin(), entries_.end());
 }
 
 void Fan::send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
@@ -110,7 +109,6 @@ void Fan::file(std::uint32_t number) {
   const Seed& seed = seeds_[number];
   const double begin = seed.begin - kBeyond, length = seed.end + kBeyond - begin;
   const int steps = static_cast<int>(std::ceil(length / kBox));
-  const auto filed = static_cast<std::ptrdiff_t>(entries_.size());
   for (int step = 0; step <= steps; ++step) {
     const double distance = begin + length * step / steps;
     const Eigen::Vector3d middle = seed.pencil.origin + distance * seed.pencil.direction;
@@ -118,20 +116,20 @@ void Fan::file(std::uint32_t number) {
     const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
     for (int i = low.x(); i <= high.x(); ++i)
       for (int j = low.y(); j <= high.y(); ++j)
-        for (int k = low.z(); k <= high.z(); ++k) entries_.push_back({box_of({i, j, k}), number});
+        for (int k = low.z(); k <= high.z(); ++k) {
+          std::vector<std::uint32_t>& seeds = filed_[box_of({i, j, k})];
+          if (seeds.empty() || seeds.back() != number) seeds.push_back(number);  // steps share most of their boxes
+        }
   }
-  // Steps share most of their boxes; sorted one by one, seeds take a fraction of the memory and time.
-  std::sort(entries_.begin() + filed, entries_.end());
-  entries_.erase(std::unique(entries_.begin() + filed, entries_.end()), entries_.end());
 }
 
 std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body* around) const {
   constexpr double kMostSteps = 2.5;
   std::vector<Candidate> candidates;
-  const std::uint64_t box = box_of(box_index(target));
-  for (auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{box, 0});
-       entry != entries_.end() && entry->box == box; ++entry) {
-    const Seed& seed = seeds_[entry->seed];
+  const auto box = filed_.find(box_of(box_index(target)));
+  if (box == filed_.end()) return candidates;
+  for (const std::uint32_t number : box->second) {
+    const Seed& seed = seeds_[number];
     if (seed.medium != around) continue;
     const Landing landing = land(seed.pencil, target);
     if (landing.distance < seed.begin - kBeyond || landing.distance > seed.end + kBeyond) continue;

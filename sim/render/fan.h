@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "sim/render/shoot.h"
@@ -38,13 +39,8 @@ class Fan {
             double spacing, int halvings);
   void file(std::uint32_t seed);
 
-  struct Entry {
-    std::uint64_t box;
-    std::uint32_t seed;
-    auto operator<=>(const Entry&) const = default;
-  };
   std::vector<Seed> seeds_;
-  std::vector<Entry> entries_;  ///< which pencils touch a box of space, by box
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> filed_;  ///< seeds whose pencils touch a box, by box
 };
 
 }  // namespace fathom
