@@ -53,17 +53,31 @@ struct Renderer {
     Packet<SeenPoint> seen = see(projector.world(), std::span(rays.data(), count));
     std::array<double, kPacket> sums{};
     if (light == LightModel::full)
-      for (int i = 0; i < count; ++i)
-        if (const SeenPoint* at = seen.find(i)) {
-          Rng rng(seed, kWalkStream, y, first + i);
-          sums[i] = indirect_radiance(*at, rng);
-          if (at->entered) seen.reset(i);
-        }
+      for (int i = 0; i < count; ++i) {
+        Rng rng(seed, kWalkStream, y, first + i);
+        const SeenPoint* at = seen.find(i);
+        if (at) sums[i] = indirect_radiance(*at, rng);
+        if (at && !at->refracted && !at->entered) continue;
+        see_mirrored(projector.world(), rays[i], rng, [&](const SeenPoint& image) {
+          sums[i] += direct_radiance(image) + indirect_radiance(image, rng);
+        });
+        if (at && at->entered) seen.reset(i);
+      }
     for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
       if (light == LightModel::direct && from_projector.through_scattering) return;
       sums[i] += radiance_dn(rig.sensor, *seen.find(i), from_projector) * intensity(from_projector.direction);
     });
     return sums;
+  }
+
+  /// Radiance [DN] by light straight or refracted from the projector; of bodies that scatter the walks see all.
+  double direct_radiance(const SeenPoint& seen) const {
+    double sum = 0.0;
+    if (!seen.entered)
+      projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
+        sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
+      });
+    return sum;
   }
 
   /// Radiance [DN] by reflections in liquids and by walks.
