@@ -62,14 +62,6 @@ bool known(const std::vector<Connection>& found, const Fan::Candidate& candidate
   });
 }
 
-void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {
-  constexpr double kSame = 1e-7;  // [rad]
-  const bool is_new = way && std::none_of(found.begin(), found.end(), [&](const Connection& other) {
-                        return way->crossings == other.crossings && (way->direction - other.direction).norm() < kSame;
-                      });
-  if (is_new) found.push_back(*way);
-}
-
 }  // namespace
 
 PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position)

@@ -46,6 +46,7 @@ class PointLight {
   }
 
   const Intersector& world() const { return world_; }
+  const Source& source() const { return source_; }
   const Eigen::Vector3d& position() const { return source_.position; }
 
  private:

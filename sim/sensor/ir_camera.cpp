@@ -9,6 +9,7 @@
 #include "sim/render/connection.h"
 #include "sim/render/light_walk.h"
 #include "sim/render/radiance.h"
+#include "sim/sensor/glints.h"
 
 namespace fathom {
 namespace {
@@ -29,10 +30,7 @@ struct Renderer {
   LightModel light;
   std::uint64_t seed;
 
-  double intensity(const Eigen::Vector3d& direction) const {
-    const std::optional<Eigen::Vector2d> at = rig.rectified(direction);
-    return at ? pattern.intensity(at->x(), at->y(), rig.sensor.focal_px) : 0.0;
-  }
+  double intensity(const Eigen::Vector3d& direction) const { return intensity_towards(pattern, rig, direction); }
 
   int samples_per_pixel() const { return samples_across * samples_across; }
   int samples_per_row() const { return samples_per_pixel() * rig.sensor.ir_width; }
@@ -115,6 +113,7 @@ Image<float> render_ir(const PointLight& projector, const Rig& rig, const Patter
       for (int x = 0; x < image.width(); ++x) image(x, y) = static_cast<float>(sums[x] / per_pixel);
     }
   });
+  if (light == LightModel::full) add_glints(projector, rig, pattern, image);
   return image;
 }
 

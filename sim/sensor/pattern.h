@@ -49,4 +49,10 @@ class Pattern {
   double sigma_steps_;
 };
 
+/// Relative radiant intensity in a direction in the world; 0 behind the projector.
+inline double intensity_towards(const Pattern& pattern, const Rig& rig, const Eigen::Vector3d& direction) {
+  const std::optional<Eigen::Vector2d> at = rig.rectified(direction);
+  return at ? pattern.intensity(at->x(), at->y(), rig.sensor.focal_px) : 0.0;
+}
+
 }  // namespace fathom
