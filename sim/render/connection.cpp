@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <variant>
+#include <vector>
 
 #include "sim/optics/fresnel.h"
 #include "sim/optics/medium.h"
@@ -10,12 +11,25 @@
 namespace fathom {
 namespace {
 
-/// Follows a ray from the first surface that it hits.
-std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional<Hit> hit, BodySet inside) {
-  const double n_camera = index_of(medium_in(world.geometry(), inside));
-  double through = 1.0;
+/// A camera's ray on its way.
+struct Sight {
+  Ray ray;
+  BodySet inside;
+  double n_camera;       ///< refractive index around the camera
+  double through = 1.0;  ///< of radiance over n², from the ray's origin to the camera
   bool refracted = false;
-  for (int crossings = 0; hit && crossings < kMostCrossings; hit = world.first_hit(ray)) {
+  int crossings = 0;
+};
+
+Sight sight_of(const Intersector& world, const Ray& camera_ray, BodySet inside) {
+  return {camera_ray, inside, index_of(medium_in(world.geometry(), inside))};
+}
+
+/// Follows a ray on from `hit`. `reflections` gets what is reflected in part on the way, if it is asked for.
+std::optional<SeenPoint> follow(const Intersector& world, Sight sight, std::optional<Hit> hit,
+                                std::vector<Sight>* reflections = nullptr) {
+  auto& [ray, inside, n_camera, through, refracted, crossings] = sight;
+  for (; hit && crossings < kMostCrossings; hit = world.first_hit(ray)) {
     const Body* medium = medium_in(world.geometry(), inside);
     const double n_from = index_of(medium);
     if (medium) through *= transmittance(medium->extinction(), hit->distance);
@@ -31,8 +45,19 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
       inside = after;
       continue;
     }
+    ++crossings;
     const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next));
-    if (bent && next && next->scatters()) {
+    if (!bent) {
+      ray.direction = reflect(ray.direction, hit->normal);
+      continue;
+    }
+    const double cosine = std::min(-ray.direction.dot(hit->normal), 1.0);
+    if (reflections) {
+      reflections->push_back(sight);
+      reflections->back().ray.direction = reflect(ray.direction, hit->normal);
+      reflections->back().through *= fresnel_reflectance(cosine, n_from, index_of(next));
+    }
+    if (next && next->scatters()) {
       through *= n_camera * n_camera / (n_from * n_from);
       return SeenPoint{hit->point,
                        hit->normal,
@@ -46,24 +71,37 @@ std::optional<SeenPoint> follow(const Intersector& world, Ray ray, std::optional
                        next,
                        after};
     }
-    ++crossings;
-    if (bent) {
-      const double cosine = std::min(-ray.direction.dot(hit->normal), 1.0);
-      through *= 1.0 - fresnel_reflectance(cosine, n_from, index_of(next));
-      ray.direction = *bent;
-      inside = after;
-      refracted = true;
-    } else {
-      ray.direction = reflect(ray.direction, hit->normal);
-    }
+    through *= 1.0 - fresnel_reflectance(cosine, n_from, index_of(next));
+    ray.direction = *bent;
+    inside = after;
+    refracted = true;
   }
   return std::nullopt;
+}
+
+/// Draws one of the sights by what they let through, which becomes that of all together; their list is emptied. Faint
+/// ones are often dropped. Nothing when none is left.
+std::optional<Sight> draw_one(std::vector<Sight>& sights, Rng& rng) {
+  constexpr double kFaint = 0.01;  // on a camera's ray that sees most of its light elsewhere
+  double all = 0.0;
+  for (const Sight& sight : sights) all += sight.through;
+  double left = rng.uniform() * std::max(all, kFaint);
+  std::optional<Sight> drawn;
+  for (const Sight& sight : sights) {
+    left -= sight.through;
+    if (left >= 0.0) continue;
+    drawn = sight;
+    drawn->through = std::max(all, kFaint);
+    break;
+  }
+  sights.clear();
+  return drawn;
 }
 
 }  // namespace
 
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside) {
-  return follow(world, camera_ray, world.first_hit(camera_ray), inside);
+  return follow(world, sight_of(world, camera_ray, inside), world.first_hit(camera_ray));
 }
 
 Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays) {
@@ -71,8 +109,20 @@ Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays
   Packet<SeenPoint> seen;
   for (std::size_t i = 0; i < camera_rays.size(); ++i)
     if (const Hit* hit = hits.find(i))
-      if (const auto point = follow(world, camera_rays[i], *hit, 0)) seen.set(i, *point);
+      if (const auto point = follow(world, {camera_rays[i], 0, 1.0}, *hit)) seen.set(i, *point);
   return seen;
+}
+
+void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
+                  const std::function<void(const SeenPoint&)>& visit) {
+  std::vector<Sight> reflections;
+  const Sight sight = sight_of(world, camera_ray, 0);
+  follow(world, sight, world.first_hit(sight.ray), &reflections);
+  if (reflections.empty()) return;
+  std::optional<Sight> image = reflections.front();
+  reflections.erase(reflections.begin());
+  for (; image; image = draw_one(reflections, rng))
+    if (const auto seen = follow(world, *image, world.first_hit(image->ray), &reflections)) visit(*seen);
 }
 
 bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {

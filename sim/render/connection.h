@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 
+#include "core/rng.h"
 #include "sim/render/light.h"
 
 namespace fathom {
@@ -35,10 +37,16 @@ struct Illumination {
 };
 
 /// Follows a ray that starts in the bodies `inside` (none: in air). Where it cannot leave a body it is totally
-/// reflected; partial reflections are left out.
+/// reflected; partial reflections are left to see_mirrored().
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
 /// The same for at most kPacket rays in air that lie side by side.
 Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays);
+
+/// The partial mirror images on a ray in air: calls `visit` with what stands mirrored in the first interface, and for
+/// all further reflections, within bodies and of mirror images, with some that stand for them by chance. In a scene
+/// that absorbs nothing, transmittance · n² of these and of see() is 1 together, in the mean.
+void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
+                  const std::function<void(const SeenPoint&)>& visit);
 
 /// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
 /// totally.

@@ -145,6 +145,25 @@ struct Intersector::Impl {
     }
   }
 
+  static bool hits(RTCScene scene, const Piece& piece) {
+    RTCIntersectContext context = coherent();
+    RTCRay ray = embree_ray(piece);
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0.0f;
+  }
+
+  static std::bitset<kPacket> hits(RTCScene scene, std::span<const Piece> pieces) {
+    if (pieces.size() == 1) return hits(scene, pieces[0]);  // alone it is cheaper by itself
+    RTCIntersectContext context = coherent();
+    Lanes lanes(pieces.size());
+    RTCRay8 query;
+    for (std::size_t i = 0; i < pieces.size(); ++i) set_lane(query, i, embree_ray(pieces[i]));
+    rtcOccluded8(lanes.valid, scene, &context, &query);
+    std::bitset<kPacket> result;
+    for (std::size_t i = 0; i < pieces.size(); ++i) result[i] = query.tfar[i] < 0.0f;
+    return result;
+  }
+
   static constexpr double kClearance = Intersector::kClearance;
 };
 
@@ -193,22 +212,15 @@ Packet<Hit> Intersector::first_hits(std::span<const Ray> rays) const {
 }
 
 bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  RTCIntersectContext context = Impl::coherent();
-  RTCRay ray = Impl::embree_ray({from, to});
-  rtcOccluded1(impl_->opaque, &context, &ray);
-  return ray.tfar < 0.0f;
+  return Impl::hits(impl_->opaque, {from, to});
 }
 
 std::bitset<kPacket> Intersector::occluded(std::span<const Piece> pieces) const {
-  if (pieces.size() == 1) return occluded(pieces[0].from, pieces[0].to);  // alone it is cheaper by itself
-  RTCIntersectContext context = Impl::coherent();
-  Lanes lanes(pieces.size());
-  RTCRay8 query;
-  for (std::size_t i = 0; i < pieces.size(); ++i) set_lane(query, i, Impl::embree_ray(pieces[i]));
-  rtcOccluded8(lanes.valid, impl_->opaque, &context, &query);
-  std::bitset<kPacket> result;
-  for (std::size_t i = 0; i < pieces.size(); ++i) result[i] = query.tfar[i] < 0.0f;
-  return result;
+  return Impl::hits(impl_->opaque, pieces);
+}
+
+std::bitset<kPacket> Intersector::interrupted(std::span<const Piece> pieces) const {
+  return Impl::hits(impl_->all, pieces);
 }
 
 Eigen::Matrix3d Intersector::curvature(const Hit& hit) const {

@@ -69,6 +69,8 @@ class Intersector {
   bool occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
   /// The same of at most kPacket pieces, bit by bit.
   std::bitset<kPacket> occluded(std::span<const Piece> pieces) const;
+  /// Whether a surface of any kind stands there.
+  std::bitset<kPacket> interrupted(std::span<const Piece> pieces) const;
 
   /// d normal / d point of a hit's surface [1/m], for the normal that the hit has.
   Eigen::Matrix3d curvature(const Hit& hit) const;

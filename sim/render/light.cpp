@@ -62,14 +62,6 @@ bool known(const std::vector<Connection>& found, const Fan::Candidate& candidate
   });
 }
 
-void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {
-  constexpr double kSame = 1e-7;  // [rad]
-  const bool is_new = way && std::none_of(found.begin(), found.end(), [&](const Connection& other) {
-                        return way->crossings == other.crossings && (way->direction - other.direction).norm() < kSame;
-                      });
-  if (is_new) found.push_back(*way);
-}
-
 }  // namespace
 
 PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position)
@@ -88,16 +80,40 @@ PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position
 
 void PointLight::connect_each(std::span<const Receiver> receivers, const Visitor& visit) const {
   if (!fan_) return connect_exactly(receivers, visit);
+  const Packet<Connection> straight_ways = connect_straight(receivers);
   std::vector<Connection> found;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
-    const Receiver& receiver = receivers[i];
     found.clear();
-    const Eigen::Vector3d towards = (receiver.point - source_.position).normalized();
-    if (!from_behind(receiver, towards))
-      add_new(found, shoot(world_, source_, receiver.point, receiver.around, towards, 0));
-    connect_from(*fan_, Event::refract, receiver, found);
+    if (const Connection* way = straight_ways.find(i)) found.push_back(*way);
+    connect_from(*fan_, Event::refract, receivers[i], found);
     for (const Connection& way : found) visit(i, way);
   }
+}
+
+Packet<Connection> PointLight::connect_straight(std::span<const Receiver> receivers) const {
+  const Body* medium = medium_in(world_.geometry(), source_.inside);
+  Packet<Connection> ways;
+  std::array<Piece, kPacket> pieces;
+  std::array<std::size_t, kPacket> of_piece;  // receivers
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    if (receivers[i].around != medium) continue;
+    const std::optional<OpenWay> way = straight(source_, receivers[i]);
+    if (!way) continue;
+    ways.set(i, way->connection);
+    pieces[count] = {receivers[i].point, source_.position}, of_piece[count++] = i;
+  }
+  if (!count) return ways;
+  const std::bitset<kPacket> interrupted = world_.interrupted(std::span(pieces).first(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!interrupted[k]) continue;
+    // Boundaries within bodies may be all that is there.
+    const std::size_t i = of_piece[k];
+    const Eigen::Vector3d towards = ways.find(i)->direction;
+    ways.reset(i);
+    if (const auto way = shoot(world_, source_, receivers[i].point, medium, towards, 0)) ways.set(i, *way);
+  }
+  return ways;
 }
 
 void PointLight::connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const {

@@ -46,11 +46,13 @@ class PointLight {
   }
 
   const Intersector& world() const { return world_; }
+  const Source& source() const { return source_; }
   const Eigen::Vector3d& position() const { return source_.position; }
 
  private:
   using Visitor = std::function<void(std::size_t receiver, const Connection&)>;
   void connect_each(std::span<const Receiver> receivers, const Visitor& visit) const;
+  Packet<Connection> connect_straight(std::span<const Receiver> receivers) const;
   void connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const;
   void connect_mirrored_each(const Receiver& receiver, const std::function<void(const Connection&)>& visit) const;
   void connect_from(const Fan& fan, Event first, const Receiver& receiver, std::vector<Connection>& found) const;

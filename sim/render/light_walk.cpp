@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/optics/fresnel.h"
 #include "sim/optics/random_walk.h"
+#include "sim/optics/snell.h"
 #include "sim/render/world_space.h"
 
 namespace fathom {
@@ -76,19 +78,19 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
   const double n = index_of(seen.around);
   Walker walker{seen.point, seen.arriving, seen.transmittance * n * n, seen.inside};
   const WorldSpace space(projector.world());
-  if (!seen.entered) {
+  if (!survives(walker, kRouletteShare, rng)) return;
+  if (seen.entered) {
+    const double n_entered = seen.entered->medium.n;
+    const double cosine = std::min(-seen.arriving.dot(seen.normal), 1.0);
+    walker.weight *= 1.0 - fresnel_reflectance(cosine, n, n_entered);
+    walker.direction = *refract(seen.arriving, seen.normal, n, n_entered);
+    walker.region = seen.beyond;
+    Connector connector(projector, seen.point, walker.direction, rng, visit);
+    random_walk_of_beam(space, walker, rng, connector);
+  } else {
     walker.weight *= seen.albedo;
     walker.direction = sample_diffuse(seen.normal, rng);
     Connector connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit);
-    random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
-    return;
-  }
-  const bool enters = cross_interface(walker, seen.normal, n, seen.entered->medium.n, rng);
-  Connector connector(projector, seen.point, walker.direction, rng, visit);
-  if (enters) {
-    walker.region = seen.beyond;
-    random_walk_of_beam(space, walker, rng, connector);
-  } else {
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   }
 }

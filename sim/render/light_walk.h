@@ -18,8 +18,8 @@ struct ReturnedLight {
 };
 
 /// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an unbiased estimate: where
-/// a body that scatters is entered, of all that it returns, its surface's mirror image included; at a diffuse point, of
-/// what arrives there other than from the projector or its mirror image in a liquid.
+/// a body that scatters is entered, of all that comes out of it; at a diffuse point, of what arrives there other than
+/// from the projector or its mirror image in a liquid. Where little of it gets to the camera, most walks end at once.
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
                 const std::function<void(const ReturnedLight&)>& visit);
 

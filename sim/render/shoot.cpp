@@ -127,4 +127,12 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
                     found->through_scattering};
 }
 
+void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {
+  constexpr double kSame = 1e-7;  // [rad]
+  const bool is_new = way && std::none_of(found.begin(), found.end(), [&](const Connection& other) {
+                        return way->crossings == other.crossings && (way->direction - other.direction).norm() < kSame;
+                      });
+  if (is_new) found.push_back(*way);
+}
+
 }  // namespace fathom

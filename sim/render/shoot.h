@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "sim/optics/pencil.h"
 #include "sim/render/crossing.h"
@@ -50,5 +51,8 @@ void pass(const Intersector& world, const Crossing& crossing, Event event, Fligh
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
                                 const Body* around, const Eigen::Vector3d& direction, int crossings,
                                 Event first = Event::refract);
+
+/// Adds a way, if there is one, that has not been found before.
+void add_new(std::vector<Connection>& found, const std::optional<Connection>& way);
 
 }  // namespace fathom

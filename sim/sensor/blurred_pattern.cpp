@@ -61,4 +61,11 @@ double BlurredPattern::intensity(const Eigen::Vector2d& on_grid, double sigma_st
          down * ((1.0 - across) * at(values, x, y + 1) + across * at(values, x + 1, y + 1));
 }
 
+double intensity_around(const BlurredPattern& pattern, const Rig& rig, const ReturnedLight& light) {
+  constexpr double kPart = 0.25;
+  const std::optional<Eigen::Vector2d> at = on_grid(pattern.sharp(), rig, light.direction);
+  const double steps_per_rad = rig.sensor.focal_px / rig.sensor.pattern.step_px;
+  return at ? pattern.intensity(*at, kPart * light.spread * steps_per_rad) : 0.0;
+}
+
 }  // namespace fathom

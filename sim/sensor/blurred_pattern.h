@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sim/render/light_walk.h"
 #include "sim/sensor/pattern.h"
 
 namespace fathom {
@@ -12,6 +13,8 @@ class BlurredPattern {
  public:
   /// Keeps a reference to `pattern`, which must outlive it; its brightness is read now.
   explicit BlurredPattern(const Pattern& pattern);
+
+  const Pattern& sharp() const { return pattern_; }
 
   /// Pattern::intensity() blurred by a Gaussian of at most `sigma_steps`: by the widest level's that is not wider, or,
   /// below the first level's, not at all. The mean over the grid stays the same.
@@ -26,5 +29,10 @@ class BlurredPattern {
   const Pattern& pattern_;
   std::vector<Level> levels_;
 };
+
+/// Mean relative radiant intensity around the direction in which light that walked left the projector, over a part of
+/// its spread: most of what chance makes of the dots is gone, and the light is blurred by that part of the width that
+/// it has anyway.
+double intensity_around(const BlurredPattern& pattern, const Rig& rig, const ReturnedLight& light);
 
 }  // namespace fathom

@@ -10,6 +10,7 @@
 #include "sim/render/light_walk.h"
 #include "sim/render/radiance.h"
 #include "sim/sensor/blurred_pattern.h"
+#include "sim/sensor/glints.h"
 
 namespace fathom {
 namespace {
@@ -21,10 +22,6 @@ constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
 /// Walks per camera ray that enters a scattering body; other surfaces get one.
 constexpr int kWalksIntoBody = 4;
 
-/// Over which part of a walk's spread the dots are averaged. The average takes out most of what chance makes of dots,
-/// and blurs the light that walked, by this part of the width that it has anyway.
-constexpr double kPartOfSpread = 0.25;
-
 /// What a camera's samples look at, and what they look with.
 struct Renderer {
   const PointLight& projector;
@@ -35,19 +32,7 @@ struct Renderer {
   LightModel light;
   std::uint64_t seed;
 
-  double intensity(const Eigen::Vector3d& direction) const {
-    const std::optional<Eigen::Vector2d> at = rig.rectified(direction);
-    return at ? pattern.intensity(pattern.on_grid(at->x(), at->y(), rig.sensor.focal_px)) : 0.0;
-  }
-
-  /// Mean intensity around the direction of light that walked: of a part of where it could have come from as well.
-  double intensity_around(const ReturnedLight& light) const {
-    const std::optional<Eigen::Vector2d> at = rig.rectified(light.direction);
-    if (!at) return 0.0;
-    const double focal_px = rig.sensor.focal_px;
-    const double sigma_steps = kPartOfSpread * light.spread * focal_px / rig.sensor.pattern.step_px;
-    return blurred.intensity(pattern.on_grid(at->x(), at->y(), focal_px), sigma_steps);
-  }
+  double intensity(const Eigen::Vector3d& direction) const { return intensity_towards(pattern, rig, direction); }
 
   int samples_per_pixel() const { return samples_across * samples_across; }
   int samples_per_row() const { return samples_per_pixel() * rig.sensor.ir_width; }
@@ -68,17 +53,31 @@ struct Renderer {
     Packet<SeenPoint> seen = see(projector.world(), std::span(rays.data(), count));
     std::array<double, kPacket> sums{};
     if (light == LightModel::full)
-      for (int i = 0; i < count; ++i)
-        if (const SeenPoint* at = seen.find(i)) {
-          Rng rng(seed, kWalkStream, y, first + i);
-          sums[i] = indirect_radiance(*at, rng);
-          if (at->entered) seen.reset(i);
-        }
+      for (int i = 0; i < count; ++i) {
+        Rng rng(seed, kWalkStream, y, first + i);
+        const SeenPoint* at = seen.find(i);
+        if (at) sums[i] = indirect_radiance(*at, rng);
+        if (at && !at->refracted && !at->entered) continue;
+        see_mirrored(projector.world(), rays[i], rng, [&](const SeenPoint& image) {
+          sums[i] += direct_radiance(image) + indirect_radiance(image, rng);
+        });
+        if (at && at->entered) seen.reset(i);
+      }
     for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
       if (light == LightModel::direct && from_projector.through_scattering) return;
       sums[i] += radiance_dn(rig.sensor, *seen.find(i), from_projector) * intensity(from_projector.direction);
     });
     return sums;
+  }
+
+  /// Radiance [DN] by light straight or refracted from the projector; of bodies that scatter the walks see all.
+  double direct_radiance(const SeenPoint& seen) const {
+    double sum = 0.0;
+    if (!seen.entered)
+      projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
+        sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
+      });
+    return sum;
   }
 
   /// Radiance [DN] by reflections in liquids and by walks.
@@ -91,7 +90,7 @@ struct Renderer {
     const int walks = seen.entered ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
       walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
-        sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(returned);
+        sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
       });
     return ghosts + sum / walks;
   }
@@ -117,6 +116,7 @@ Image<float> render_ir(const PointLight& projector, const Rig& rig, const Patter
       for (int x = 0; x < image.width(); ++x) image(x, y) = static_cast<float>(sums[x] / per_pixel);
     }
   });
+  if (light == LightModel::full) add_glints(projector, rig, pattern, image);
   return image;
 }
 

@@ -58,4 +58,17 @@ class Pattern {
   double sigma_steps_;
 };
 
+/// Where a direction in the world lies on the pattern's grid; nothing behind the projector.
+inline std::optional<Eigen::Vector2d> on_grid(const Pattern& pattern, const Rig& rig,
+                                              const Eigen::Vector3d& direction) {
+  const std::optional<Eigen::Vector2d> at = rig.rectified(direction);
+  return at ? std::optional(pattern.on_grid(at->x(), at->y(), rig.sensor.focal_px)) : std::nullopt;
+}
+
+/// Relative radiant intensity in a direction in the world; 0 behind the projector.
+inline double intensity_towards(const Pattern& pattern, const Rig& rig, const Eigen::Vector3d& direction) {
+  const std::optional<Eigen::Vector2d> at = on_grid(pattern, rig, direction);
+  return at ? pattern.intensity(*at) : 0.0;
+}
+
 }  // namespace fathom
