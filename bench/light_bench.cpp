@@ -12,7 +12,6 @@
 #include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "core/files.h"
-#include "sim/render/truth.h"
 #include "sim/sensor/ir_camera.h"
 
 namespace fathom {
@@ -49,21 +48,16 @@ Noise noise_of(const Case& measured) {
   const NoiseModel& model = rig.sensor.noise;
   const Image<float> image = measured.image(measured.pattern, 1), other_walks = measured.image(measured.pattern, 2),
                      other_speckle = measured.image(measured.with_speckle(2), 1);
-  const Image<TruePixel> truth = trace_truth(measured.scene.projector, rig);
+  const std::vector<Eigen::Vector2i> pixels = pixels_on_cups(measured.scene.projector, rig);
   double walks = 0.0, sensor = 0.0;
-  int pixels = 0;
-  for (int y = 0; y < truth.height(); ++y)
-    for (int x = 0; x < truth.width(); ++x) {
-      constexpr int kDesk = 1;
-      if (truth(x, y).object <= kDesk) continue;
-      const int ir_x = 2 * x, ir_y = 2 * y + rig.sensor.ir_first_row();
-      const double value = image(ir_x, ir_y);
-      walks += 0.5 * std::pow(value - other_walks(ir_x, ir_y), 2);
-      sensor += 0.5 * std::pow(value - other_speckle(ir_x, ir_y), 2) + value / model.electrons_per_dn +
-                model.read_dn * model.read_dn + 1.0 / 12.0;
-      ++pixels;
-    }
-  return {std::sqrt(walks / pixels), std::sqrt(sensor / pixels)};
+  for (const Eigen::Vector2i& at : pixels) {
+    const double value = image(at.x(), at.y());
+    walks += 0.5 * std::pow(value - other_walks(at.x(), at.y()), 2);
+    sensor += 0.5 * std::pow(value - other_speckle(at.x(), at.y()), 2) + value / model.electrons_per_dn +
+              model.read_dn * model.read_dn + 1.0 / 12.0;
+  }
+  const double count = static_cast<double>(pixels.size());
+  return {std::sqrt(walks / count), std::sqrt(sensor / count)};
 }
 
 }  // namespace

@@ -18,12 +18,14 @@ struct Group {
   std::string_view summary;
 };
 
-constexpr std::array<Group, 5> kGroups{{
+constexpr std::array<Group, 7> kGroups{{
     {"geometric", fathom::register_geometric, "trace_truth() beside a bare Embree loop over the same rays"},
     {"photometric", fathom::register_photometric, "render_ir() beside a bare Embree loop, and a whole frame"},
     {"light", fathom::register_light, "render_ir() with all light in clear, turbid and glass scenes, with its noise"},
+    {"convergence", fathom::register_convergence, "the error of render_ir() with all light, sample by sample"},
     {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
     {"detect", fathom::register_detect, "the paper's method on a captured cloud, stage by stage"},
+    {"others", fathom::register_others, "dots under water as POV-Ray and Blender's Cycles show them, beside ours"},
 }};
 
 int fail_with_usage() {

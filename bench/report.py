@@ -1,27 +1,19 @@
 #!/usr/bin/env python3
 """usage: bench/report.py FOLDER
-Prints the measurements of FOLDER/*.json as one table: ours, what stands beside it, their ratio and the goal.
-Times are medians over the repetitions, of the whole process's processor time; "by wall" is the ratio of the times that
-passed. U is what Embree alone needs for ten million camera rays."""
+Prints the measurements of FOLDER/*.json: first a table of ours, what stands beside it, their ratio and the goal; then
+error against time, with pictures in FOLDER. Times are medians over the repetitions, of the whole process's processor
+time; "by wall" is the ratio of the times that passed. U is what Embree alone needs for ten million camera rays. RMSE of
+dots is relative to their own root mean square, after a scale of the whole image has been taken off."""
 import json
 import sys
 from pathlib import Path
-from statistics import median
 
-UNIT_RAYS = 10e6  # camera rays in the unit of work U
+from error_over_time import report_convergence, report_others
+from runs import UNIT_RAYS, Runs, aligned
+
 MATCHERS = {"bm": ("StereoBM", 3.0), "sgbm": ("StereoSGBM", 0.5)}  # goals of the time ratio
 LIGHT_SCENES = {"paper_water": 4.0, "meniscus_water": 8.0, "paper_milk_tea": 40.0, "glass_water": None}  # goals in U
 MATCH_CASES = ["water_clean", "water_noisy", "plane_clean", "plane_noisy"]
-
-
-def read_runs(folder):
-    """{benchmark: its repetitions}"""
-    runs = {}
-    for file in sorted(folder.glob("*.json")):
-        for run in json.loads(file.read_text()).get("benchmarks", []):
-            if run["run_type"] == "iteration":
-                runs.setdefault(run["run_name"].split("/process_time")[0], []).append(run)
-    return runs
 
 
 class Table:
@@ -29,28 +21,19 @@ class Table:
         self.runs = runs
         self.rows = [("", "ours", "beside", "ratio", "by wall", "goal", "")]
 
-    def value(self, name, key):
-        return median(run[key] for run in self.runs[name])
-
     def add(self, what, ours="", beside="", ratio=None, wall=None, goal=None, below=False):
         met = "" if goal is None else "met" if (ratio < goal if below else ratio <= goal) else "MISSED"
         sign = "<" if below else "≤"
         self.rows.append((what, ours, beside, number(ratio), number(wall), goal and f"{sign} {goal:g}" or "", met))
 
     def add_time(self, what, name, beside, goal):
-        cpu, wall = ([self.value(side, key) for side in (name, beside)] for key in ("cpu_time", "real_time"))
+        cpu, wall = ([self.runs.value(side, key) for side in (name, beside)] for key in ("cpu_time", "real_time"))
         self.add(f"{what}: time", f"{cpu[0]:.1f} ms", f"{cpu[1]:.1f} ms", cpu[0] / cpu[1], wall[0] / wall[1], goal)
 
     def add_rays(self, what, name):
-        rays = self.value(name, "rays")
-        cpu, wall = (rays / self.value(name, key) * 1e-3 for key in ("cpu_time", "real_time"))
+        rays = self.runs.value(name, "rays")
+        cpu, wall = (rays / self.runs.value(name, key) * 1e-3 for key in ("cpu_time", "real_time"))
         self.add(f"{what}: Mray per cpu s (per wall s)", f"{cpu:.2f} ({wall:.2f})")
-
-    def text(self):
-        widths = [max(len(row[column]) for row in self.rows) for column in range(len(self.rows[0]))]
-        lines = ("  ".join([row[0].ljust(widths[0])] + [c.rjust(w) for c, w in zip(row[1:], widths[1:])]).rstrip()
-                 for row in self.rows)
-        return "\n".join(lines)
 
 
 def number(value):
@@ -66,11 +49,11 @@ def report_tracing(table):
             table.add_rays("  Embree", f"{group}/embree")
     unit = "photometric/camera_rays"
     if unit in table.runs:
-        scale = UNIT_RAYS / table.value(unit, "rays")
-        cpu, wall = (scale * table.value(unit, key) for key in ("cpu_time", "real_time"))
+        scale = UNIT_RAYS / table.runs.value(unit, "rays")
+        cpu, wall = (scale * table.runs.value(unit, key) for key in ("cpu_time", "real_time"))
         table.add("U: 10 million camera rays", "", f"{cpu:.0f} ms")
         table.add_rays("  Embree", unit)
-        frame_cpu, frame_wall = (table.value("photometric/frame", key) for key in ("cpu_time", "real_time"))
+        frame_cpu, frame_wall = (table.runs.value("photometric/frame", key) for key in ("cpu_time", "real_time"))
         table.add("render + match + depth + cloud / U", f"{frame_cpu:.0f} ms", f"{cpu:.0f} ms", frame_cpu / cpu,
                   frame_wall / wall)
 
@@ -80,11 +63,11 @@ def report_light(table):
         ours, beside = f"light/{scene}/fathom", f"light/{scene}/embree"
         if ours not in table.runs:
             continue
-        scale = UNIT_RAYS / table.value(beside, "rays")
-        cpu, wall = ([table.value(ours, key), scale * table.value(beside, key)] for key in ("cpu_time", "real_time"))
+        scale = UNIT_RAYS / table.runs.value(beside, "rays")
+        cpu, wall = ([table.runs.value(ours, key), scale * table.runs.value(beside, key)] for key in ("cpu_time", "real_time"))
         table.add(f"{scene}: infrared image, all light / U", f"{cpu[0]:.0f} ms", f"{cpu[1]:.0f} ms", cpu[0] / cpu[1],
                   wall[0] / wall[1], goal)
-        walks, sensor = table.value(ours, "walks_dn"), table.value(ours, "sensor_dn")
+        walks, sensor = table.runs.value(ours, "walks_dn"), table.runs.value(ours, "sensor_dn")
         table.add("  noise of walks / of the sensor [DN]", f"{walks:.1f}", f"{sensor:.1f}", walks / sensor, None, 1.0,
                   below=True)
 
@@ -100,7 +83,7 @@ def report_matching(table):
             table.add_time(what, ours, other, goal)
             for key, label, goal_of_key in (("median_px", "median |e| [px]", 1.0), ("rms_px", "rms, |e| < 1 px", 1.0),
                                             ("outliers", "share |e| ≥ 1 px", 1.0), ("valid", "valid of lit", None)):
-                a, b = table.value(ours, key), table.value(other, key)
+                a, b = table.runs.value(ours, key), table.runs.value(other, key)
                 table.add(f"  {label}", f"{a:.4f}", f"{b:.4f}", a / b if b else None, None,
                           goal_of_key if b else None, below=True)
 
@@ -109,7 +92,7 @@ def report_detection(table):
     for stage in ("desk", "segments", "icp", "inside", "whole"):
         name = f"detect/{stage}"
         if name in table.runs:
-            table.add(f"detector, {stage}: time", f"{table.value(name, 'cpu_time'):.2f} ms")
+            table.add(f"detector, {stage}: time", f"{table.runs.value(name, 'cpu_time'):.2f} ms")
 
 
 def report_memory(table, folder):
@@ -123,10 +106,14 @@ if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     results = Path(sys.argv[1])
-    everything = Table(read_runs(results))
+    runs = Runs(results)
+    everything = Table(runs)
     report_tracing(everything)
     report_light(everything)
     report_matching(everything)
     report_detection(everything)
     report_memory(everything, results)
-    print(everything.text())
+    if len(everything.rows) > 1:
+        print(aligned(everything.rows))
+    report_convergence(runs, results)
+    report_others(runs, results)
