@@ -3,7 +3,12 @@
 namespace fathom {
 
 BodySet beyond(const Hit& hit, BodySet inside) {
-  const BodySet body = BodySet{1} << std::get<Interface>(hit.surface->optics).body;
+  const Interface& interface = std::get<Interface>(hit.surface->optics);
+  if (interface.liquid) {
+    const BodySet liquid = BodySet{1} << *interface.liquid;
+    inside = interface.wetted && !hit.entering ? inside | liquid : inside & ~liquid;
+  }
+  const BodySet body = BodySet{1} << interface.body;
   return hit.entering ? inside | body : inside & ~body;
 }
 

@@ -3,12 +3,12 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
+#include "sim/render/crossing.h"
 #include "sim/render/polish.h"
 
 namespace fathom {
@@ -229,15 +229,17 @@ Eigen::Matrix3d Intersector::curvature(const Hit& hit) const {
 }
 
 BodySet Intersector::bodies_around(const Eigen::Vector3d& point) const {
-  std::array<int, 8 * sizeof(BodySet)> left{};
+  std::vector<Hit> above;
   Ray up{point, Eigen::Vector3d::UnitZ()};
   while (const std::optional<Hit> hit = first_interface(up)) {
-    left[std::get<Interface>(hit->surface->optics).body] += hit->entering ? -1 : 1;
+    above.push_back(*hit);
     up.origin = hit->point;
   }
   BodySet around = 0;
-  for (std::size_t body = 0; body < left.size(); ++body)
-    if (left[body] > 0) around |= BodySet{1} << body;
+  for (auto hit = above.rbegin(); hit != above.rend(); ++hit) {
+    hit->entering = !hit->entering;
+    around = beyond(*hit, around);
+  }
   return around;
 }
 

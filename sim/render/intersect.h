@@ -75,8 +75,8 @@ class Intersector {
   /// d normal / d point of a hit's surface [1/m], for the normal that the hit has.
   Eigen::Matrix3d curvature(const Hit& hit) const;
 
-  /// The clear bodies around a point in the open or in a body, by what a ray straight up leaves: a liquid in an opaque
-  /// cup has no boundary but its surface.
+  /// The clear bodies around a point in the open or in a body, by what a ray enters that comes straight down to it: a
+  /// liquid in an opaque cup has no boundary but its surface.
   BodySet bodies_around(const Eigen::Vector3d& point) const;
 
   const Geometry& geometry() const { return geometry_; }

@@ -279,6 +279,15 @@ double Cavity::level_of(double volume_wanted) const {
   return 0.5 * (low + high);
 }
 
+bool Cavity::holds(const Eigen::Vector3d& point, double level) const {
+  if (point.z() <= floor_ || point.z() >= level) return false;
+  const Eigen::Vector2d at = (grid_from_world() * point).head<2>();
+  const PlaneCells plane = section(point.z(), walls(point.z()));
+  return std::any_of(plane.cells.begin(), plane.cells.end(), [&](const Cell& cell) {
+    return cell.layer >= 0 && cell.layer <= layer_at(level) && cell.contains(at);
+  });
+}
+
 Mesh Cavity::surface(double level) const {
   const std::vector<Segment> lines = walls(level);
   Mesh mesh = mesh_of_cells(section(level, lines).cells, layer_at(level), level);

@@ -33,6 +33,9 @@ class Cavity {
   /// a pocket behind an inner rim, that rim's height.
   double level_of(double volume) const;
 
+  /// Whether a liquid at `level` [m] covers a point (world). Cuts the triangles once: not for many points.
+  bool holds(const Eigen::Vector3d& point, double level) const;
+
   /// The liquid's surface at `level` [m], faces up, drawn out half-way into the wall, at most 0.25 mm: bodies overlap,
   /// the solid wins.
   Mesh surface(double level) const;

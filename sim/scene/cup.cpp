@@ -1,5 +1,6 @@
 #include "sim/scene/cup.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "sim/scene/cup_mesh.h"
@@ -37,6 +38,12 @@ const std::string& cup_name(const Cup& cup) {
   return std::visit([](const auto& shape) -> const std::string& { return shape.name; }, cup.shape);
 }
 
+bool is_clear(const Cup& cup) {
+  if (const auto* shape = std::get_if<CupShape>(&cup.shape)) return shape->material.has_value();
+  const std::vector<GltfPart>& parts = std::get<MeshCup>(cup.shape).parts;
+  return std::any_of(parts.begin(), parts.end(), [](const GltfPart& part) { return part.medium.has_value(); });
+}
+
 Pose world_from_shape(const Cup& cup) {
   return Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0) *
          Eigen::AngleAxisd(cup.yaw, Eigen::Vector3d::UnitZ());
@@ -67,7 +74,9 @@ double depth_of_volume(const Cup& cup, double wanted) {
 }
 
 double liquid_level(const Cup& cup) {
-  return std::visit([&](const auto& shape) { return floor_of(shape) + cup.filling->depth; }, cup.shape);
+  constexpr double kBelowRim = 1e-5;  // [m] so that a clear cup's rim and the liquid share no plane
+  const double depth = is_clear(cup) ? std::min(cup.filling->depth, cup_depth(cup) - kBelowRim) : cup.filling->depth;
+  return std::visit([&](const auto& shape) { return floor_of(shape) + depth; }, cup.shape);
 }
 
 Mesh liquid_surface(const Cup& cup) {

@@ -4,12 +4,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/units.h"
 #include "sim/optics/meniscus.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/medium_json.h"
+#include "sim/scene/mesh_topology.h"
 
 namespace fathom {
 namespace {
@@ -43,10 +45,16 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
 
 void find_cavity_of(const JsonReader& json, MeshCup& cup) {
   std::vector<Mesh> meshes;
+  std::map<int, Mesh> clear_bodies;
   for (const GltfPart& part : cup.parts) {
-    if (part.medium) json.fail_at("shape", fmt::format("{} is clear; only opaque glTF cups can be filled", cup.name));
+    if (part.medium) clear_bodies[part.body].append(part.mesh);
     meshes.push_back(part.mesh);
   }
+  for (const auto& [number, body] : clear_bodies)
+    if (!encloses_volume(body))
+      json.fail_at("shape", fmt::format("{} is clear and its wall is open or turned inside out; to be filled, a clear "
+                                        "wall must be closed, its triangles facing out of it",
+                                        cup.name));
   const std::optional<Cavity> cavity = find_cavity(meshes);
   if (!cavity)
     json.fail_at("shape",

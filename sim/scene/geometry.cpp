@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/cup_mesh.h"
+#include "sim/scene/wetted_wall.h"
 
 namespace fathom {
 namespace {
@@ -38,19 +39,22 @@ class Builder {
   void add_cup(const Cup& cup, std::size_t index, bool on_desk) {
     const std::string prefix = fmt::format("cup {} ", index);
     const int object = add_object(geometry_, prefix + cup_name(cup));
+    const std::optional<int> liquid = cup.filling ? std::optional(add_filling(cup, prefix)) : std::nullopt;
     const auto* shape = std::get_if<CupShape>(&cup.shape);
+    const auto* mesh = std::get_if<MeshCup>(&cup.shape);
     if (shape && shape->material)
       add_clear_wall(cup, *shape, object, on_desk);
+    else if (mesh && liquid)
+      add_parts(cup_parts(cup), object, on_desk, Contents{*mesh->cavity, *liquid});
     else
-      add_parts(cup_parts(cup), object);
-    if (cup.filling) add_filling(cup, prefix);
+      add_parts(cup_parts(cup), object, on_desk);
   }
 
-  void add_object_file(const Object& placed, std::size_t index) {
+  void add_object_file(const Object& placed, std::size_t index, bool on_desk) {
     std::vector<GltfPart> parts = read_gltf(placed.gltf);
     for (GltfPart& part : parts) part.transform(placed.world_from_object);
     const std::string name = fmt::format("object {} {}", index, placed.gltf.filename().string());
-    add_parts(std::move(parts), add_object(geometry_, name));
+    add_parts(std::move(parts), add_object(geometry_, name), on_desk);
   }
 
   /// Numbers the bodies by rising priority.
@@ -67,7 +71,10 @@ class Builder {
       geometry_.bodies.push_back(bodies_[order[i]].body);
     }
     for (Surface& surface : geometry_.surfaces)
-      if (auto* interface = std::get_if<Interface>(&surface.optics)) interface->body = rank[interface->body];
+      if (auto* interface = std::get_if<Interface>(&surface.optics)) {
+        interface->body = rank[interface->body];
+        if (interface->liquid) interface->liquid = rank[*interface->liquid];
+      }
     forget_plain_where_bodies_meet();
   }
 
@@ -119,7 +126,13 @@ class Builder {
     return static_cast<int>(bodies_.size()) - 1;
   }
 
-  void add_parts(std::vector<GltfPart> parts, int object) {
+  /// The liquid in a clear cup from a mesh.
+  struct Contents {
+    const Cavity& cavity;
+    int body;
+  };
+
+  void add_parts(std::vector<GltfPart> parts, int object, bool on_desk, std::optional<Contents> contents = {}) {
     std::map<int, int> body_of_part;
     for (GltfPart& part : parts) {
       if (!part.medium) {
@@ -128,15 +141,34 @@ class Builder {
       }
       const auto [known, is_new] = body_of_part.try_emplace(part.body);
       if (is_new) known->second = add_body(object, *part.medium, Priority::gltf);
-      Surface surface{object, std::move(part.mesh), Interface{known->second}};
-      if (!part.normals.empty()) surface.shape = VertexNormals{std::move(part.normals)};
-      geometry_.surfaces.push_back(std::move(surface));
+      if (on_desk) sink(part.mesh);
+      if (!contents) {
+        add_clear_part(std::move(part), object, {known->second});
+        continue;
+      }
+      auto [dry, wetted] = cut_at_liquid(part, contents->cavity, *bodies_[contents->body].body.level);
+      add_clear_part(std::move(dry), object, {known->second, contents->body, false});
+      add_clear_part(std::move(wetted), object, {known->second, contents->body, true});
     }
   }
 
-  /// A cup on the desk reaches a little into it, so that the two share no face.
+  void add_clear_part(GltfPart part, int object, const Interface& interface) {
+    if (part.mesh.triangles.empty()) return;
+    Surface surface{object, std::move(part.mesh), interface};
+    if (!part.normals.empty()) surface.shape = VertexNormals{std::move(part.normals)};
+    geometry_.surfaces.push_back(std::move(surface));
+  }
+
+  /// A clear body on the desk reaches so far [m] into it, so that the two share no face.
+  static constexpr double kSink = 1e-4;
+
+  static void sink(Mesh& mesh) {
+    constexpr double kOnDesk = 1e-5;  // [m] what is nearer may be passed over by a ray that starts on either
+    for (Eigen::Vector3d& vertex : mesh.vertices)
+      if (std::fabs(vertex.z()) < kOnDesk) vertex.z() = -kSink;
+  }
+
   void add_clear_wall(const Cup& cup, const CupShape& shape, int object, bool on_desk) {
-    constexpr double kSink = 1e-4;
     const int body = add_body(object, *shape.material, Priority::wall);
     for (WallPart& part : wall_parts(shape, on_desk ? kSink : 0.0)) {
       part.mesh.transform(world_from_shape(cup));
@@ -146,18 +178,17 @@ class Builder {
     }
   }
 
-  void add_filling(const Cup& cup, const std::string& prefix) {
+  /// Returns the liquid's body.
+  int add_filling(const Cup& cup, const std::string& prefix) {
     const Filling& filling = *cup.filling;
-    constexpr double kBelowRim = 1e-5;  // [m] of a brimful clear cup, so that liquid and rim share no plane
     const int object = add_object(geometry_, prefix + filling.medium.name);
     const auto* shape = std::get_if<CupShape>(&cup.shape);
-    const bool in_clear_wall = shape && shape->material;
-    const double level = in_clear_wall ? std::min(liquid_level(cup), shape->height() - kBelowRim) : liquid_level(cup);
-    const bool plain = filling.form.level() && !in_clear_wall;
+    const bool in_clear_wall = is_clear(cup), plain = filling.form.level() && !in_clear_wall;
+    const double level = liquid_level(cup);
     std::optional<LiquidTop> top;
-    if (!plain) top.emplace(*shape, level, filling.form);
+    if (shape && !plain) top.emplace(*shape, level, filling.form);
     Mesh mesh = top ? top->mesh() : liquid_surface(cup);
-    Mesh shell = in_clear_wall ? liquid_shell(*shape, mesh) : Mesh{};
+    Mesh shell = shape && in_clear_wall ? liquid_shell(*shape, mesh) : Mesh{};
     // A curved top knows its directions in the world, so it is moved but not turned with the cup.
     if (top)
       for (Mesh* part : {&mesh, &shell})
@@ -172,8 +203,8 @@ class Builder {
       surface.shape = std::move(*top);
     }
     geometry_.surfaces.push_back(std::move(surface));
-    if (shell.triangles.empty()) return;
-    geometry_.surfaces.push_back({object, std::move(shell), Interface{body}});
+    if (!shell.triangles.empty()) geometry_.surfaces.push_back({object, std::move(shell), Interface{body}});
+    return body;
   }
 
   Geometry& geometry_;
@@ -200,7 +231,8 @@ Geometry build_geometry(const Scene& scene, double wavelength_nm) {
   if (scene.desk) add_desk(*scene.desk, geometry);
   Builder builder(geometry, wavelength_nm);
   for (std::size_t i = 0; i < scene.cups.size(); ++i) builder.add_cup(scene.cups[i], i, scene.desk.has_value());
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) builder.add_object_file(scene.objects[i], i);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    builder.add_object_file(scene.objects[i], i, scene.desk.has_value());
   builder.finish();
   return geometry;
 }

@@ -48,6 +48,10 @@ struct Diffuse {
 /// Part of the boundary of a body; the triangles face out of it.
 struct Interface {
   int body;  ///< index into Geometry::bodies
+  /// Of a clear cup from a mesh: the liquid in the cup, which has no boundary of its own at the wall but ends and
+  /// begins where the wall does.
+  std::optional<int> liquid = {};
+  bool wetted = false;  ///< whether that liquid is what lies outside these triangles
 };
 
 struct Surface {

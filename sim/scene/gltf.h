@@ -13,7 +13,7 @@ namespace fathom {
 /// Triangles that look alike: all of an opaque material, or those of one clear body.
 struct GltfPart {
   Mesh mesh;                             ///< [m], z up: glTF's (x, y, z) became (x, −z, y)
-  std::vector<Eigen::Vector3d> normals;  ///< unit, by vertex, of clear bodies; empty where the file has none
+  std::vector<Eigen::Vector3d> normals;  ///< by vertex, of clear bodies; unit as read, empty where the file has none
   double albedo = 0.0;                   ///< luminance (Rec. 709) of an opaque material's base colour factor
   std::optional<Medium> medium;          ///< of a clear body (KHR_materials_transmission)
   int body = 0;                          ///< parts of equal number bound the same clear body

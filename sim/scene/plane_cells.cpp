@@ -154,13 +154,8 @@ class Decomposition {
     const auto slab = std::upper_bound(slabs_.begin(), slabs_.end() - 1, point.y(),
                                        [&](double y, std::size_t first) { return y < cells_[first].y[0]; });
     if (slab == slabs_.begin()) return std::nullopt;
-    for (std::size_t i = *(slab - 1); i < *slab; ++i) {
-      const Cell& cell = cells_[i];
-      const double t = (point.y() - cell.y[0]) / (cell.y[1] - cell.y[0]);
-      if (point.x() >= cell.left[0] + t * (cell.left[1] - cell.left[0]) &&
-          point.x() <= cell.right[0] + t * (cell.right[1] - cell.right[0]))
-        return i;
-    }
+    for (std::size_t i = *(slab - 1); i < *slab; ++i)
+      if (cells_[i].contains(point)) return i;
     return std::nullopt;
   }
 

@@ -27,6 +27,11 @@ struct Cell {
   std::int16_t layer;              ///< as of a voxel; kWall where it holds no whole voxel and no liquid comes
 
   double area() const { return 0.5 * (right[0] - left[0] + right[1] - left[1]) * (y[1] - y[0]); }
+  bool contains(const Eigen::Vector2d& point) const {
+    const double t = (point.y() - y[0]) / (y[1] - y[0]);
+    return t >= 0.0 && t <= 1.0 && point.x() >= left[0] + t * (left[1] - left[0]) &&
+           point.x() <= right[0] + t * (right[1] - right[0]);
+  }
 };
 
 /// An opening through which a liquid at the plane's height would leave.

@@ -14,7 +14,7 @@ struct Facets {};
 
 /// Flat triangles whose normal is interpolated linearly between their corners (glTF's NORMAL).
 struct VertexNormals {
-  std::vector<Eigen::Vector3d> normals;  ///< unit, by vertex of the mesh
+  std::vector<Eigen::Vector3d> normals;  ///< by vertex of the mesh; shorter than a unit where triangles were cut
 };
 
 /// A cone about an upright axis: radius = radius_at_desk + slope · z. A cylinder with slope 0.

@@ -6,6 +6,7 @@
 #include "sim/scene/cup_mesh.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/render/gltf_slab.h"
 #include "tests/scene/vessels.h"
 #include "tests/scene/write_gltf.h"
 
@@ -86,6 +87,31 @@ TEST_F(GltfCup, WhatIsNotInMetresIsRefused) {
   expect_error(scaled(1e-15), {"/cups/0/shape: scaled.gltf is 1e-13 mm large, must be from 1 to 2000 mm"});
   expect_error(scaled(0.0), {"/cups/0/shape: scaled.gltf is 0 mm large"});
   EXPECT_NO_THROW(scaled(0.01)());
+}
+
+TEST_F(GltfCup, OfAClearWallHoldsWhatItsOpaqueTwinHolds) {
+  const Json name = "paper_cup";
+  write_clear_gltf(folder_ / "", cup_mesh(cup_shape_from_json(JsonReader(name, "test"))), 1.5, 0.0);
+  const Cup opaque = read(R"({"position_mm": [0, 400], "liquid": "water", "fill_ml": 150})");
+  const Cup clear = read(R"({"position_mm": [0, 400], "liquid": "water", "fill_ml": 150})", "body.gltf");
+  EXPECT_TRUE(is_clear(clear));
+  EXPECT_FALSE(is_clear(opaque));
+  EXPECT_NEAR(cup_capacity(clear) / cup_capacity(opaque), 1.0, 1e-5);  // sections are cut at 1e-7 m of 40 mm
+  EXPECT_NEAR(liquid_level(clear), liquid_level(opaque), kFloatFile);
+  expect_error([&] { read(R"({"position_mm": [0, 400], "liquid": "water", "fill_mm": 81})", "body.gltf"); },
+               {"/cups/0/fill_mm: must be at most 80, the depth of the cup (it spills at x "});
+  // Filled to the brim, rim and liquid are no one plane.
+  const Cup brimful = read(R"({"position_mm": [0, 400], "liquid": "water", "fill_mm": 80})", "body.gltf");
+  EXPECT_NEAR(liquid_level(brimful), 0.087 - 1e-5, kFloatFile);
+}
+
+TEST_F(GltfCup, OfAClearSheetIsAnsweredInOneLine) {
+  const char* filled = R"({"position_mm": [0, 400], "liquid": "water", "fill_mm": 10})";
+  Mesh sheet = sheet_of_revolution({{0.0, 0.0}, {0.04, 0.0}, {0.04, 0.1}});
+  write_clear_gltf(folder_ / "", sheet, 1.5, 0.0);
+  expect_error([&] { read(filled, "body.gltf"); },
+               {"scene.json: /cups/0/shape: body.gltf is clear and its wall is open or turned inside out"});
+  EXPECT_NO_THROW(read(R"({"position_mm": [0, 400]})", "body.gltf"));
 }
 
 TEST_F(GltfCup, WhatCannotBeFilledIsAnsweredInOneLine) {

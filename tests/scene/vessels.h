@@ -18,16 +18,16 @@ inline double vessel_facet_factor() {
 }
 
 /// A single sheet: a profile (radius, height) [m] turned about the z axis.
-inline Mesh sheet_of_revolution(const std::vector<Eigen::Vector2d>& profile) {
+inline Mesh sheet_of_revolution(const std::vector<Eigen::Vector2d>& profile, int facets = kVesselFacets) {
   Mesh mesh;
   for (const Eigen::Vector2d& point : profile)
-    for (int facet = 0; facet < kVesselFacets; ++facet) {
-      const double angle = 2.0 * std::numbers::pi * facet / kVesselFacets;
+    for (int facet = 0; facet < facets; ++facet) {
+      const double angle = 2.0 * std::numbers::pi * facet / facets;
       mesh.add_vertex({point.x() * std::cos(angle), point.x() * std::sin(angle), point.y()});
     }
   for (int ring = 0; ring + 1 < static_cast<int>(profile.size()); ++ring)
-    for (int facet = 0; facet < kVesselFacets; ++facet) {
-      const int next = (facet + 1) % kVesselFacets, low = ring * kVesselFacets, high = low + kVesselFacets;
+    for (int facet = 0; facet < facets; ++facet) {
+      const int next = (facet + 1) % facets, low = ring * facets, high = low + facets;
       if (profile[ring].x() > 0.0) mesh.add_triangle(low + facet, low + next, high + next);
       if (profile[ring + 1].x() > 0.0) mesh.add_triangle(low + facet, high + next, high + facet);
     }
