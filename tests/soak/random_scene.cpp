@@ -239,7 +239,7 @@ Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::fil
   scene["cups"] = Json::array();
   if (draw.chance(0.95)) scene["cups"].push_back(random_cup(draw, middle_mm));
   while (draw.chance(0.12)) scene["cups"].push_back(random_cup(draw, nearby(150.0)));
-  if (draw.chance(0.02)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
+  if (draw.chance(0.01)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
   if (draw.chance(0.1)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
   write_json(folder / "scene.json", scene);
   return shot;
