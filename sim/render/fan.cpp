@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <optional>
 #include <utility>
 
 namespace fathom {
@@ -18,28 +18,45 @@ constexpr double kBeyond = 5e-3;    ///< [m] by which a piece goes on beyond its
 constexpr int kLongestChain = 8;    ///< of interfaces; light that is trapped in a wall goes on for long
 constexpr double kFaintest = 1e-4;  ///< transmittance
 
-using Cell = std::pair<int, int>;
+using GridCell = std::pair<int, int>;
 
-/// The cells of a gnomonic grid about `axis` that contain boundaries of clear bodies, as the source sees them.
-std::set<Cell> covered_cells(const Geometry& geometry, const Eigen::Vector3d& source, const Eigen::Vector3d& axis,
-                             const Matrix32d& basis) {
-  constexpr double kWidest = 0.1;  // cosine: 84° off the axis
-  std::set<Cell> cells;
+/// A gnomonic grid about an axis, as the source sees it.
+struct Grid {
+  const Eigen::Vector3d& source;
+  const Eigen::Vector3d& axis;
+  Matrix32d basis;
+
+  Eigen::Vector3d middle(const GridCell& cell) const {
+    return (axis + basis * Eigen::Vector2d(cell.first + 0.5, cell.second + 0.5) * kSpacing).normalized();
+  }
+  /// In cells; nothing far off the axis.
+  std::optional<Eigen::Array2d> place(const Eigen::Vector3d& point) const {
+    constexpr double kWidest = 0.1;  // cosine: 84° off the axis
+    const Eigen::Vector3d towards = point - source;
+    const double along = towards.dot(axis);
+    if (along < kWidest * towards.norm()) return std::nullopt;
+    return (basis.transpose() * towards / along).array() / kSpacing;
+  }
+};
+
+/// The cells that contain boundaries of clear bodies, in order.
+std::vector<GridCell> covered_cells(const Geometry& geometry, const Grid& grid) {
+  std::vector<GridCell> cells;
+  std::vector<std::optional<Eigen::Array2d>> places;  // of vertices
   for (const Surface& surface : geometry.surfaces) {
     if (!std::holds_alternative<Interface>(surface.optics)) continue;
+    places.clear();
+    for (const Eigen::Vector3d& vertex : surface.mesh.vertices) places.push_back(grid.place(vertex));
     for (const Eigen::Vector3i& triangle : surface.mesh.triangles) {
       Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
-      for (const int corner : triangle) {
-        const Eigen::Vector3d towards = surface.mesh.vertices[corner] - source;
-        const double along = towards.dot(axis);
-        if (along < kWidest * towards.norm()) continue;
-        const Eigen::Array2d at = (basis.transpose() * towards / along).array() / kSpacing;
-        low = low.min(at), high = high.max(at);
-      }
+      for (const int corner : triangle)
+        if (places[corner]) low = low.min(*places[corner]), high = high.max(*places[corner]);
       for (int i = static_cast<int>(std::floor(low.x())); i <= high.x(); ++i)
-        for (int j = static_cast<int>(std::floor(low.y())); j <= high.y(); ++j) cells.emplace(i, j);
+        for (int j = static_cast<int>(std::floor(low.y())); j <= high.y(); ++j) cells.emplace_back(i, j);
     }
   }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
@@ -69,9 +86,9 @@ Eigen::Array3i box_index(const Eigen::Vector3d& point) { return (point.array() /
 
 Fan::Fan(const Intersector& world, const Source& source, Event first) {
   const Eigen::Vector3d axis = mean_direction(world.geometry(), source.position);
-  const Matrix32d basis = perpendicular_to(axis);
-  for (const auto& [i, j] : covered_cells(world.geometry(), source.position, axis, basis))
-    send(world, source, first, (axis + basis * Eigen::Vector2d(i + 0.5, j + 0.5) * kSpacing).normalized(), kSpacing, 0);
+  const Grid grid{source.position, axis, perpendicular_to(axis)};
+  for (const GridCell& cell : covered_cells(world.geometry(), grid))
+    send(world, source, first, grid.middle(cell), kSpacing, 0);
   for (std::uint32_t seed = 0; seed < seeds_.size(); ++seed) file(seed);
 }
 

@@ -57,10 +57,11 @@ Json random_pattern(Draw& draw) {
           {"seed", draw.whole(0, 1000)}};
 }
 
-/// A small sensor that looks at `target_mm` from anywhere above the desk, now and then past it.
+/// A small sensor that looks at `target_mm` from anywhere above the desk, now and then past it. It mostly stands well
+/// off, for the search of the projector's directions takes long where clear bodies fill its view.
 Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
-  const int width = draw.whole(16, 22), height = draw.whole(16, 22);
-  Json sensor = {{"height_mm", draw.chance(0.1) ? draw.from(20.0, 400.0) : draw.from(400.0, 1200.0)},
+  const int width = draw.whole(16, 18), height = draw.whole(16, 18);
+  Json sensor = {{"height_mm", draw.chance(0.02) ? draw.from(20.0, 400.0) : draw.from(700.0, 1400.0)},
                  {"baseline_mm", draw.scale(10.0, 200.0)},
                  {"ir_size_px", {2 * width, 2 * (height + draw.whole(0, 3))}},
                  {"depth_size_px", {width, height}},
@@ -89,7 +90,7 @@ Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
 Json random_profile(Draw& draw, double height_mm, double bottom_mm, double wall_mm) {
   Json inner = {{0.0, bottom_mm}}, outer = {{0.0, 0.0}};
   const int corners = draw.whole(2, 5);
-  double inner_mm = draw.scale(8.0, 40.0);
+  double inner_mm = draw.scale(8.0, 30.0);
   if (draw.chance(0.7)) inner.push_back({inner_mm, bottom_mm});
   for (const double z_mm : {0.0, bottom_mm}) outer.push_back({inner_mm + wall_mm, z_mm});
   for (int corner = 1; corner < corners; ++corner) {
@@ -105,7 +106,7 @@ Json random_profile(Draw& draw, double height_mm, double bottom_mm, double wall_
 /// A cup of revolution that is described, not named.
 Json random_shape(Draw& draw) {
   const double height_mm = draw.scale(12.0, 120.0), bottom_mm = std::min(draw.scale(0.5, 15.0), 0.5 * height_mm);
-  const double wall_mm = draw.scale(0.3, 8.0), inner_mm = draw.scale(6.0, 45.0);
+  const double wall_mm = draw.scale(0.3, 8.0), inner_mm = draw.scale(6.0, 35.0);
   Json shape;
   if (draw.chance(0.4))
     shape = random_profile(draw, height_mm, bottom_mm, wall_mm);
@@ -170,7 +171,7 @@ Json random_surface(Draw& draw, double depth_mm, double headroom_mm, double radi
 
 /// A cup of revolution, named or described, filled or not.
 Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
-  const Json shape = draw.chance(0.25) ? Json(draw.one_of(library_names("cups"))) : random_shape(draw);
+  const Json shape = draw.chance(0.2) ? Json(draw.one_of(library_names("cups"))) : random_shape(draw);
   Json cup = {{"shape", shape}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.3)) cup["yaw_deg"] = draw.from(-360.0, 360.0);
   if (draw.chance(0.2)) return cup;
@@ -189,9 +190,10 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
   return cup;
 }
 
-/// A cup that is a single sheet of triangles in a glTF file.
+/// A cup that is a single sheet of triangles in a glTF file: a small one, for its cavity is searched in voxels of half
+/// a millimetre.
 Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::filesystem::path& folder) {
-  const double bottom = draw.from(0.015, 0.035), rim = bottom + draw.from(0.0, 0.015), height = draw.from(0.03, 0.1);
+  const double bottom = draw.from(0.006, 0.012), rim = bottom + draw.from(0.0, 0.006), height = draw.from(0.015, 0.04);
   write_gltf(folder / "cup.gltf", sheet_of_revolution({{0.0, 0.0}, {bottom, 0.0}, {rim, height}}), draw.from(0.0, 1.0));
   Json cup = {{"shape", "cup.gltf"}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.5)) cup["rotation_deg"] = {draw.from(-15.0, 15.0), draw.from(-15.0, 15.0), 0.0};
@@ -221,6 +223,8 @@ Json random_object(Draw& draw, const Eigen::Vector2d& position_mm, const std::fi
 
 Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::filesystem::path& folder) {
   Draw draw(Rng(seed, number));
+  const Shot shot{draw.chance(0.4) ? CaptureMode::geometric : CaptureMode::photometric,
+                  draw.chance(0.15) ? LightModel::full : LightModel::direct};
   const Eigen::Vector2d middle_mm{draw.from(-150.0, 150.0), draw.from(50.0, 700.0)};
   const auto nearby = [&](double reach_mm) {
     const double x_mm = middle_mm.x() + draw.from(-reach_mm, reach_mm);
@@ -235,11 +239,10 @@ Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::fil
   scene["cups"] = Json::array();
   if (draw.chance(0.95)) scene["cups"].push_back(random_cup(draw, middle_mm));
   while (draw.chance(0.12)) scene["cups"].push_back(random_cup(draw, nearby(150.0)));
-  if (draw.chance(0.05)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
+  if (draw.chance(0.01)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
   if (draw.chance(0.1)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
   write_json(folder / "scene.json", scene);
-  return {draw.chance(0.4) ? CaptureMode::geometric : CaptureMode::photometric,
-          draw.chance(0.15) ? LightModel::full : LightModel::direct};
+  return shot;
 }
 
 }  // namespace fathom
