@@ -72,11 +72,16 @@ TEST(Spreading, IsTheAreaThatNeighbouringRaysEncloseOnTheBottom) {
         return Eigen::Vector3d(ray.origin + (kPaperCupBottom - ray.origin.z()) / ray.direction.z() * ray.direction);
       };
       Rng rng(2);
-      int ways_seen = 0;
+      int ways_seen = 0, grazing = 0;
       for (int i = 0; i < 100; ++i) {
         const Eigen::Vector3d point = bottom_point(rng, 0.038);
         for (const Connection& way : scene.connections(point, liquid_of(scene))) {
-          EXPECT_LT((landing(way.direction) - point).norm(), 1e-9);  // what shooting calls a hit
+          const Eigen::Vector3d landed = landing(way.direction);
+          if (chain != way.crossings) {  // a ray along a wall, which rounding lets in or out
+            ++grazing;
+            continue;
+          }
+          EXPECT_LT((landed - point).norm(), 1e-9);  // what shooting calls a hit
           const Matrix32d basis = perpendicular_to(way.direction);
           bool same_chain = true;  // not so where an edge comes between the neighbours
           const auto area = [&](double step) {
@@ -99,6 +104,7 @@ TEST(Spreading, IsTheAreaThatNeighbouringRaysEncloseOnTheBottom) {
         }
       }
       EXPECT_GT(ways_seen, 30) << surface << shape;
+      EXPECT_LE(grazing, 1) << surface << shape;
     }
 }
 
