@@ -1,4 +1,5 @@
-// How the error of an infrared image with all its light falls with the time that it takes.
+// How the error of an infrared image with all its light falls with the time that it takes. The reference is an image of
+// the same kind: this is about chance and sampling, not about what all such images have in common.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
