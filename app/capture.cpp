@@ -84,7 +84,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_json(common.output / "run.json", record);  // last: its presence says that the capture is complete
   if (without_depth > 0)
-    fmt::print(stderr, "warning: {}: {} of {} frames have no pixel with a depth; is anything lit and in range?\n",
+    fmt::print(stderr,
+               "warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
                options.scene.string(), without_depth, options.frames);
   fmt::print("{}", format_rows(rows, common.json));
 }

@@ -97,13 +97,18 @@ TEST_P(ApparentDepth, IsTheTabulatedOne) {
   EXPECT_NEAR(captured.ratio_at(line, metres_from_mm(target_mm)), line.ratio, 5e-6 + 2.0 * 13.0 * 6e-8 + 4e-7);
 }
 
+std::string name_of(const testing::TestParamInfo<Line>& instance) {
+  return fmt::format("{:g}deg", instance.param.incidence_deg);
+}
+
 // cos A / sqrt(n² − sin² A) for no baseline; 1 mm changes it by 1e-7.
 INSTANTIATE_TEST_SUITE_P(ShortBaseline, ApparentDepth,
                          testing::Values(Line{0, 1, 0.75296}, Line{30, 1, 0.70386}, Line{45, 1, 0.62898},
-                                         Line{60, 1, 0.49657}));
+                                         Line{60, 1, 0.49657}),
+                         name_of);
 // Two rays by Snell's law.
 INSTANTIATE_TEST_SUITE_P(Baseline75mm, ApparentDepth,
-                         testing::Values(Line{0, 75, 0.75239}, Line{45, 75, 0.62832}, Line{60, 75, 0.49592}));
+                         testing::Values(Line{0, 75, 0.75239}, Line{45, 75, 0.62832}, Line{60, 75, 0.49592}), name_of);
 
 }  // namespace
 }  // namespace fathom

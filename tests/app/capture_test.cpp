@@ -112,7 +112,7 @@ TEST_F(CaptureCommand, AShotOfNothingSaysSo) {
       run_fathom(fmt::format("capture {} -o {} --mode geometric", scene_.string(), (folder_ / "out").string()));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "warning: " + scene_.string() +
-                         ": 1 of 1 frames have no pixel with a depth; is anything lit and in range?\n");
+                         ": frames without a pixel that has a depth: 1 of 1; is anything lit and in range?\n");
 }
 
 TEST_F(CaptureCommand, BlackSurfacesAreHoles) {

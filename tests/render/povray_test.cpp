@@ -31,8 +31,6 @@ struct LiquidSurface {
   double spun_per_mm = 0;  ///< curvature at the axis of a liquid that turns; such a one comes as a glTF file
 };
 
-void PrintTo(const LiquidSurface& surface, std::ostream* out) { *out << surface.name; }
-
 /// z = level + curvature r² / 2 with its exact normals, from the axis to 41.5 mm, half-way into the wall. Chords of
 /// 0.5 mm at a curvature of 9 / m stay within 0.3 µm of it.
 std::filesystem::path write_spun_top(const std::filesystem::path& folder, double level, double curvature) {

@@ -1,4 +1,5 @@
 // scenes/schema.json says what the parser accepts, key for key.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -6,6 +7,7 @@
 
 #include "core/error.h"
 #include "sim/scene/setup.h"
+#include "tests/core/expect_error.h"
 
 namespace fathom {
 namespace {
@@ -90,6 +92,18 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
       EXPECT_THROW(setup_from_json(scene, "scene.json"), Error) << in_scene << " without " << required;
     }
   }
+}
+
+TEST(Schema, WholeNumbersHaveTheRangesOfTheParser) {
+  for (const char* part : {"noise", "pattern", "matcher"})
+    for (const auto& [key, rule] : schema().at("$defs").at(part).at("properties").items()) {
+      if (rule.value("type", "") != "integer" || !rule.contains("maximum")) continue;
+      const int low = rule.at("minimum"), high = rule.at("maximum");
+      Json scene = full_scene();
+      scene["sensor"][part][key] = high + 1;
+      expect_error([&] { setup_from_json(scene, "scene.json"); },
+                   {fmt::format("/sensor/{}/{}: must be a whole number from {} to {}, ", part, key, low, high)});
+    }
 }
 
 void expect_references_resolve(const Json& part, const Json& whole) {

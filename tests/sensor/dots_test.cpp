@@ -48,7 +48,12 @@ TEST_P(Dots, LieWhereRefractionPutsThemAndAreAsBright) {
 // Clear water, water as it is at 830 nm, and water that lets a quarter through.
 INSTANTIATE_TEST_SUITE_P(Conditions, Dots,
                          testing::Values(Condition{200, 0.0}, Condition{200, 0.0031}, Condition{200, 0.02},
-                                         Condition{300, 0.0}, Condition{300, 0.0031}, Condition{300, 0.02}));
+                                         Condition{300, 0.0}, Condition{300, 0.0031}, Condition{300, 0.02}),
+                         [](const auto& instance) {
+                           const Condition& condition = instance.param;
+                           return fmt::format("{:g}mm_absorbing_{:g}_per_10m", condition.distance_mm,
+                                              1e4 * condition.absorption_per_mm);
+                         });
 
 }  // namespace
 }  // namespace fathom

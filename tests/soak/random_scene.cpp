@@ -61,12 +61,12 @@ Json random_pattern(Draw& draw) {
 /// off, for the search of the projector's directions takes long where clear bodies fill its view.
 Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
   const int width = draw.whole(16, 18), height = draw.whole(16, 18);
-  Json sensor = {{"height_mm", draw.chance(0.02) ? draw.from(20.0, 400.0) : draw.from(700.0, 1400.0)},
+  Json sensor = {{"height_mm", draw.chance(0.02) ? draw.from(20.0, 400.0) : draw.from(900.0, 1500.0)},
                  {"baseline_mm", draw.scale(10.0, 200.0)},
                  {"ir_size_px", {2 * width, 2 * (height + draw.whole(0, 3))}},
                  {"depth_size_px", {width, height}},
-                 {"focal_px", width * draw.scale(0.4, 4.0)},
-                 {"reference_mm", draw.from(300.0, 1500.0)},
+                 {"focal_px", width * draw.scale(0.5, 16.0)},
+                 {"reference_mm", draw.from(400.0, 2000.0)},
                  {"near_mm", draw.from(10.0, 500.0)},
                  {"far_mm", draw.from(600.0, 10000.0)},
                  {"noise", random_noise(draw)},
@@ -82,19 +82,19 @@ Json random_sensor(Draw& draw, const Eigen::Vector2d& target_mm) {
   if (draw.chance(0.15))
     sensor["pitch_deg"] = draw.chance(0.3) ? 90.0 : draw.from(0.0, 90.0);
   else
-    sensor["aim_mm"] = {target_mm.x() + draw.from(-40.0, 40.0), target_mm.y() + draw.from(-40.0, 40.0),
-                        draw.from(0.0, 60.0)};
+    sensor["aim_mm"] = {target_mm.x() + draw.from(-20.0, 20.0), target_mm.y() + draw.from(-20.0, 20.0),
+                        draw.from(0.0, 40.0)};
   return sensor;
 }
 
 Json random_profile(Draw& draw, double height_mm, double bottom_mm, double wall_mm) {
   Json inner = {{0.0, bottom_mm}}, outer = {{0.0, 0.0}};
   const int corners = draw.whole(2, 5);
-  double inner_mm = draw.scale(8.0, 30.0);
+  double inner_mm = draw.scale(8.0, 20.0);
   if (draw.chance(0.7)) inner.push_back({inner_mm, bottom_mm});
   for (const double z_mm : {0.0, bottom_mm}) outer.push_back({inner_mm + wall_mm, z_mm});
   for (int corner = 1; corner < corners; ++corner) {
-    inner_mm = std::max(inner_mm + draw.from(-8.0, 12.0), 5.0);
+    inner_mm = std::max(inner_mm + draw.from(-6.0, 6.0), 5.0);
     const double z_mm = bottom_mm + (height_mm - bottom_mm) * corner / (corners - 1);
     inner.push_back({inner_mm, z_mm});
     outer.push_back({inner_mm + wall_mm, z_mm});
@@ -105,8 +105,8 @@ Json random_profile(Draw& draw, double height_mm, double bottom_mm, double wall_
 
 /// A cup of revolution that is described, not named.
 Json random_shape(Draw& draw) {
-  const double height_mm = draw.scale(12.0, 120.0), bottom_mm = std::min(draw.scale(0.5, 15.0), 0.5 * height_mm);
-  const double wall_mm = draw.scale(0.3, 8.0), inner_mm = draw.scale(6.0, 35.0);
+  const double height_mm = draw.scale(12.0, 80.0), bottom_mm = std::min(draw.scale(0.5, 15.0), 0.5 * height_mm);
+  const double wall_mm = draw.scale(0.3, 8.0), inner_mm = draw.scale(6.0, 20.0);
   Json shape;
   if (draw.chance(0.4))
     shape = random_profile(draw, height_mm, bottom_mm, wall_mm);
@@ -118,7 +118,7 @@ Json random_shape(Draw& draw) {
   if (draw.chance(0.7)) {
     shape["albedo"] = draw.chance(0.1) ? 1.0 : draw.from(0.0, 1.0);
     if (draw.chance(0.3))
-      shape["handle"] = {{"low_mm", 0.2 * height_mm}, {"high_mm", 0.8 * height_mm}, {"reach_mm", draw.from(5.0, 40.0)}};
+      shape["handle"] = {{"low_mm", 0.2 * height_mm}, {"high_mm", 0.8 * height_mm}, {"reach_mm", draw.from(5.0, 20.0)}};
   } else if (draw.chance(0.5)) {
     shape["material"] = draw.one_of(library_names("walls"));
   } else {
@@ -171,7 +171,7 @@ Json random_surface(Draw& draw, double depth_mm, double headroom_mm, double radi
 
 /// A cup of revolution, named or described, filled or not.
 Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
-  const Json shape = draw.chance(0.2) ? Json(draw.one_of(library_names("cups"))) : random_shape(draw);
+  const Json shape = draw.chance(0.1) ? Json(draw.one_of(library_names("cups"))) : random_shape(draw);
   Json cup = {{"shape", shape}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.3)) cup["yaw_deg"] = draw.from(-360.0, 360.0);
   if (draw.chance(0.2)) return cup;
@@ -207,7 +207,7 @@ Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::
 /// A prism, opaque or clear.
 Json random_object(Draw& draw, const Eigen::Vector2d& position_mm, const std::filesystem::path& folder) {
   const int sides = draw.whole(3, 12);
-  const double radius = draw.from(0.005, 0.04), height = draw.from(0.002, 0.08);
+  const double radius = draw.from(0.005, 0.02), height = draw.from(0.002, 0.04);
   const Mesh mesh = prism(sides, radius, 0.0, height);
   const double index = draw.from(1.0, 2.0);
   if (draw.chance(0.3))
