@@ -23,30 +23,32 @@ class Connector {
 
   void at_scattering(const Walker& walker) {
     const Body* body = medium_in(projector_.world().geometry(), walker.region);
-    const double chance = worth(*body, walker.position);
-    if (chance < 1.0 && rng_.uniform() >= chance) return;
-    const double factor = std::numbers::pi * walker.weight / (chance * body->medium.n * body->medium.n);
+    const double factor = std::numbers::pi * walker.weight / (body->medium.n * body->medium.n);
     connect({walker.position, body}, [&](const Connection& way) {
       // Seen from the light: it arrives and is sent towards where the walk came from.
-      const double phase = henyey_greenstein(-way.arrival.dot(walker.direction), body->medium.anisotropy);
-      give(way, factor * phase, walker.position);
+      return factor * henyey_greenstein(-way.arrival.dot(walker.direction), body->medium.anisotropy);
     });
   }
 
   void at_wall(const Walker& walker, const Eigen::Vector3d& normal, double albedo) {
     const Body* body = medium_in(projector_.world().geometry(), walker.region);
-    const double chance = body ? worth(*body, walker.position) : 1.0;
-    if (chance < 1.0 && rng_.uniform() >= chance) return;
-    const double n = index_of(body), factor = albedo * walker.weight / (chance * n * n);
-    connect({walker.position, body, &normal},
-            [&](const Connection& way) { give(way, -factor * normal.dot(way.arrival), walker.position); });
+    const double n = index_of(body), factor = albedo * walker.weight / (n * n);
+    connect({walker.position, body, &normal}, [&](const Connection& way) { return -factor * normal.dot(way.arrival); });
   }
 
  private:
-  template <class Visit>
-  void connect(const Receiver& receiver, Visit visit) {
-    projector_.connect(receiver, visit);
-    projector_.connect_mirrored(receiver, visit);
+  /// Chance with which light that a liquid mirrors is looked for: it is a few hundredths of all.
+  static constexpr double kMirrored = 0.25;
+
+  /// `returned(way)` is the share of a way's light that the camera receives.
+  template <class Returned>
+  void connect(const Receiver& receiver, Returned returned) {
+    const double chance = receiver.around ? worth(*receiver.around, receiver.point) : 1.0;
+    if (chance < 1.0 && rng_.uniform() >= chance) return;
+    projector_.connect(receiver, [&](const Connection& way) { give(way, returned(way) / chance, receiver.point); });
+    if (rng_.uniform() >= kMirrored) return;
+    projector_.connect_mirrored(
+        receiver, [&](const Connection& way) { give(way, returned(way) / (chance * kMirrored), receiver.point); });
   }
 
   void give(const Connection& way, double factor, const Eigen::Vector3d& point) {
