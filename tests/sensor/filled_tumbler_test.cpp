@@ -9,11 +9,12 @@
 namespace fathom {
 namespace {
 
-/// The cup fills about half of it.
+/// Half as fine as the sensor's; the cup fills about half of it.
 Image<float> image_of(Setup setup) {
   SensorModel& sensor = setup.rig.sensor;
-  sensor.width = 100, sensor.height = 90, sensor.ir_width = 200, sensor.ir_height = 180;
-  sensor.principal_px = {50.0, 45.0};
+  sensor.width = 60, sensor.height = 54, sensor.ir_width = 120, sensor.ir_height = 108;
+  sensor.principal_px = {30.0, 27.0};
+  sensor.focal_px *= 0.5;
   const LitScene scene(setup);
   const Pattern pattern(sensor.pattern, sensor.ir_scale());
   return render_ir(scene.projector, scene.rig, pattern, 1, LightModel::direct, 1);
@@ -41,12 +42,13 @@ TEST(FilledTumbler, LooksLikeItsAnalyticTwin) {
     const auto file = write_tumbler(folder / "", shape, 1.51, 0.044, shading);
     return difference(image_of(cup_of(Json(file.string()).dump(), kWater)), twin);
   };
-  // A pixel is 0.6 mm on the desk, a dot's standard deviation 0.9 of it. Through a tenth of the view, the walls, points
-  // are seen off their place: with vertex normals 2 µm on the average, 0.4 % of a dot, ...
+  // A dot's standard deviation is 0.9 of a pixel, 1.1 mm on the desk. Through a fifth of the view, the walls, points
+  // are seen off their place: with vertex normals 2 µm on the average, 0.2 % of a dot, ...
   const Difference smooth = of_mesh(Shading::smooth);
   EXPECT_LT(smooth.by_pixel, 1e-3);
   EXPECT_LT(std::fabs(smooth.of_total), 1e-4);  // a dot that moves is as bright as before
-  // ... with flat facets 0.2 to 0.3 mm, half a dot. They are 1 mm wide, less than the projector's search is fine.
+  // ... with flat facets 0.2 to 0.3 mm, a quarter. They are 1 mm wide, finer than the projector's search: it misses
+  // some.
   const Difference flat = of_mesh(Shading::flat);
   EXPECT_LT(flat.by_pixel, 0.05);
   EXPECT_LT(std::fabs(flat.of_total), 0.02);
