@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/files.h"
 #include "core/rng.h"
 #include "core/units.h"
 #include "sim/scene/library.h"
@@ -190,12 +191,23 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
   return cup;
 }
 
-/// A cup that is a single sheet of triangles in a glTF file: a small one, for its cavity is searched in voxels of half
-/// a millimetre.
+/// A cup from a glTF file, an opaque sheet of triangles or a clear body of few sides: a small one, for its cavity is
+/// searched in voxels of half a millimetre.
 Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::filesystem::path& folder) {
   const double bottom = draw.from(0.006, 0.012), rim = bottom + draw.from(0.0, 0.006), height = draw.from(0.015, 0.04);
-  write_gltf(folder / "cup.gltf", sheet_of_revolution({{0.0, 0.0}, {bottom, 0.0}, {rim, height}}), draw.from(0.0, 1.0));
-  Json cup = {{"shape", "cup.gltf"}, {"position_mm", {position_mm.x(), position_mm.y()}}};
+  std::string file = "cup.gltf";
+  if (draw.chance(0.5)) {
+    const double wall = draw.from(0.0005, 0.003), index = draw.from(1.0, 2.0);
+    const int sides = draw.whole(3, 24);
+    const std::vector<Eigen::Vector2d> profile = {{0.0, 0.0},    {bottom + wall, 0.0}, {rim + wall, height},
+                                                  {rim, height}, {bottom, wall},       {0.0, wall}};
+    make_directory(folder / "clear");
+    write_clear_gltf(folder / "clear", sheet_of_revolution(profile, sides), index, 0.0);
+    file = "clear/body.gltf";
+  } else {
+    write_gltf(folder / file, sheet_of_revolution({{0.0, 0.0}, {bottom, 0.0}, {rim, height}}), draw.from(0.0, 1.0));
+  }
+  Json cup = {{"shape", file}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.5)) cup["rotation_deg"] = {draw.from(-15.0, 15.0), draw.from(-15.0, 15.0), 0.0};
   if (draw.chance(0.8)) {
     cup["liquid"] = random_liquid(draw);
