@@ -35,7 +35,7 @@ struct EmbreeLoop::Impl {
       for (int corner = 0; corner < 3; ++corner) *corners++ = static_cast<unsigned>(triangle[corner]);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(all, geometry);
-    if (std::holds_alternative<Diffuse>(surface.optics)) rtcAttachGeometry(opaque, geometry);
+    if (!std::holds_alternative<Interface>(surface.optics)) rtcAttachGeometry(opaque, geometry);
     rtcReleaseGeometry(geometry);
   }
 

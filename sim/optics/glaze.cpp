@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sim/optics/fresnel.h"
-#include "sim/optics/ggx.h"
+#include "sim/optics/phase.h"
 
 namespace fathom {
 namespace {
@@ -68,6 +68,20 @@ double Glaze::reflection(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 double Glaze::albedo(double cosine) const {
   const double reflected = surface_reflectance(cosine);
   return reflected + (1.0 - reflected) * leaving_;
+}
+
+std::optional<GgxSample> Glaze::sample(const Eigen::Vector3d& from, Rng& rng) const {
+  const double all = albedo(from.z());
+  if (all <= 0.0) return std::nullopt;
+  const double chance = surface_reflectance(from.z()) / all;
+  if (rng.uniform() < chance) {
+    const double u1 = rng.uniform(), u2 = rng.uniform();
+    std::optional<GgxSample> mirrored = sample_ggx_reflection(from, roughness_, n_outside_, n_coat_, u1, u2);
+    if (mirrored) mirrored->weight /= chance;
+    return mirrored;
+  }
+  const Eigen::Vector3d to = sample_diffuse(Eigen::Vector3d::UnitZ(), rng);
+  return GgxSample{to, std::numbers::pi * diffuse(from, to) / (1.0 - chance)};
 }
 
 }  // namespace fathom

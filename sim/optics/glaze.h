@@ -9,7 +9,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
+
+#include "core/rng.h"
+#include "sim/optics/ggx.h"
 
 namespace fathom {
 
@@ -30,6 +34,10 @@ class Glaze {
 
   /// All light that comes back of what arrives at cos θ.
   double albedo(double cosine) const;
+
+  /// One of the ways on which it does: a mirror image in the surface or diffuse light, each as often as it is strong.
+  /// The mean weight is the albedo. Nothing where a rough surface would send the light into itself.
+  std::optional<GgxSample> sample(const Eigen::Vector3d& from, Rng& rng) const;
 
  private:
   double base_albedo_, roughness_, n_outside_, n_coat_;

@@ -38,6 +38,14 @@ std::optional<SeenPoint> follow(const Intersector& world, Sight sight, std::opti
       return SeenPoint{hit->point, hit->normal, diffuse->albedo, hit->surface->object, inside,
                        medium,     refracted,   through,         ray.direction};
     }
+    if (const auto* glazed = std::get_if<Glazed>(&hit->surface->optics)) {
+      through *= n_camera * n_camera / (n_from * n_from);
+      const Glaze& glaze = glaze_under(world.geometry(), *glazed, medium);
+      const double albedo = glaze.albedo(std::min(-ray.direction.dot(hit->normal), 1.0));
+      return SeenPoint{hit->point,    hit->normal, albedo,    hit->surface->object,
+                       inside,        medium,      refracted, through,
+                       ray.direction, nullptr,     0,         &glaze};
+    }
     const BodySet after = beyond(*hit, inside);
     const Body* next = medium_in(world.geometry(), after);
     ray.origin = hit->point;

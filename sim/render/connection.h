@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/rng.h"
+#include "sim/optics/glazed_wall.h"
 #include "sim/render/light.h"
 
 namespace fathom {
@@ -18,7 +19,7 @@ namespace fathom {
 struct SeenPoint {
   Eigen::Vector3d point;   ///< [m] world
   Eigen::Vector3d normal;  ///< unit, towards the camera's side
-  double albedo;           ///< of a body that scatters, its surface_albedo
+  double albedo;           ///< of a body that scatters, its surface_albedo; of a glaze, towards the camera
   int object;
   BodySet inside;                 ///< the bodies around it, on the camera's side
   const Body* around;             ///< the medium there; nullptr is air
@@ -27,12 +28,14 @@ struct SeenPoint {
   Eigen::Vector3d arriving;       ///< unit, in which the camera's ray gets there
   const Body* entered = nullptr;  ///< the body that scatters, if any
   BodySet beyond = 0;             ///< with it, the bodies on its side
+  const Glaze* glaze = nullptr;   ///< of a glazed surface
 };
 
 /// How the projector lights a point.
 struct Illumination {
   Eigen::Vector3d direction;  ///< unit, world: in which the light left the projector
   double irradiance;          ///< [1/m²] on the surface per unit radiant intensity of the projector in that direction
+  double reflectance;         ///< reflectance_factor() of the surface for it
   bool through_scattering;    ///< as in Connection
 };
 
@@ -52,8 +55,14 @@ void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
 /// totally.
 bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival);
 
+/// π · BRDF for light that travels in the direction `arrival` and is seen by the camera: a diffuse surface's albedo.
+inline double reflectance_factor(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
+  return seen.glaze ? reflectance_factor(*seen.glaze, seen.normal, -arrival, -seen.arriving) : seen.albedo;
+}
+
 inline Illumination illumination_by(const Connection& way, const SeenPoint& seen) {
-  return {way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival), way.through_scattering};
+  return {way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival),
+          reflectance_factor(seen, way.arrival), way.through_scattering};
 }
 
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.

@@ -17,6 +17,11 @@ inline double index_of(const Body* medium) { return medium ? medium->medium.n : 
 /// What unscattered light loses [1/m].
 inline double extinction_of(const Body* medium) { return medium ? medium->extinction() : 0.0; }
 
+/// A surface's glaze as it is in front of that medium.
+inline const Glaze& glaze_under(const Geometry& geometry, const Glazed& glazed, const Body* medium) {
+  return glazed.under[medium ? 1 + static_cast<std::size_t>(medium - geometry.bodies.data()) : 0];
+}
+
 /// The bodies around a ray after it has gone through the interface that it hits.
 BodySet beyond(const Hit& hit, BodySet inside);
 

@@ -19,14 +19,14 @@ class Search {
     const Eigen::Vector3d towards = (a + b + c) / 3.0 - source_.position;
     const double width = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}) / towards.norm();
     const Eigen::Vector3d direction = towards.normalized();
-    constexpr int kLongestChain = 8;  // as light of all kinds
     Flight flight{pencil_from(source_.position, direction), source_.inside, 1.0};
-    for (int crossings = 1; crossings <= kLongestChain; ++crossings) {
+    for (int mirror = 0; mirror < kLongestChain && flight.transmittance > kFaintest; ++mirror) {
       const auto next = next_crossing(world_, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
       if (!next) return;
-      pass(world_, *next, crossings == 1 ? Event::reflect : Event::refract, flight);
-      if (flight.inside == 0 && lands_within(kReach * width, flight.pencil))
-        add_new(found, shoot(world_, source_, eye_, nullptr, direction, crossings, Event::reflect));
+      Flight mirrored = flight;
+      pass(world_, *next, Event::reflect, mirrored);
+      follow(mirrored, mirror, kReach * width, direction);
+      pass(world_, *next, Event::refract, flight);
     }
   }
 
@@ -34,6 +34,19 @@ class Search {
 
  private:
   static constexpr double kReach = 3.0;
+  static constexpr int kLongestChain = 8;
+  static constexpr double kFaintest = 1e-4;  ///< transmittance
+
+  /// Follows what interface number `mirror` has mirrored, and shoots wherever it comes within an angle of the eye.
+  void follow(Flight flight, int mirror, double angle, const Eigen::Vector3d& direction) {
+    for (int crossings = mirror + 1; flight.transmittance > kFaintest; ++crossings) {
+      if (flight.inside == 0 && lands_within(angle, flight.pencil))
+        add_new(found, shoot(world_, source_, eye_, nullptr, direction, crossings, mirror));
+      const auto next = next_crossing(world_, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+      if (!next || crossings == kLongestChain) return;
+      pass(world_, *next, Event::refract, flight);
+    }
+  }
 
   bool lands_within(double angle, const Pencil& pencil) const {
     const Landing landing = land(pencil, eye_);

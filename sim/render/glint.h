@@ -7,9 +7,8 @@
 
 namespace fathom {
 
-/// The ways on which the first clear body that light from `source` meets mirrors it to `eye`, a place in air, refracted
-/// by whatever clear bodies come after. They are searched for from every triangle of the bodies' boundaries. What
-/// interfaces within bodies mirror is left out.
+/// The ways from `source` to `eye`, a place in air, on which one interface mirrors the light, in part or all of it, and
+/// all others refract it or mirror all of it. They are searched for from every triangle of the bodies' boundaries.
 std::vector<Connection> find_glints(const Intersector& world, const Source& source, const Eigen::Vector3d& eye);
 
 }  // namespace fathom

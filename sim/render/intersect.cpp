@@ -40,7 +40,7 @@ void set_lane(RTCRay8& rays, std::size_t i, const RTCRay& ray) {
 struct Intersector::Impl {
   RTCDevice device = nullptr;
   RTCScene all = nullptr;                  ///< every surface
-  RTCScene opaque = nullptr;               ///< Lambert's surfaces
+  RTCScene opaque = nullptr;               ///< opaque surfaces
   RTCScene clear = nullptr;                ///< boundaries of clear bodies
   std::vector<const Surface*> surfaces;    ///< by Embree's geometry id, the same in all scenes
   std::vector<std::vector<Plane>> planes;  ///< by geometry id and primitive id
@@ -74,7 +74,7 @@ struct Intersector::Impl {
     rtcCommitGeometry(geometry);
     const auto id = static_cast<unsigned>(surfaces.size());
     rtcAttachGeometryByID(all, geometry, id);
-    rtcAttachGeometryByID(std::holds_alternative<Diffuse>(surface.optics) ? opaque : clear, geometry, id);
+    rtcAttachGeometryByID(std::holds_alternative<Interface>(surface.optics) ? clear : opaque, geometry, id);
     rtcReleaseGeometry(geometry);
     surfaces.push_back(&surface);
     planes.push_back(std::move(of_triangles));

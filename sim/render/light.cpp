@@ -156,7 +156,7 @@ void PointLight::connect_mirrored_each(const Receiver& receiver,
     const Eigen::Vector3d towards = image - source_.position;
     const Eigen::Vector2d meeting = source_.position.head<2>() + height / (height + above) * towards.head<2>();
     if (!mirror.area.contains(meeting)) continue;
-    add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, Event::reflect));
+    add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, 0));
   }
   for (const Connection& way : found)
     if (!from_behind(receiver, way.arrival)) visit(way);
@@ -170,7 +170,7 @@ void PointLight::connect_from(const Fan& fan, Event first, const Receiver& recei
     if (from_behind(receiver, candidate.seed->pencil.direction) || known(found, candidate)) continue;
     if (++shots > kMostShots) break;
     const auto way = shoot(world_, source_, receiver.point, receiver.around, candidate.seed->direction,
-                           candidate.seed->crossings, first);
+                           candidate.seed->crossings, first == Event::reflect ? 0 : kNoMirror);
     if (way && !from_behind(receiver, way->arrival)) add_new(found, way);
   }
 }

@@ -35,6 +35,13 @@ class Connector {
     const double n = index_of(body), factor = albedo * walker.weight / (n * n);
     connect({walker.position, body, &normal}, [&](const Connection& way) { return -factor * normal.dot(way.arrival); });
   }
+  void at_glazed_wall(const Walker& walker, const Eigen::Vector3d& normal, const Glaze& glaze) {
+    const Body* body = medium_in(projector_.world().geometry(), walker.region);
+    const double n = index_of(body), factor = walker.weight / (n * n);
+    connect({walker.position, body, &normal}, [&](const Connection& way) {
+      return -factor * reflectance_factor(glaze, normal, -way.arrival, -walker.direction) * normal.dot(way.arrival);
+    });
+  }
 
  private:
   /// Chance with which light that a liquid mirrors is looked for: it is a few hundredths of all.
@@ -89,6 +96,10 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
     walker.region = seen.beyond;
     Connector connector(projector, seen.point, walker.direction, rng, visit);
     random_walk_of_beam(space, walker, rng, connector);
+  } else if (seen.glaze) {
+    if (!bounce_off_glaze(walker, seen.normal, *seen.glaze, rng)) return;
+    Connector connector(projector, seen.point, walker.direction, rng, visit);  // its lobe may be narrow
+    random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   } else {
     walker.weight *= seen.albedo;
     walker.direction = sample_diffuse(seen.normal, rng);

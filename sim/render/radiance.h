@@ -16,7 +16,7 @@ inline double radiance_dn(const SensorModel& sensor, double reflected) {
 
 /// The same of a dot's centre on a surface.
 inline double radiance_dn(const SensorModel& sensor, const SeenPoint& seen, const Illumination& light) {
-  return radiance_dn(sensor, seen.albedo * light.irradiance * seen.transmittance);
+  return radiance_dn(sensor, light.reflectance * light.irradiance * seen.transmittance);
 }
 
 }  // namespace fathom

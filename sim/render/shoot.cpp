@@ -28,7 +28,7 @@ struct Aim {
   const Eigen::Vector3d& target;
   const Body* around;
   int crossings;
-  Event first;
+  int mirror;
 
   std::optional<Trial> trial(const Eigen::Vector3d& direction) const {
     Trial result{{pencil_from(source.position, direction), source.inside, 1.0}, {}, {}};
@@ -37,7 +37,7 @@ struct Aim {
       const std::optional<Crossing> next =
           next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
       if (!next) return std::nullopt;
-      pass(world, *next, i == 0 ? first : Event::refract, flight);
+      pass(world, *next, i == mirror ? Event::reflect : Event::refract, flight);
       const bool left = medium_in(world.geometry(), flight.inside) != next->from;
       result.through_scattering |= left && next->from && next->from->scatters();
       result.bends[i] = next->hit.point;
@@ -112,8 +112,8 @@ void pass(const Intersector& world, const Crossing& crossing, Event event, Fligh
 }
 
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
-                                const Body* around, const Eigen::Vector3d& direction, int crossings, Event first) {
-  const Aim aim{world, source, target, around, crossings, first};
+                                const Body* around, const Eigen::Vector3d& direction, int crossings, int mirror) {
+  const Aim aim{world, source, target, around, crossings, mirror};
   const std::optional<Trial> found = aim.solve(direction);
   if (!found || !aim.open(*found)) return std::nullopt;
   const Flight& flight = found->flight;

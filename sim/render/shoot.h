@@ -40,17 +40,20 @@ struct Flight {
 /// Longest chain that is followed.
 inline constexpr int kMostCrossings = 24;
 
-/// What an interface does to the light: usually it refracts; for ghosts the first reflects in part.
+/// What an interface does to the light: usually it refracts; of mirror images one reflects in part.
 enum class Event { refract, reflect };
+/// As the number, from 0, of the interface on a way that reflects in part: none does.
+inline constexpr int kNoMirror = -1;
 
 /// Carries the flight to the crossing and over it, or back from it. Refraction becomes total reflection where it must.
 void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight);
 
 /// Aims at `target`, which lies in the medium `around` (nullptr: air), by way of exactly `crossings` interfaces,
-/// starting from `direction`. Nothing when Newton's method finds no such way or something opaque stands in it.
+/// starting from `direction`; number `mirror` of them reflects. Nothing when Newton's method finds no such way or
+/// something opaque stands in it.
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
                                 const Body* around, const Eigen::Vector3d& direction, int crossings,
-                                Event first = Event::refract);
+                                int mirror = kNoMirror);
 
 /// Adds a way, if there is one, that has not been found before.
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way);

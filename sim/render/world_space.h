@@ -2,6 +2,7 @@
 // A walker's region is the set of bodies that it is in.
 #pragma once
 
+#include "sim/optics/glazed_wall.h"
 #include "sim/optics/interface.h"
 #include "sim/render/crossing.h"
 
@@ -21,7 +22,8 @@ class WorldSpace {
   const Turbid& medium(BodySet region) const;
   Boundary next_boundary(const Walker& walker, double reach) const;
 
-  /// Besides what random_walk() tells it, the visitor is told `at_wall(walker, normal, albedo)`. Ends a walk that has
+  /// Besides what random_walk() tells it, the visitor is told `at_wall(walker, normal, albedo)` or
+  /// `at_glazed_wall(walker, normal, glaze)`. Ends a walk that has
   /// left the scene or slipped out between two triangles.
   template <class Visitor>
   bool meet(const Boundary& boundary, Walker& walker, Rng& rng, Visitor& visitor) const {
@@ -35,6 +37,11 @@ class WorldSpace {
     if (const auto* wall = std::get_if<Diffuse>(&hit.surface->optics)) {
       bounce_off_wall(walker, hit.normal, wall->albedo, rng, visitor);
       return true;
+    }
+    if (const auto* glazed = std::get_if<Glazed>(&hit.surface->optics)) {
+      const Glaze& glaze = glaze_under(world_.geometry(), *glazed, medium_in(world_.geometry(), walker.region));
+      visitor.at_glazed_wall(walker, hit.normal, glaze);
+      return bounce_off_glaze(walker, hit.normal, glaze, rng);
     }
     const BodySet after = beyond(hit, walker.region);
     const Body *from = medium_in(world_.geometry(), walker.region), *to = medium_in(world_.geometry(), after);

@@ -52,11 +52,22 @@ Pose world_from_shape(const Cup& cup) {
 std::vector<GltfPart> cup_parts(const Cup& cup) {
   if (const auto* mesh = std::get_if<MeshCup>(&cup.shape)) return mesh->parts;
   const CupShape& shape = std::get<CupShape>(cup.shape);
-  GltfPart part;
-  part.mesh = cup_mesh(shape);
-  part.albedo = shape.albedo;
-  part.mesh.transform(world_from_shape(cup));
-  return {std::move(part)};
+  std::vector<GltfPart> parts;
+  const auto add = [&](Mesh mesh) {
+    GltfPart& part = parts.emplace_back();
+    part.mesh = std::move(mesh);
+    part.mesh.transform(world_from_shape(cup));
+    part.albedo = shape.albedo;
+    part.coat = shape.glaze;
+    if (part.coat) part.normals = vertex_normals(part.mesh);
+  };
+  if (shape.glaze) {
+    for (WallPart& wall : wall_parts(shape, 0.0)) add(std::move(wall.mesh));
+    if (shape.handle) add(handle_mesh(shape));
+  } else {
+    add(cup_mesh(shape));
+  }
+  return parts;
 }
 
 double cup_depth(const Cup& cup) {

@@ -19,7 +19,8 @@ Pose world_from_shape(const Cup& cup);
 /// Whether light enters the cup's wall, or part of it.
 bool is_clear(const Cup& cup);
 
-/// The cup's meshes in the world; a clear cup of revolution has walls instead (cup_mesh.h).
+/// The cup's meshes in the world, a glazed one's smooth between their edges; a clear cup of revolution has walls
+/// instead (cup_mesh.h).
 std::vector<GltfPart> cup_parts(const Cup& cup);
 
 /// Greatest depth of a liquid [m], its volume [m³], and the volume at any depth. A cup from a mesh must have its

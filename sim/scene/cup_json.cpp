@@ -155,15 +155,20 @@ void pour(const JsonReader& json, Cup& cup) {
 }  // namespace
 
 Cup cup_from_json(const JsonReader& json) {
-  json.allow_only({"shape", "position_mm", "rotation_deg", "yaw_deg", "liquid", "fill_mm", "fill_ml", "surface"});
+  json.allow_only(
+      {"shape", "position_mm", "rotation_deg", "yaw_deg", "glaze", "liquid", "fill_mm", "fill_ml", "surface"});
   const JsonReader shape = json.at("shape");
   const bool is_mesh = shape.value().is_string() && names_gltf(shape.text());
   Cup cup;
   cup.yaw = radians_from_deg(json.number_or("yaw_deg", 0.0));
   if (is_mesh) {
     cup.shape = mesh_cup_from_json(json, cup.yaw);
+    if (json.has("glaze")) json.fail_at("glaze", "is for cups of revolution; glTF materials have roughnessFactor");
   } else {
-    cup.shape = cup_shape_from_json(shape);
+    CupShape revolved = cup_shape_from_json(shape);
+    revolved.glaze = glaze_from_json(json);
+    if (revolved.glaze && revolved.material) json.fail_at("glaze", "is for opaque walls; this one is clear");
+    cup.shape = std::move(revolved);
     cup.position = json.at("position_mm").vector2(kCupPlaceMm) * kMetresPerMm;
     if (json.has("rotation_deg")) json.fail_at("rotation_deg", "is for cups from glTF files; others have yaw_deg");
   }

@@ -30,6 +30,8 @@ Mesh revolve(const std::vector<Eigen::Vector2d>& profile, bool outward) {
   return mesh;
 }
 
+}  // namespace
+
 Mesh handle_mesh(const CupShape& shape) {
   constexpr int kAlong = 24, kAround = 12;
   const Handle& handle = *shape.handle;
@@ -56,8 +58,6 @@ Mesh handle_mesh(const CupShape& shape) {
     }
   return mesh;
 }
-
-}  // namespace
 
 Mesh cup_mesh(const CupShape& shape) {
   std::vector<Eigen::Vector2d> outer = shape.outer;

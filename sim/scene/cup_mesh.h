@@ -15,6 +15,9 @@ inline constexpr int kFacetsAround = 256;
 /// The solid between outer and inner profile, with its handle, axis at the origin, standing on z = 0.
 Mesh cup_mesh(const CupShape& shape);
 
+/// The handle of a shape that has one.
+Mesh handle_mesh(const CupShape& shape);
+
 /// The same solid, without a handle, as one surface for each straight piece of its profiles; with `sink` [m] its
 /// underside reaches that far below z = 0.
 struct WallPart {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -22,19 +23,21 @@ int add_object(Geometry& geometry, std::string name) {
   return static_cast<int>(geometry.objects.size());
 }
 
-void add_desk(const Desk& desk, Geometry& geometry) {
-  Mesh mesh;
-  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-    mesh.add_vertex({desk.centre.x() + x * desk.size.x(), desk.centre.y() + y * desk.size.y(), 0.0});
-  mesh.add_triangle(0, 1, 2);
-  mesh.add_triangle(0, 2, 3);
-  geometry.surfaces.push_back({add_object(geometry, "desk"), std::move(mesh), Diffuse{desk.albedo}});
-}
-
 /// Collects surfaces and bodies; bodies get their final numbers at the end, when all priorities are known.
 class Builder {
  public:
   Builder(Geometry& geometry, double wavelength_nm) : geometry_(geometry), wavelength_nm_(wavelength_nm) {}
+
+  void add_desk(const Desk& desk) {
+    GltfPart top;
+    for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+      top.mesh.add_vertex({desk.centre.x() + x * desk.size.x(), desk.centre.y() + y * desk.size.y(), 0.0});
+    top.mesh.add_triangle(0, 1, 2);
+    top.mesh.add_triangle(0, 2, 3);
+    top.albedo = desk.albedo;
+    top.coat = desk.glaze;
+    add_opaque(std::move(top), add_object(geometry_, "desk"));
+  }
 
   void add_cup(const Cup& cup, std::size_t index, bool on_desk) {
     const std::string prefix = fmt::format("cup {} ", index);
@@ -76,6 +79,7 @@ class Builder {
         if (interface->liquid) interface->liquid = rank[*interface->liquid];
       }
     forget_plain_where_bodies_meet();
+    glaze_surfaces();
   }
 
  private:
@@ -126,6 +130,30 @@ class Builder {
     return static_cast<int>(bodies_.size()) - 1;
   }
 
+  void add_opaque(GltfPart part, int object) {
+    Surface surface{object, std::move(part.mesh), Diffuse{part.albedo}};
+    if (part.coat) {
+      surface.optics = Glazed{};
+      if (!part.normals.empty()) surface.shape = VertexNormals{std::move(part.normals)};
+      coats_.push_back({geometry_.surfaces.size(), part.albedo, *part.coat});
+    }
+    geometry_.surfaces.push_back(std::move(surface));
+  }
+
+  /// Glazes know what media are in front of them, once all bodies have their numbers.
+  void glaze_surfaces() {
+    std::map<std::array<double, 4>, Glaze> glazes;
+    for (const auto& [surface, albedo, coat] : coats_) {
+      std::vector<double> outside{1.0};
+      for (const Body& body : geometry_.bodies) outside.push_back(body.medium.n);
+      std::vector<Glaze>& under = std::get<Glazed>(geometry_.surfaces[surface].optics).under;
+      for (const double n : outside)
+        under.push_back(
+            glazes.try_emplace({albedo, coat.roughness, n, coat.index}, albedo, coat.roughness, n, coat.index)
+                .first->second);
+    }
+  }
+
   /// The liquid in a clear cup from a mesh.
   struct Contents {
     const Cavity& cavity;
@@ -136,7 +164,7 @@ class Builder {
     std::map<int, int> body_of_part;
     for (GltfPart& part : parts) {
       if (!part.medium) {
-        geometry_.surfaces.push_back({object, std::move(part.mesh), Diffuse{part.albedo}});
+        add_opaque(std::move(part), object);
         continue;
       }
       const auto [known, is_new] = body_of_part.try_emplace(part.body);
@@ -210,6 +238,12 @@ class Builder {
   Geometry& geometry_;
   double wavelength_nm_;
   std::vector<RankedBody> bodies_;
+  struct CoatedSurface {
+    std::size_t surface;  ///< index into Geometry::surfaces
+    double albedo;
+    Coat coat;
+  };
+  std::vector<CoatedSurface> coats_;
 };
 
 }  // namespace
@@ -228,8 +262,8 @@ double Vessel::clearance(const Eigen::Vector3d& point) const {
 
 Geometry build_geometry(const Scene& scene, double wavelength_nm) {
   Geometry geometry;
-  if (scene.desk) add_desk(*scene.desk, geometry);
   Builder builder(geometry, wavelength_nm);
+  if (scene.desk) builder.add_desk(*scene.desk);
   for (std::size_t i = 0; i < scene.cups.size(); ++i) builder.add_cup(scene.cups[i], i, scene.desk.has_value());
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     builder.add_object_file(scene.objects[i], i, scene.desk.has_value());

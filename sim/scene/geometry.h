@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/optics/glaze.h"
 #include "sim/optics/random_walk.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene.h"
@@ -45,6 +46,11 @@ struct Diffuse {
   double albedo;
 };
 
+/// A glazed surface, by the medium in front of it: air, then Geometry::bodies in their order.
+struct Glazed {
+  std::vector<Glaze> under;
+};
+
 /// Part of the boundary of a body; the triangles face out of it.
 struct Interface {
   int body;  ///< index into Geometry::bodies
@@ -57,7 +63,7 @@ struct Interface {
 struct Surface {
   int object;  ///< index into Geometry::objects plus 1; 0 means nothing
   Mesh mesh;
-  std::variant<Diffuse, Interface> optics;
+  std::variant<Diffuse, Glazed, Interface> optics;
   SurfaceShape shape = Facets{};
 };
 

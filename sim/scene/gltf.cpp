@@ -113,14 +113,16 @@ struct Reader {
       mesh.add_triangle(corners[i], corners[i + (mirrored ? 2 : 1)], corners[i + (mirrored ? 1 : 2)]);
 
     const std::optional<Medium> medium = clear_medium(primitive.material);
+    const std::optional<Coat> coat = medium ? std::nullopt : coat_of(primitive.material);
     std::vector<Eigen::Vector3d> normals;
-    if (medium && primitive.attributes.contains("NORMAL"))
+    if ((medium || coat) && primitive.attributes.contains("NORMAL"))
       normals = scene_normals(primitive, linear, source.count, where);
     GltfPart& part = parts[{primitive.material, medium ? placed_meshes : 0, !normals.empty()}];
     part.mesh.append(mesh);
     part.normals.insert(part.normals.end(), normals.begin(), normals.end());
     part.albedo = albedo(primitive.material);
     part.medium = medium;
+    part.coat = coat;
     part.body = medium ? (placed_meshes << 16) + primitive.material : 0;
   }
 
@@ -195,6 +197,27 @@ struct Reader {
     return luminance(colour);
   }
 
+  /// Extension `name` of a material, a null value where it has none.
+  static tinygltf::Value extension_of(const tinygltf::Material& material, const char* name) {
+    const auto found = material.extensions.find(name);
+    return found == material.extensions.end() ? tinygltf::Value() : found->second;
+  }
+
+  double index_of(int material) const {
+    return number_or(extension_of(material_at(material), "KHR_materials_ior"),
+                     fmt::format("/materials/{}/extensions/KHR_materials_ior", material), "ior", 1.5, 1.0, 4.0);
+  }
+
+  std::optional<Coat> coat_of(int material) const {
+    if (material < 0) return std::nullopt;
+    const tinygltf::PbrMetallicRoughness& look = material_at(material).pbrMetallicRoughness;
+    const double roughness = look.roughnessFactor;
+    if (!(roughness >= 0.0 && roughness <= 1.0))
+      fail(fmt::format("/materials/{}/pbrMetallicRoughness/roughnessFactor", material), "must be a number from 0 to 1");
+    if (look.metallicFactor != 0.0 || roughness == 1.0) return std::nullopt;
+    return Coat{std::max(roughness * roughness, kLeastRoughness), index_of(material)};
+  }
+
   /// A number of an extension or of extras, or `otherwise`.
   double number_or(const tinygltf::Value& object, const std::string& where, const char* key, double otherwise,
                    double low, double high) const {
@@ -211,23 +234,19 @@ struct Reader {
     if (material < 0) return std::nullopt;
     const tinygltf::Material& source = material_at(material);
     const std::string where = fmt::format("/materials/{}", material), extensions = where + "/extensions/";
-    const auto extension = [&](const char* name) {
-      const auto found = source.extensions.find(name);
-      return found == source.extensions.end() ? tinygltf::Value() : found->second;
-    };
-    if (number_or(extension("KHR_materials_transmission"), extensions + "KHR_materials_transmission",
+    if (number_or(extension_of(source, "KHR_materials_transmission"), extensions + "KHR_materials_transmission",
                   "transmissionFactor", 0.0, 0.0, 1.0) == 0.0)
       return std::nullopt;
     Medium medium;
     medium.name = source.name.empty() ? "clear body" : source.name;
-    medium.index = ConstantIndex{
-        number_or(extension("KHR_materials_ior"), extensions + "KHR_materials_ior", "ior", 1.5, 1.0, 4.0)};
+    medium.index = ConstantIndex{index_of(material)};
     constexpr double kMost = 1e9;
     const std::string extras = where + "/extras";
-    medium.absorption = per_metre_from_per_mm(number_or(
-        source.extras, extras, "absorption_per_mm",
-        volume_absorption(extension("KHR_materials_volume"), extensions + "KHR_materials_volume") * kMetresPerMm, 0.0,
-        kMost));
+    medium.absorption = per_metre_from_per_mm(
+        number_or(source.extras, extras, "absorption_per_mm",
+                  volume_absorption(extension_of(source, "KHR_materials_volume"), extensions + "KHR_materials_volume") *
+                      kMetresPerMm,
+                  0.0, kMost));
     medium.scattering = per_metre_from_per_mm(number_or(source.extras, extras, "scattering_per_mm", 0.0, 0.0, kMost));
     medium.anisotropy = number_or(source.extras, extras, "anisotropy", 0.0, -0.999, 0.999);
     return medium;

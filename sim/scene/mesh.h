@@ -28,4 +28,7 @@ struct Mesh {
   }
 };
 
+/// Unit normals at the vertices, those of the triangles around each weighed by their areas: of a smooth mesh.
+std::vector<Eigen::Vector3d> vertex_normals(const Mesh& mesh);
+
 }  // namespace fathom

@@ -17,9 +17,10 @@ namespace {
 constexpr Range kAlbedo{0.0, 1.0};
 
 Desk desk_from_json(const JsonReader& json) {
-  json.allow_only({"albedo", "size_mm", "centre_mm"});
+  json.allow_only({"albedo", "glaze", "size_mm", "centre_mm"});
   Desk desk;
   desk.albedo = json.number_or("albedo", desk.albedo, kAlbedo);
+  desk.glaze = glaze_from_json(json);
   if (json.has("size_mm")) desk.size = json.at("size_mm").vector2() * kMetresPerMm;
   if (json.has("centre_mm")) desk.centre = json.at("centre_mm").vector2() * kMetresPerMm;
   if (desk.size.minCoeff() <= 0.0) json.fail_at("size_mm", "must be two lengths above 0");
@@ -160,6 +161,15 @@ CupShape cup_shape_from_json(const JsonReader& json) {
   CupShape shape = shape_from_object(JsonReader(text, file.string()));
   shape.name = name;
   return shape;
+}
+
+std::optional<Coat> glaze_from_json(const JsonReader& json) {
+  if (!json.has("glaze")) return std::nullopt;
+  const JsonReader glaze = json.at("glaze");
+  glaze.allow_only({"roughness", "index"});
+  Coat coat{glaze.number("roughness", {kLeastRoughness, 1.0})};
+  coat.index = glaze.number_or("index", coat.index, {1.0, 4.0});
+  return coat;
 }
 
 Scene scene_from_json(const JsonReader& json) {

@@ -20,6 +20,7 @@ namespace fathom {
 
 struct Desk {
   double albedo = 0.55;
+  std::optional<Coat> glaze;
   Eigen::Vector2d size{1.4, 1.0};    ///< along x and y
   Eigen::Vector2d centre{0.0, 0.5};  ///< so that the near edge stands under the sensor
 };
@@ -38,6 +39,7 @@ struct CupShape {
   std::vector<Eigen::Vector2d> inner;  ///< from the inner bottom's centre to the rim
   std::vector<Eigen::Vector2d> outer;  ///< from the underside's centre to the rim
   double albedo = 0.70;
+  std::optional<Coat> glaze;       ///< of an opaque wall
   std::optional<Medium> material;  ///< of a clear wall, which refracts; without one the wall is opaque
   std::optional<Handle> handle;
   std::string source;
@@ -114,6 +116,8 @@ struct Scene {
 Scene scene_from_json(const JsonReader& json);
 Cup cup_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
+/// The member glaze of a desk or a cup; nothing without it.
+std::optional<Coat> glaze_from_json(const JsonReader& json);
 /// The member rotation_deg: angles about the world's fixed axes x, then y, then z; none without it.
 Eigen::Quaterniond rotation_from_json(const JsonReader& json);
 /// Whether a file's name ends as a glTF file's.

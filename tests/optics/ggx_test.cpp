@@ -201,6 +201,30 @@ TEST(Glaze, AWhiteBaseGivesBackAllLight) {
   }
 }
 
+TEST(Glaze, IsSampledAsItReflects) {
+  // The mean of a sample's weight times a function of its direction is the integral of the function over the BRDF.
+  Rng rng(25);
+  const Glaze glaze(0.8, 0.3, 1.33, kCoat);
+  const auto above = [](const Eigen::Vector3d& to) { return to.x() > 0.3 ? to.z() : 0.0; };
+  for (const double polar_deg : {0.0, 45.0, 70.0}) {
+    const Eigen::Vector3d from = direction(polar_deg, 180.0);
+    constexpr int kDraws = 100'000;
+    double all = 0.0, sum = 0.0, squares = 0.0, all_squares = 0.0;
+    for (int i = 0; i < kDraws; ++i) {
+      const auto sample = glaze.sample(from, rng);
+      const double weight = sample ? sample->weight : 0.0, one = sample ? weight * above(sample->to) : 0.0;
+      all += weight, all_squares += weight * weight;
+      sum += one, squares += one * one;
+    }
+    const auto error = [](double s, double q) { return std::sqrt((q / kDraws - s * s / kDraws / kDraws) / kDraws); };
+    EXPECT_NEAR(all / kDraws, glaze.albedo(from.z()), 4.0 * error(all, all_squares));  // 4 SE, as above
+    const double expected =
+        over_hemisphere([&](const auto& to) { return glaze.reflection(from, to) * to.z() * above(to); });
+    EXPECT_NEAR(sum / kDraws, expected, 4.0 * error(sum, squares)) << polar_deg;
+    EXPECT_LT(error(sum, squares), 0.01 * expected);
+  }
+}
+
 TEST(Glaze, IsReciprocalAndItsAlbedoIsSaundersons) {
   const Glaze smooth(0.8, 0.0, kAir, kCoat), rough(0.8, 0.3, kAir, kCoat);
   const Eigen::Vector3d a = direction(20.0, 10.0), b = direction(65.0, 200.0);

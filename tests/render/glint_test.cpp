@@ -58,6 +58,42 @@ TEST(Glint, OfAPlaneIsThePlanesMirrorImage) {
   }
 }
 
+TEST(Glint, OfAGlassPlateBothFacesHave) {
+  // The bottom of an empty glass cup on nothing.
+  constexpr double kGlass = 1.51, kThick = 0.007, kHeight = 0.5;
+  auto setup = cup_of(R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43,
+                           "material": {"index": 1.51}})",
+                      "");
+  setup.scene.desk.reset();
+  const Geometry geometry = build_geometry(setup.scene, 830.0);
+  const Intersector world(geometry);
+  const Eigen::Vector3d light(0.03, 0.300, kThick + kHeight), eye(-0.03, 0.300, kThick + kHeight);
+  const std::vector<Connection> glints = find_glints(world, {light, 0}, eye);
+  const double across = (light - eye).norm();
+  for (const double inside : {0.0, 2.0 * kThick}) {
+    // By bisection, how steeply light starts that gets across on its way of so much height in air and glass.
+    double low = 0.0, high = 1.0;
+    const auto in_glass = [](double angle) { return std::asin(std::sin(angle) / kGlass); };
+    const auto reach = [&](double angle) {
+      return 2.0 * kHeight * std::tan(angle) + inside * std::tan(in_glass(angle));
+    };
+    for (int i = 0; i < 60; ++i) (reach(0.5 * (low + high)) < across ? low : high) = 0.5 * (low + high);
+    const double slope = 2.0 * kHeight / std::pow(std::cos(low), 2.0) +
+                         inside * std::cos(low) / (kGlass * std::pow(std::cos(in_glass(low)), 3.0));
+    const double spreading = std::sin(low) / (across * slope * std::cos(low));  // sin θ dθ dφ over cos θ r dr dφ
+    const double mirrored = fresnel_reflectance(std::cos(low), 1.0, kGlass);
+    const double through = inside > 0.0 ? (1.0 - mirrored) * (1.0 - mirrored) : 1.0;
+    const Eigen::Vector3d direction(-std::sin(low), 0.0, -std::cos(low));
+    const auto found = std::find_if(glints.begin(), glints.end(), [&](const Connection& way) {
+      return (way.direction - direction).norm() < 1e-9;  // 1e-10 m from 1 m away
+    });
+    ASSERT_NE(found, glints.end()) << inside;
+    EXPECT_EQ(found->crossings, inside > 0.0 ? 3 : 1);
+    EXPECT_NEAR(found->spreading / spreading, 1.0, 1e-8);
+    EXPECT_NEAR(found->transmittance / (mirrored * through), 1.0, 1e-8);
+  }
+}
+
 TEST(Glint, IsTheSameFromTheOtherEnd) {
   // Of wavy surfaces several. The ways are searched for from either end, by other rays.
   const Eigen::Vector3d light(0.0375, 0.28, 0.650), eye(-0.0375, 0.28, 0.650);

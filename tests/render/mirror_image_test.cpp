@@ -63,17 +63,7 @@ struct Oven {
 
   static Geometry with_room(const Scene& scene) {
     Geometry geometry = build_geometry(scene, 830.0);
-    Mesh room;
-    for (const double z : {-0.5, 2.0})
-      for (const double y : {-2.0, 2.0})
-        for (const double x : {-2.0, 2.0}) room.add_vertex({x, y, z});
-    for (const auto& [a, b, c, d] :
-         {std::array{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}) {
-      room.add_triangle(a, b, c);
-      room.add_triangle(a, c, d);
-    }
-    geometry.objects.push_back("room");
-    geometry.surfaces.push_back({static_cast<int>(geometry.objects.size()), std::move(room), Diffuse{1.0}});
+    add_room(geometry);
     return geometry;
   }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,19 @@ struct LitScene {
   Intersector world;
   PointLight projector;
 };
+
+/// Closes a scene with the walls of a black room, its last object, so that every ray ends.
+inline void add_room(Geometry& geometry) {
+  Mesh room;
+  for (const double z : {-0.5, 2.0})
+    for (const double y : {-2.0, 2.0})
+      for (const double x : {-2.0, 2.0}) room.add_vertex({x, y, z});
+  constexpr std::array<std::array<int, 4>, 6> kSides{
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  for (const auto& [a, b, c, d] : kSides) room.add_triangle(a, b, c), room.add_triangle(a, c, d);
+  geometry.objects.push_back("room");
+  geometry.surfaces.push_back({static_cast<int>(geometry.objects.size()), std::move(room), Diffuse{0.0}});
+}
 
 /// A packet of one.
 inline Packet<SeenPoint> alone(const SeenPoint& seen) {

@@ -76,6 +76,25 @@ TEST(Gltf, AMeshWithoutIndicesIsReadInOrder) {
   EXPECT_EQ(read(json)[0].mesh.triangles.at(0), Eigen::Vector3i(0, 1, 2));
 }
 
+TEST(Gltf, ASmoothDielectricHasACoat) {
+  EXPECT_FALSE(read(triangle())[0].coat);
+  Json json = triangle();
+  Json& look = json["materials"][0]["pbrMetallicRoughness"];
+  look["roughnessFactor"] = 0.5;
+  EXPECT_FALSE(read(json)[0].coat) << "without metallicFactor it is a metal";
+  look["metallicFactor"] = 0;
+  ASSERT_TRUE(read(json)[0].coat);
+  EXPECT_EQ(read(json)[0].coat->roughness, 0.25);
+  EXPECT_EQ(read(json)[0].coat->index, 1.5);
+  look["roughnessFactor"] = 0.01;
+  EXPECT_EQ(read(json)[0].coat->roughness, kLeastRoughness);
+  look["roughnessFactor"] = 1;
+  EXPECT_FALSE(read(json)[0].coat);
+  look["roughnessFactor"] = 2;
+  expect_error([&] { read(json); },
+               {"/materials/0/pbrMetallicRoughness/roughnessFactor: must be a number from 0 to 1"});
+}
+
 Json clear_triangle() {
   Json json = triangle();
   json["materials"][0] = Json::parse(R"({"name": "water", "extensions": {

@@ -1,6 +1,7 @@
 // Scene files: what is written is what stands there, and anything else is refused by name.
 #include "sim/scene/scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -205,6 +206,42 @@ TEST(ClearWall, HasNoAlbedoNoHandleAndDoesNotScatter) {
   expect_error(with(R"("material": "pmma", "handle": {})"), {"/cups/0/shape/handle: cannot stand beside material"});
   expect_error(with(R"("material": "glass")"), {"unknown wall material 'glass'", "soda_lime"});
   expect_error(with(R"("material": {"index": 1.5, "scattering_per_mm": 1})"), {"/cups/0/shape/material: scatters"});
+}
+
+TEST(Glaze, IsForOpaqueCupsOfRevolutionAndNotTooSmooth) {
+  const auto with = [](const char* shape, const char* glaze) {
+    return [=] {
+      changed("/cups/0", fmt::format(R"({{"shape": {}, "position_mm": [0, 400], "glaze": {}}})", shape, glaze).c_str());
+    };
+  };
+  with(R"("mug")", R"({"roughness": 0.1})")();
+  expect_error(with(R"("mug")", "{}"), {"/cups/0/glaze/roughness"});
+  expect_error(with(R"("mug")", R"({"roughness": 0.01})"),
+               {"/cups/0/glaze/roughness: must be a number from 0.02 to 1"});
+  expect_error(with(R"("mug")", R"({"roughness": 0.1, "index": 0.9})"),
+               {"/cups/0/glaze/index: must be a number from 1"});
+  expect_error(with(R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43,
+                        "material": "soda_lime"})",
+                    R"({"roughness": 0.1})"),
+               {"/cups/0/glaze: is for opaque walls"});
+}
+
+TEST(Geometry, AGlazeKnowsEveryMediumThatMayBeOverIt) {
+  auto setup = changed("/objects", "[]");
+  std::get<CupShape>(setup.scene.cups[0].shape).glaze = Coat{0.1, 1.5};
+  const Geometry geometry = build_geometry(setup.scene, 830.0);
+  ASSERT_EQ(geometry.bodies.size(), 1u);
+  int glazed_surfaces = 0;
+  for (const Surface& surface : geometry.surfaces)
+    if (const auto* glazed = std::get_if<Glazed>(&surface.optics)) {
+      ++glazed_surfaces;
+      ASSERT_EQ(glazed->under.size(), 2u);
+      // The nearer the indices, the less the surface reflects: Fresnel's 4 % at normal incidence in air, 0.4 % in
+      // water.
+      EXPECT_NEAR(glazed->under[0].surface_reflectance(1.0), 0.04, 0.001);
+      EXPECT_NEAR(glazed->under[1].surface_reflectance(1.0), 0.0037, 0.0003);
+    }
+  EXPECT_GT(glazed_surfaces, 2);
 }
 
 TEST(Geometry, WallsWinOverGltfBodiesOverLiquids) {

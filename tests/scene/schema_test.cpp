@@ -18,9 +18,9 @@ Json schema() { return read_json(std::filesystem::path(FATHOM_SCENES) / "schema.
 Json full_scene() {
   return Json::parse(R"({
     "sensor": {"height_mm": 650, "pitch_deg": 60, "noise": {}, "pattern": {}, "matcher": {}},
-    "desk": {},
+    "desk": {"glaze": {"roughness": 0.5}},
     "cups": [{"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33, "handle": {}},
-              "position_mm": [0, 400], "fill_mm": 20,
+              "position_mm": [0, 400], "fill_mm": 20, "glaze": {"roughness": 0.1, "index": 1.5},
               "liquid": {"index": {"sellmeier_a": [0.75], "sellmeier_b_um2": [0.01], "range_nm": [400, 900]}, "ranges": {}},
               "surface": {"ripples": [{"wavelength_mm": 10, "amplitude_mm": 0.1}]}},
              {"shape": "mug", "position_mm": [200, 400], "fill_mm": 20, "liquid": {"name": "water"}},
@@ -67,7 +67,9 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
       {"/sensor/pattern", "/$defs/pattern"},
       {"/sensor/matcher", "/$defs/matcher"},
       {"/desk", "/$defs/desk"},
+      {"/desk/glaze", "/$defs/glaze"},
       {"/cups/0", "/$defs/cup"},
+      {"/cups/0/glaze", "/$defs/glaze"},
       {"/cups/0/shape", "/$defs/shape"},
       {"/cups/0/shape/handle", "/$defs/handle"},
       {"/cups/0/liquid", "/$defs/liquid"},

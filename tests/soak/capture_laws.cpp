@@ -49,13 +49,15 @@ double most_intensity(const SensorModel& sensor) {
 
 /// Upper bound of every pixel's radiance [DN]: white, facing the projector, as near as the nearest surface. Going into
 /// a denser medium through a level surface light only spreads, and its intensity along the ray falls; any other surface
-/// may focus it. Speckle has no bound, and light by several ways adds up.
+/// may focus it, and a glaze's highlight is brighter than white. Speckle has no bound, and light by several ways adds
+/// up.
 std::optional<double> most_radiance(const Rig& rig, const Geometry& geometry, LightModel light) {
   if (rig.sensor.noise.speckle_shape > 0.0 || light == LightModel::full) return std::nullopt;
   for (const Body& body : geometry.bodies)
     if (!body.plain) return std::nullopt;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Surface& surface : geometry.surfaces) {
+    if (std::holds_alternative<Glazed>(surface.optics)) return std::nullopt;
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : surface.mesh.vertices) box.extend(vertex);
     nearest = std::min(nearest, box.exteriorDistance(rig.projector_in_world()));

@@ -175,6 +175,8 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
   const Json shape = draw.chance(0.1) ? Json(draw.one_of(library_names("cups"))) : random_shape(draw);
   Json cup = {{"shape", shape}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.3)) cup["yaw_deg"] = draw.from(-360.0, 360.0);
+  if (!shape.contains("material") && draw.chance(0.2))
+    cup["glaze"] = {{"roughness", draw.scale(kLeastRoughness, 1.0)}, {"index", draw.from(1.0, 2.0)}};
   if (draw.chance(0.2)) return cup;
   cup["liquid"] = random_liquid(draw);
   const CupShape read = cup_shape_from_json(JsonReader(cup["shape"], "soak"));
