@@ -1,6 +1,8 @@
 // The rise of a liquid at an upright wall: the exact Young–Laplace profile of two dimensions.
 #pragma once
 
+#include <vector>
+
 namespace fathom {
 
 /// z'' / (1 + z'²)^{3/2} = z / l_c², z → 0 far from the wall. With s = z / (2 l_c) = sin(φ/2), φ the surface's slope
@@ -24,9 +26,13 @@ class Meniscus {
   double rise() const { return at(0.0).height; }
 
  private:
-  double sign_;              ///< +1 up, −1 down, 0 level
-  double capillary_length_;  ///< [m]
-  double u_wall_;            ///< acosh(1/s) at the wall
+  /// u = acosh(1/s) at x, in units of the capillary length; x as in the law above, its constant 0.
+  double parameter_at(double x) const;
+
+  double sign_;                         ///< +1 up, −1 down, 0 level
+  double capillary_length_;             ///< [m]
+  double u_wall_ = 0.0, x_wall_ = 0.0;  ///< at the wall
+  std::vector<double> u_;               ///< from the wall outward
 };
 
 }  // namespace fathom

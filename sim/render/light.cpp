@@ -54,13 +54,17 @@ std::optional<OpenWay> through_level(const Source& source, const Receiver& recei
                  bend};
 }
 
-/// Whether a way of the same kind has been found near where a candidate leads.
-bool known(const std::vector<Connection>& found, const Fan::Candidate& candidate) {
-  return std::any_of(found.begin(), found.end(), [&](const Connection& way) {
-    return way.crossings == candidate.seed->crossings && way.turned_over == candidate.turned_over &&
-           (way.direction - candidate.direction).norm() < 2.0 * candidate.seed->spacing;
-  });
-}
+/// Where a shot led, or seemed to lead when it failed. Neighbouring seeds would lead to the same place.
+struct Tried {
+  int crossings;
+  bool turned_over;
+  Eigen::Vector3d direction;
+
+  bool covers(const Fan::Candidate& candidate) const {
+    return crossings == candidate.seed->crossings && turned_over == candidate.turned_over &&
+           (direction - candidate.direction).norm() < 2.0 * candidate.seed->spacing;
+  }
+};
 
 }  // namespace
 
@@ -164,13 +168,19 @@ void PointLight::connect_mirrored_each(const Receiver& receiver,
 
 void PointLight::connect_from(const Fan& fan, Event first, const Receiver& receiver,
                               std::vector<Connection>& found) const {
-  constexpr int kMostShots = 8;  // where light is scarce most candidates lead nowhere
-  int shots = 0;
+  constexpr std::size_t kMostShots = 8;  // where light is scarce most candidates lead nowhere
+  std::vector<Tried> tried;
   for (const Fan::Candidate& candidate : fan.near(receiver.point, receiver.around)) {
-    if (from_behind(receiver, candidate.seed->pencil.direction) || known(found, candidate)) continue;
-    if (++shots > kMostShots) break;
+    const bool covered =
+        std::any_of(tried.begin(), tried.end(), [&](const Tried& other) { return other.covers(candidate); });
+    if (covered || from_behind(receiver, candidate.seed->pencil.direction)) continue;
+    if (tried.size() == kMostShots) break;
     const auto way = shoot(world_, source_, receiver.point, receiver.around, candidate.seed->direction,
                            candidate.seed->crossings, first == Event::reflect ? 0 : kNoMirror);
+    if (way)
+      tried.push_back({way->crossings, way->turned_over, way->direction});
+    else
+      tried.push_back({candidate.seed->crossings, candidate.turned_over, candidate.direction});
     if (way && !from_behind(receiver, way->arrival)) add_new(found, way);
   }
 }

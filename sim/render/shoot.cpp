@@ -52,6 +52,7 @@ struct Aim {
   std::optional<Trial> solve(const Eigen::Vector3d& start) const {
     constexpr double kExact = 1e-13, kGood = 1e-10;  // [m] roundings of about 1 m; what is accepted when stuck above
     constexpr double kLongestStep = 0.05;            // [rad]
+    constexpr int kMostHalvings = 5;
     std::optional<Trial> best = trial(start);
     for (int iteration = 0; best && iteration < 30 && best->miss() > kExact; ++iteration) {
       const Eigen::Vector3d direction = direction_of(*best);
@@ -60,7 +61,8 @@ struct Aim {
       if (!step.allFinite()) return std::nullopt;
       step *= std::min(1.0, kLongestStep / step.norm());
       std::optional<Trial> next;
-      for (int halving = 0; halving < 8; ++halving, step *= 0.5) {
+      const int most_halvings = best->miss() > kGood ? kMostHalvings : 0;
+      for (int halving = 0; halving <= most_halvings; ++halving, step *= 0.5) {
         next = trial((direction + basis * step).normalized());
         if (next && next->miss() < best->miss()) break;
         next.reset();
