@@ -59,10 +59,11 @@ struct Tried {
   int crossings;
   bool turned_over;
   Eigen::Vector3d direction;
+  double around;  ///< how far [rad]
 
   bool covers(const Fan::Candidate& candidate) const {
     return crossings == candidate.seed->crossings && turned_over == candidate.turned_over &&
-           (direction - candidate.direction).norm() < 2.0 * candidate.seed->spacing;
+           (direction - candidate.direction).norm() < around;
   }
 };
 
@@ -178,9 +179,10 @@ void PointLight::connect_from(const Fan& fan, Event first, const Receiver& recei
     const auto way = shoot(world_, source_, receiver.point, receiver.around, candidate.seed->direction,
                            candidate.seed->crossings, first == Event::reflect ? 0 : kNoMirror);
     if (way)
-      tried.push_back({way->crossings, way->turned_over, way->direction});
+      tried.push_back({way->crossings, way->turned_over, way->direction, 2.0 * candidate.seed->spacing});
     else
-      tried.push_back({candidate.seed->crossings, candidate.turned_over, candidate.direction});
+      tried.push_back(
+          {candidate.seed->crossings, candidate.turned_over, candidate.direction, 0.5 * candidate.seed->spacing});
     if (way && !from_behind(receiver, way->arrival)) add_new(found, way);
   }
 }

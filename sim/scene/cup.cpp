@@ -85,8 +85,8 @@ double depth_of_volume(const Cup& cup, double wanted) {
 }
 
 double liquid_level(const Cup& cup) {
-  constexpr double kBelowRim = 1e-5;  // [m] so that a clear cup's rim and the liquid share no plane
-  const double depth = is_clear(cup) ? std::min(cup.filling->depth, cup_depth(cup) - kBelowRim) : cup.filling->depth;
+  constexpr double kBelowRim = 1e-5;  // [m] so that rim and liquid share no plane
+  const double depth = std::min(cup.filling->depth, cup_depth(cup) - kBelowRim);
   return std::visit([&](const auto& shape) { return floor_of(shape) + depth; }, cup.shape);
 }
 

@@ -31,7 +31,7 @@ double cup_volume(const Cup& cup, double depth);
 /// The depth [m] at which a cup holds `volume` [m³], from 0 to its capacity; see Cavity::level_of.
 double depth_of_volume(const Cup& cup, double volume);
 
-/// Height [m] of the liquid's surface above the desk, in a brimful clear cup 10 µm lower, and the surface itself in the
+/// Height [m] of the liquid's surface above the desk, in a brimful cup 10 µm lower, and the surface itself in the
 /// world, drawn half-way into the wall. The cup must have a filling.
 double liquid_level(const Cup& cup);
 Mesh liquid_surface(const Cup& cup);
