@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/files.h"
 #include "core/rng.h"
 #include "core/units.h"
 #include "sim/scene/library.h"
 #include "tests/render/gltf_slab.h"
+#include "tests/render/gltf_tumbler.h"
 #include "tests/scene/vessels.h"
 #include "tests/scene/write_gltf.h"
 
@@ -190,12 +192,23 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
   return cup;
 }
 
-/// A cup that is a single sheet of triangles in a glTF file: a small one, for its cavity is searched in voxels of half
-/// a millimetre.
+/// A cup from a glTF file, a single opaque sheet or a clear wall: a small one, for its cavity is searched in voxels of
+/// half a millimetre.
 Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::filesystem::path& folder) {
   const double bottom = draw.from(0.006, 0.012), rim = bottom + draw.from(0.0, 0.006), height = draw.from(0.015, 0.04);
-  write_gltf(folder / "cup.gltf", sheet_of_revolution({{0.0, 0.0}, {bottom, 0.0}, {rim, height}}), draw.from(0.0, 1.0));
-  Json cup = {{"shape", "cup.gltf"}, {"position_mm", {position_mm.x(), position_mm.y()}}};
+  make_directory(folder / "cup");
+  if (draw.chance(0.5)) {
+    const double wall = draw.from(0.0005, 0.004);
+    CupShape shape;
+    shape.inner = {{0.0, wall}, {bottom, wall}, {rim, height}};
+    shape.outer = {{0.0, 0.0}, {bottom + wall, 0.0}, {rim + wall, height}};
+    write_tumbler(folder / "cup", shape, draw.from(1.0, 2.0), draw.scale(1e-4, 0.1),
+                  draw.chance(0.5) ? Shading::flat : Shading::smooth);
+  } else {
+    write_gltf(folder / "cup/body.gltf", sheet_of_revolution({{0.0, 0.0}, {bottom, 0.0}, {rim, height}}),
+               draw.from(0.0, 1.0));
+  }
+  Json cup = {{"shape", "cup/body.gltf"}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.5)) cup["rotation_deg"] = {draw.from(-15.0, 15.0), draw.from(-15.0, 15.0), 0.0};
   if (draw.chance(0.8)) {
     cup["liquid"] = random_liquid(draw);
