@@ -129,16 +129,19 @@ Json random_shape(Draw& draw) {
   return shape;
 }
 
-Json random_liquid(Draw& draw) {
-  if (draw.chance(0.4)) return draw.one_of(library_names("media"));
-  if (draw.chance(0.2))
+/// In full light a thin one: walks in a turbid liquid that is not level join every place that they come to to the
+/// projector, which takes minutes.
+Json random_liquid(Draw& draw, LightModel light) {
+  const double most = light == LightModel::full ? 0.01 : 1.0;
+  if (light == LightModel::direct && draw.chance(0.4)) return draw.one_of(library_names("media"));
+  if (draw.chance(0.3))
     return {{"name", draw.one_of(library_names("media"))},
             {"temperature_c", draw.from(0.0, 100.0)},
-            {"dilution", draw.scale(1e-3, 1.0)}};
+            {"dilution", draw.scale(1e-3 * most, most)}};
   Json liquid = {{"index", draw.chance(0.1) ? 1.0 : draw.from(1.0, 2.0)}};
   if (draw.chance(0.7)) liquid["absorption_per_mm"] = draw.scale(1e-4, 1.0);
   if (draw.chance(0.4)) {
-    liquid["scattering_per_mm"] = draw.scale(1e-3, 10.0);
+    liquid["scattering_per_mm"] = draw.scale(1e-3, 10.0 * most);
     liquid["anisotropy"] = draw.from(-0.95, 0.99);
   }
   return liquid;
@@ -172,12 +175,12 @@ Json random_surface(Draw& draw, double depth_mm, double headroom_mm, double radi
 }
 
 /// A cup of revolution, named or described, filled or not.
-Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
+Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm, LightModel light) {
   const Json shape = draw.chance(0.1) ? Json(draw.one_of(library_names("cups"))) : random_shape(draw);
   Json cup = {{"shape", shape}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.3)) cup["yaw_deg"] = draw.from(-360.0, 360.0);
   if (draw.chance(0.2)) return cup;
-  cup["liquid"] = random_liquid(draw);
+  cup["liquid"] = random_liquid(draw, light);
   const CupShape read = cup_shape_from_json(JsonReader(cup["shape"], "soak"));
   const double room_mm = mm_from_metres(read.height() - read.bottom());
   const double depth_mm = draw.chance(0.05) ? room_mm : room_mm * draw.from(0.02, 0.99);
@@ -194,7 +197,8 @@ Json random_cup(Draw& draw, const Eigen::Vector2d& position_mm) {
 
 /// A cup from a glTF file, a single opaque sheet or a clear wall: a small one, for its cavity is searched in voxels of
 /// half a millimetre.
-Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::filesystem::path& folder) {
+Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, LightModel light,
+                     const std::filesystem::path& folder) {
   const double bottom = draw.from(0.006, 0.012), rim = bottom + draw.from(0.0, 0.006), height = draw.from(0.015, 0.04);
   make_directory(folder / "cup");
   if (draw.chance(0.5)) {
@@ -211,7 +215,7 @@ Json random_gltf_cup(Draw& draw, const Eigen::Vector2d& position_mm, const std::
   Json cup = {{"shape", "cup/body.gltf"}, {"position_mm", {position_mm.x(), position_mm.y()}}};
   if (draw.chance(0.5)) cup["rotation_deg"] = {draw.from(-15.0, 15.0), draw.from(-15.0, 15.0), 0.0};
   if (draw.chance(0.8)) {
-    cup["liquid"] = random_liquid(draw);
+    cup["liquid"] = random_liquid(draw, light);
     cup["fill_mm"] = mm_from_metres(height) * draw.from(0.05, 0.6);
   }
   return cup;
@@ -250,9 +254,9 @@ Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::fil
     scene["desk"] = {{"albedo", draw.from(0.0, 1.0)},
                      {"size_mm", {draw.from(100.0, 3000.0), draw.from(100.0, 3000.0)}}};
   scene["cups"] = Json::array();
-  if (draw.chance(0.95)) scene["cups"].push_back(random_cup(draw, middle_mm));
-  while (draw.chance(0.12)) scene["cups"].push_back(random_cup(draw, nearby(150.0)));
-  if (draw.chance(0.01)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), folder));
+  if (draw.chance(0.95)) scene["cups"].push_back(random_cup(draw, middle_mm, shot.light));
+  while (draw.chance(0.12)) scene["cups"].push_back(random_cup(draw, nearby(150.0), shot.light));
+  if (draw.chance(0.01)) scene["cups"].push_back(random_gltf_cup(draw, nearby(100.0), shot.light, folder));
   if (draw.chance(0.1)) scene["objects"] = Json::array({random_object(draw, nearby(80.0), folder)});
   write_json(folder / "scene.json", scene);
   return shot;
