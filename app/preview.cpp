@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace fathom {
 namespace {
@@ -40,9 +42,18 @@ Rgb error_colour(double error_m) {
   return along(kColours, 0.5 + 0.5 * error_m / kFullScale);
 }
 
-struct DepthRange {
-  double near = 1e9, far = 0.0;
-  double share(double depth) const { return far > near ? (depth - near) / (far - near) : 0.0; }
+/// Without the thousandth at either end: pixels that look along an edge or into a glint would leave one colour to the
+/// rest.
+struct Scale {
+  double low = 0.0, high = 0.0;
+
+  explicit Scale(std::vector<double> values) {
+    if (values.empty()) return;
+    std::sort(values.begin(), values.end());
+    const std::size_t cut = values.size() / 1000;
+    low = values[cut], high = values[values.size() - 1 - cut];
+  }
+  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.0; }
 };
 
 constexpr Rgb kNoDepth{0, 0, 0};
@@ -52,24 +63,23 @@ constexpr Rgb kNotExpected{96, 96, 96};
 
 Image<Rgb> preview(const Frame& frame, const Image<TruePixel>& truth) {
   const int width = truth.width(), height = truth.height();
-  DepthRange range;
+  std::vector<double> depths, intensities{0.0};
   for (const TruePixel& pixel : truth.pixels())
-    if (pixel.apparent_depth) {
-      range.near = std::min(range.near, *pixel.apparent_depth);
-      range.far = std::max(range.far, *pixel.apparent_depth);
-    }
-  float brightest = 1.0f;
-  for (const CloudPoint& point : frame.cloud.pixels()) brightest = std::max(brightest, point.intensity);
+    if (pixel.apparent_depth) depths.push_back(*pixel.apparent_depth);
+  for (const CloudPoint& point : frame.cloud.pixels()) intensities.push_back(point.intensity);
+  const Scale near_to_far(std::move(depths));
+  const double brightest = std::max(Scale(std::move(intensities)).high, 1.0);
 
   Image<Rgb> picture(2 * width, 2 * height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double depth = frame.depth(x, y);
       const std::optional<double>& expected = truth(x, y).apparent_depth;
-      const double grey = std::sqrt(std::max(frame.cloud(x, y).intensity, 0.0f) / brightest);  // lifts the dark parts
+      const double share = std::clamp(frame.cloud(x, y).intensity / brightest, 0.0, 1.0);
+      const double grey = std::sqrt(share);  // lifts the dark parts
       picture(x, y) = rgb({grey, grey, grey});
-      picture(width + x, y) = depth > 0.0 ? depth_colour(range.share(depth)) : kNoDepth;
-      picture(x, height + y) = expected ? depth_colour(range.share(*expected)) : kNoDepth;
+      picture(width + x, y) = depth > 0.0 ? depth_colour(near_to_far.share(depth)) : kNoDepth;
+      picture(x, height + y) = expected ? depth_colour(near_to_far.share(*expected)) : kNoDepth;
       picture(width + x, height + y) = !expected      ? kNotExpected
                                        : depth <= 0.0 ? kNoDepth
                                                       : error_colour(depth - *expected);
