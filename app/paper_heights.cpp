@@ -7,20 +7,35 @@
 #include "core/progress.h"
 #include "core/rng.h"
 #include "core/units.h"
-#include "sim/sensor/capture.h"
 
 namespace fathom {
 namespace {
 
-HeightCell measure_cell(const PaperFilling& filling, double distance_mm, CaptureMode mode, int trials,
-                        std::uint64_t seed) {
+/// Of the pixels that look through a liquid's surface, or at that of one that scatters, at what the projector lights.
+double matched_share(const Image<TruePixel>& truth, const Image<float>& depth) {
+  double lit = 0.0, matched = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const TruePixel& pixel = truth.pixels()[i];
+    if (pixel.path == PathKind::nothing || pixel.path == PathKind::direct || !pixel.apparent_depth) continue;
+    ++lit;
+    matched += depth.pixels()[i] > 0.0f;
+  }
+  return lit > 0.0 ? matched / lit : 0.0;
+}
+
+}  // namespace
+
+HeightCell measure_height(const PaperFilling& filling, double distance_mm, const HeightCapture& capture) {
   const Setup setup = paper_setup(filling, distance_mm);
   const LaboratoryRig rig = paper_rig(setup);
-  Camera camera(setup, mode, kDefaultSamplesPerPixel, seed);
+  Camera camera(setup, capture.mode, kDefaultSamplesPerPixel, capture.seed, capture.light);
+  const int trials = capture.trials;
   HeightCell cell;
   double sum = 0.0, squares = 0.0;
   for (int trial = 0; trial < trials; ++trial) {
-    const Cloud cloud = cloud_from_image(camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
+    const Frame frame = camera.shoot(static_cast<std::uint64_t>(trial));
+    cell.matched += matched_share(camera.truth(), frame.depth) / trials;
+    const Cloud cloud = cloud_from_image(frame.cloud);
     const auto found = height_in_cup(cloud, rig, {0.0, metres_from_mm(distance_mm)});
     const InteriorHeight* height = std::get_if<InteriorHeight>(&found);
     if (!height) continue;
@@ -36,8 +51,6 @@ HeightCell measure_cell(const PaperFilling& filling, double distance_mm, Capture
   return cell;
 }
 
-}  // namespace
-
 PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet) {
   PaperHeights heights;
   Progress progress("condition", kPaperFillings.size() * kPaperDistancesMm.size(), quiet);
@@ -45,9 +58,10 @@ PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet) {
     for (std::size_t d = 0; d < kPaperDistancesMm.size(); ++d) {
       const PaperFilling& filling = kPaperFillings[f];
       heights.rows[f][d] =
-          measure_cell(filling, kPaperDistancesMm[d], CaptureMode::photometric, trials, Rng(seed, f, d).bits());
+          measure_height(filling, kPaperDistancesMm[d], {.trials = trials, .seed = Rng(seed, f, d).bits()});
       if (filling.liquid == "water")
-        heights.noise_free[f][d] = measure_cell(filling, kPaperDistancesMm[d], CaptureMode::geometric, 1, seed);
+        heights.noise_free[f][d] =
+            measure_height(filling, kPaperDistancesMm[d], {.mode = CaptureMode::geometric, .seed = seed});
       progress.step();
     }
   return heights;

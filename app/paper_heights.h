@@ -1,4 +1,4 @@
-// The measurement behind Fig. 5 and Fig. 14: the height in the cup for each filling and distance.
+// The measurement behind Fig. 5 and Fig. 14: the height in the cup for a filling and a distance.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/paper_scene.h"
+#include "sim/sensor/capture.h"
 
 namespace fathom {
 
@@ -23,9 +24,10 @@ inline constexpr int kWindowPoints = 9 * 9, kPointsEnough = 2 * kWindowPoints;
 /// One bar of Fig. 5, above the desk.
 struct HeightCell {
   double mean_mm = 0.0;
-  double sd_mm = 0.0;   ///< of the shots' mean heights
-  double points = 0.0;  ///< inside the cup, on the average over all shots; those without any count as 0
-  int seen = 0;         ///< shots in which something was seen inside
+  double sd_mm = 0.0;    ///< of the shots' mean heights
+  double points = 0.0;   ///< inside the cup, on the average over all shots; those without any count as 0
+  int seen = 0;          ///< shots in which something was seen inside
+  double matched = 0.0;  ///< share of the pixels that look into the liquid, where it is lit, that are given a depth
 
   bool enough() const { return points >= kPointsEnough; }
 };
@@ -39,6 +41,16 @@ struct PaperHeights {
   std::array<HeightRow, kPaperFillings.size()> rows;
   std::array<HeightRow, kPaperFillings.size()> noise_free;  ///< of water only: geometric captures, without matching
 };
+
+/// What each cell is measured in.
+struct HeightCapture {
+  CaptureMode mode = CaptureMode::photometric;
+  LightModel light = LightModel::direct;
+  int trials = 1;  ///< shots
+  std::uint64_t seed = 1;
+};
+
+HeightCell measure_height(const PaperFilling& filling, double distance_mm, const HeightCapture& capture);
 
 PaperHeights measure_paper_heights(int trials, std::uint64_t seed, bool quiet);
 

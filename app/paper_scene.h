@@ -9,7 +9,7 @@
 namespace fathom {
 
 struct PaperFilling {
-  std::string liquid;  ///< "empty", "water", "milk_tea"
+  std::string liquid;  ///< "empty" or a name from scenes/media
   double fill_mm;
 
   std::string label() const;  ///< "milk tea 30 mm"

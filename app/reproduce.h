@@ -42,6 +42,8 @@ Figure reproduce_fig12(const ReproduceSettings& settings);  ///< the skew of the
 Figure reproduce_fig13(const ReproduceSettings& settings);  ///< Eq. 6 over the distance
 /// Eq. 7, exact and measured.
 Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& heights);
+/// Not a figure of the paper: Fig. 5 of all its liquids, of all light.
+Figure reproduce_liquids(const ReproduceSettings& settings);
 /// Not a figure of the paper: at which scattering milk tea reads as the paper says.
 Figure reproduce_scattering(const ReproduceSettings& settings);
 
