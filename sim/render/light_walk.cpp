@@ -31,19 +31,25 @@ class Connector {
   }
 
   void at_wall(const Walker& walker, const Eigen::Vector3d& normal, double albedo) {
-    const Body* body = medium_in(projector_.world().geometry(), walker.region);
-    const double n = index_of(body), factor = albedo * walker.weight / (n * n);
-    connect({walker.position, body, &normal}, [&](const Connection& way) { return -factor * normal.dot(way.arrival); });
+    at_surface(walker, normal, [&](const Connection&) { return albedo; });
   }
+
   void at_glazed_wall(const Walker& walker, const Eigen::Vector3d& normal, const Glaze& glaze) {
-    const Body* body = medium_in(projector_.world().geometry(), walker.region);
-    const double n = index_of(body), factor = walker.weight / (n * n);
-    connect({walker.position, body, &normal}, [&](const Connection& way) {
-      return -factor * reflectance_factor(glaze, normal, -way.arrival, -walker.direction) * normal.dot(way.arrival);
+    at_surface(walker, normal, [&](const Connection& way) {
+      return reflectance_factor(glaze, normal, -way.arrival, -walker.direction);
     });
   }
 
  private:
+  /// `reflectance(way)` is π · BRDF.
+  template <class Reflectance>
+  void at_surface(const Walker& walker, const Eigen::Vector3d& normal, Reflectance reflectance) {
+    const Body* body = medium_in(projector_.world().geometry(), walker.region);
+    const double n = index_of(body), factor = walker.weight / (n * n);
+    connect({walker.position, body, &normal},
+            [&](const Connection& way) { return -factor * reflectance(way) * normal.dot(way.arrival); });
+  }
+
   /// Chance with which light that a liquid mirrors is looked for: it is a few hundredths of all.
   static constexpr double kMirrored = 0.25;
 

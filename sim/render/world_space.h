@@ -23,8 +23,7 @@ class WorldSpace {
   Boundary next_boundary(const Walker& walker, double reach) const;
 
   /// Besides what random_walk() tells it, the visitor is told `at_wall(walker, normal, albedo)` or
-  /// `at_glazed_wall(walker, normal, glaze)`. Ends a walk that has
-  /// left the scene or slipped out between two triangles.
+  /// `at_glazed_wall(walker, normal, glaze)`. Ends a walk that has left the scene or slipped out between two triangles.
   template <class Visitor>
   bool meet(const Boundary& boundary, Walker& walker, Rng& rng, Visitor& visitor) const {
     if (boundary.level) {
