@@ -107,7 +107,8 @@ void Fan::send(const Intersector& world, const Source& source, Event first, cons
     // In air only surfaces receive light; in a body any place may scatter it.
     if (crossings > 0 && (medium || ends) && (std::isfinite(open) || next)) {
       const double end = ends ? open : next->hit.distance;
-      seeds_.push_back({direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings});
+      seeds_.push_back(
+          {direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings, flight.transmittance});
       too_wide = too_wide || reach(seeds_.back(), end) > kBox;
     }
     if (ends) break;
@@ -129,13 +130,15 @@ void Fan::file(std::uint32_t number) {
   for (int step = 0; step <= steps; ++step) {
     const double distance = begin + length * step / steps;
     const Eigen::Vector3d middle = seed.pencil.origin + distance * seed.pencil.direction;
+    const double strength = seed.transmittance / std::fabs(land(seed.pencil, middle).jacobian.determinant());
     const double around = std::clamp(2.0 * reach(seed, distance), 0.5 * kBox, kBox);
     const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
     for (int i = low.x(); i <= high.x(); ++i)
       for (int j = low.y(); j <= high.y(); ++j)
         for (int k = low.z(); k <= high.z(); ++k) {
-          std::vector<std::uint32_t>& seeds = filed_[box_of({i, j, k})];
-          if (seeds.empty() || seeds.back() != number) seeds.push_back(number);  // steps share most of their boxes
+          Box& box = boxes_[box_of({i, j, k})];
+          if (box.seeds.empty() || box.seeds.back() != number) box.seeds.push_back(number);  // steps share most boxes
+          box.strength = std::max(box.strength, strength);
         }
   }
 }
@@ -143,19 +146,23 @@ void Fan::file(std::uint32_t number) {
 std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body* around) const {
   constexpr double kMostSteps = 2.5;
   std::vector<Candidate> candidates;
-  const auto box = filed_.find(box_of(box_index(target)));
-  if (box == filed_.end()) return candidates;
-  for (const std::uint32_t number : box->second) {
+  const auto box = boxes_.find(box_of(box_index(target)));
+  if (box == boxes_.end()) return candidates;
+  for (const std::uint32_t number : box->second.seeds) {
     const Seed& seed = seeds_[number];
     if (seed.medium != around) continue;
+    const Eigen::Vector3d offset = target - seed.pencil.origin;
+    const double distance = offset.dot(seed.pencil.direction);
+    if (distance < seed.begin - kBeyond || distance > seed.end + kBeyond) continue;
+    const double reach_there = reach(seed, distance);
+    if (offset.squaredNorm() - distance * distance > std::pow(kMostSteps * reach_there, 2)) continue;
     const Landing landing = land(seed.pencil, target);
-    if (landing.distance < seed.begin - kBeyond || landing.distance > seed.end + kBeyond) continue;
     const double determinant = landing.jacobian.determinant();
     Eigen::Vector2d step = landing.jacobian.inverse() * landing.miss;
     double steps = step.norm() / seed.spacing;
     // Near a caustic the landing is far from linear: a small miss is as good as a short step.
     if (!(steps < kMostSteps)) {
-      if (landing.miss.norm() > 0.7 * reach(seed, landing.distance)) continue;
+      if (landing.miss.norm() > 0.7 * reach_there) continue;
       step.setZero(), steps = kMostSteps;
     }
     candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, determinant < 0.0});
@@ -164,6 +171,11 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
     return std::pair(a.steps, a.seed) < std::pair(b.steps, b.seed);
   });
   return candidates;
+}
+
+double Fan::strength_near(const Eigen::Vector3d& target) const {
+  const auto box = boxes_.find(box_of(box_index(target)));
+  return box == boxes_.end() ? 0.0 : box->second.strength;
 }
 
 }  // namespace fathom

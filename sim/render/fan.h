@@ -18,6 +18,7 @@ struct Seed {
   double spacing;             ///< [rad] from the neighbouring seeds
   const Body* medium;         ///< around the piece
   int crossings;
+  double transmittance;  ///< of power from the source to the piece's beginning
 };
 
 class Fan {
@@ -34,13 +35,20 @@ class Fan {
   /// The seeds near whose pencils `target` lies in the medium `around`, the nearest first.
   std::vector<Candidate> near(const Eigen::Vector3d& target, const Body* around) const;
 
+  /// About the most that light gets to [1/m²] in the box of 5 mm in which `target` lies: transmittance · spreading.
+  double strength_near(const Eigen::Vector3d& target) const;
+
  private:
   void send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
             double spacing, int halvings);
   void file(std::uint32_t seed);
 
+  struct Box {
+    std::vector<std::uint32_t> seeds;  ///< whose pencils touch it
+    double strength = 0.0;             ///< as strength_near()
+  };
   std::vector<Seed> seeds_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> filed_;  ///< seeds whose pencils touch a box, by box
+  std::unordered_map<std::uint64_t, Box> boxes_;
 };
 
 }  // namespace fathom

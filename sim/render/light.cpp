@@ -146,13 +146,9 @@ void PointLight::connect_exactly(std::span<const Receiver> receivers, const Visi
     if (!blocked[i]) visit(of_way[i], ways[i].connection);
 }
 
-void PointLight::connect_mirrored_each(const Receiver& receiver,
+void PointLight::connect_mirrored_each(const Receiver& receiver, Rng& rng,
                                        const std::function<void(const Connection&)>& visit) const {
   std::vector<Connection> found;
-  if (fan_) {
-    std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Event::reflect); });
-    connect_from(*mirrored_fan_, Event::reflect, receiver, found);
-  }
   for (const Mirror& mirror : mirrors_) {
     if (receiver.around) break;
     const double height = source_.position.z() - mirror.level, above = receiver.point.z() - mirror.level;
@@ -162,6 +158,15 @@ void PointLight::connect_mirrored_each(const Receiver& receiver,
     const Eigen::Vector2d meeting = source_.position.head<2>() + height / (height + above) * towards.head<2>();
     if (!mirror.area.contains(meeting)) continue;
     add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, 0));
+  }
+  const auto level_ones = static_cast<std::ptrdiff_t>(found.size());
+  if (fan_) {
+    std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Event::reflect); });
+    constexpr double kFaint = 0.1;  // beside the straight light
+    const double chance = std::min(
+        mirrored_fan_->strength_near(receiver.point) * (receiver.point - source_.position).squaredNorm() / kFaint, 1.0);
+    if (chance == 1.0 || rng.uniform() < chance) connect_from(*mirrored_fan_, Event::reflect, receiver, found);
+    std::for_each(found.begin() + level_ones, found.end(), [&](Connection& way) { way.transmittance /= chance; });
   }
   for (const Connection& way : found)
     if (!from_behind(receiver, way.arrival)) visit(way);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/rng.h"
 #include "sim/render/fan.h"
 #include "sim/render/shoot.h"
 
@@ -38,11 +39,12 @@ class PointLight {
   void connect(const Receiver& receiver, Visit&& visit) const {
     connect(std::span(&receiver, 1), [&](std::size_t, const Connection& way) { visit(way); });
   }
-  /// The same for light that a liquid's surface mirrors first. Surfaces that are not level are searched for when first
-  /// asked.
+  /// The same for light that a liquid's surface mirrors first. Where curved surfaces throw but faint light, chance
+  /// decides whether it is looked for, and its transmittance is that of all that is not. Surfaces that are not level
+  /// are searched for when first asked.
   template <class Visit>
-  void connect_mirrored(const Receiver& receiver, Visit&& visit) const {
-    connect_mirrored_each(receiver, std::ref(visit));
+  void connect_mirrored(const Receiver& receiver, Rng& rng, Visit&& visit) const {
+    connect_mirrored_each(receiver, rng, std::ref(visit));
   }
 
   const Intersector& world() const { return world_; }
@@ -54,7 +56,8 @@ class PointLight {
   void connect_each(std::span<const Receiver> receivers, const Visitor& visit) const;
   Packet<Connection> connect_straight(std::span<const Receiver> receivers) const;
   void connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const;
-  void connect_mirrored_each(const Receiver& receiver, const std::function<void(const Connection&)>& visit) const;
+  void connect_mirrored_each(const Receiver& receiver, Rng& rng,
+                             const std::function<void(const Connection&)>& visit) const;
   void connect_from(const Fan& fan, Event first, const Receiver& receiver, std::vector<Connection>& found) const;
 
   const Intersector& world_;

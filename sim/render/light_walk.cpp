@@ -60,8 +60,9 @@ class Connector {
     if (chance < 1.0 && rng_.uniform() >= chance) return;
     projector_.connect(receiver, [&](const Connection& way) { give(way, returned(way) / chance, receiver.point); });
     if (rng_.uniform() >= kMirrored) return;
-    projector_.connect_mirrored(
-        receiver, [&](const Connection& way) { give(way, returned(way) / (chance * kMirrored), receiver.point); });
+    projector_.connect_mirrored(receiver, rng_, [&](const Connection& way) {
+      give(way, returned(way) / (chance * kMirrored), receiver.point);
+    });
   }
 
   void give(const Connection& way, double factor, const Eigen::Vector3d& point) {

@@ -44,7 +44,8 @@ struct Polish {
 
   template <class Smooth>
   std::optional<SurfacePoint> operator()(const Smooth& shape) const {
-    constexpr double kReach = 5e-4;  // [m] far beyond what triangles of 0.25 mm stand off the surface, at any angle
+    constexpr double kReach = 5e-4;     // [m] far beyond what triangles of 0.25 mm stand off the surface, at any angle
+    constexpr double kLastStep = 1e-9;  // [m] after it a surface bent with a radius of 1 mm is 1e-15 m away
     double t = distance;
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Implicit at = implicit(shape, ray.origin + t * ray.direction);
@@ -52,8 +53,8 @@ struct Polish {
       const double step = at.value / slope;
       t -= step;
       if (!(std::fabs(t - distance) < kReach)) return std::nullopt;
-      if (std::fabs(step) > 1e-15) continue;
-      const Eigen::Vector3d normal = at.gradient.normalized();
+      if (std::fabs(step) > kLastStep) continue;
+      const Eigen::Vector3d normal = (at.gradient - step * (at.hessian * ray.direction)).normalized();
       return SurfacePoint{t, normal.dot(facet_normal) < 0.0 ? Eigen::Vector3d(-normal) : normal};
     }
     return std::nullopt;

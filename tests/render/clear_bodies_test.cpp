@@ -290,24 +290,5 @@ TEST(LiquidsAboveEachOther, BothBendTheLight) {
   EXPECT_GE(lit, 5);
 }
 
-TEST(Mirrored, LightComesFromTheImageBelowALevelSurface) {
-  const LitScene scene(cup_of(kPaperCup, kWater));
-  const Eigen::Vector3d source = scene.projector.position();
-  const Eigen::Vector3d image(source.x(), source.y(), 2.0 * kLevel - source.z());
-  int ghosts = 0;
-  for (int i = 0; i < 40; ++i) {
-    const Eigen::Vector2d out = direction_of(std::numbers::pi * (0.25 + 0.5 * i / 40.0));
-    const Eigen::Vector3d point = kAxis + Eigen::Vector3d(0.0399 * out.x(), 0.0399 * out.y(), kLevel + 0.020);
-    scene.projector.connect_mirrored({point, nullptr}, [&](const Connection& way) {
-      const Eigen::Vector3d path = point - image;
-      EXPECT_LT((way.arrival - path.normalized()).norm(), 1e-9);  // what shooting calls a hit, 1e-10 m, over 20 mm
-      EXPECT_NEAR(way.spreading * path.squaredNorm(), 1.0, 1e-9);
-      EXPECT_NEAR(way.transmittance, fresnel_reflectance(way.arrival.z(), 1.0, kIndex), 1e-9);
-      ++ghosts;
-    });
-  }
-  EXPECT_GT(ghosts, 20);
-}
-
 }  // namespace
 }  // namespace fathom
