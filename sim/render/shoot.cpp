@@ -44,11 +44,11 @@ struct Aim {
     }
     if (medium_in(world.geometry(), flight.inside) != around) return std::nullopt;
     result.landing = land(flight.pencil, target);
-    if (result.landing.distance <= 0.0) return std::nullopt;
     return result;
   }
 
-  /// Newton's method on the two angles, each step shortened until it brings the landing nearer.
+  /// Newton's method on the two angles, each step shortened until it brings the landing nearer. On its way to a target
+  /// close behind an interface it may land before it.
   std::optional<Trial> solve(const Eigen::Vector3d& start) const {
     constexpr double kExact = 1e-13, kGood = 1e-10;  // [m] roundings of about 1 m; what is accepted when stuck above
     constexpr double kLongestStep = 0.05;            // [rad]
@@ -70,7 +70,7 @@ struct Aim {
       if (!next) break;
       best = next;
     }
-    if (best && best->miss() > kGood) best.reset();
+    if (best && (best->miss() > kGood || best->landing.distance <= 0.0)) best.reset();
     return best;
   }
 

@@ -201,6 +201,24 @@ double to_cylinder(const Ray& ray, double radius, bool entering) {
   return (-b + (entering ? -root : root)) / a;
 }
 
+TEST(Connections, JustUnderASurfaceAreOneToEachPlace) {
+  for (const char* surface : {kTilted, kMeniscus, kRippled}) {
+    const LitScene scene(cup_of(kPaperCup, std::string(kWater) + surface));
+    Rng rng(6);
+    for (const double depth : {5e-6, 5e-5, 5e-4})
+      for (int i = 0; i < 100; ++i) {
+        Eigen::Vector3d point = bottom_point(rng, 0.036);
+        const auto top = scene.world.first_interface({point, Eigen::Vector3d::UnitZ()});
+        ASSERT_TRUE(top);
+        const Eigen::Vector3d nearer = top->point - Eigen::Vector3d(0.0, 0.001, 0.0);
+        // Not in the rim's shadow, nor on its edge, which lies a little differently under the surface.
+        if (scene.world.occluded(nearer, scene.projector.position())) continue;
+        point.z() = top->point.z() - depth;
+        EXPECT_EQ(scene.connections(point, liquid_of(scene)).size(), 1u) << surface << depth;
+      }
+  }
+}
+
 TEST(GlassCup, FromTheSideBendsAtItsWallAndAtItsBottom) {
   const LitScene scene(cup_of(kGlassCup, kWater));
   Rng rng(4);
