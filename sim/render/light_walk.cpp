@@ -73,18 +73,20 @@ class Connector {
   }
 
   /// Chance with which a place is joined to the projector: deep in a turbid liquid next to no light arrives
-  /// unscattered. Where surfaces are not level, ways are dear and the straight one has to tell how deep the place is.
+  /// unscattered.
   double worth(const Body& body, const Eigen::Vector3d& point) const {
-    if (body.plain) {
-      constexpr double kFaint = 0.01;
-      const double least_path = std::max(*body.level - point.z(), 0.0);
-      return std::clamp(transmittance(body.extinction(), least_path) / kFaint, 1e-30, 1.0);
-    }
-    constexpr double kFaint = 0.3, kLeast = 0.01;
+    constexpr double kFaint = 0.01;
     if (!body.scatters()) return 1.0;
+    const double least = body.plain ? 1e-30 : 0.01;  // light may come from another side than thought
+    return std::clamp(transmittance(body.extinction(), depth_in(body, point)) / kFaint, least, 1.0);
+  }
+
+  /// About how far [m] light goes within the body to get to a point.
+  double depth_in(const Body& body, const Eigen::Vector3d& point) const {
+    if (body.plain) return std::max(*body.level - point.z(), 0.0);
     const Eigen::Vector3d towards = (projector_.position() - point).normalized();
     const std::optional<Hit> out = projector_.world().first_interface({point, towards});
-    return out ? std::clamp(transmittance(body.extinction(), out->distance) / kFaint, kLeast, 1.0) : 1.0;
+    return out ? out->distance : 0.0;
   }
 
   const PointLight& projector_;
