@@ -84,43 +84,55 @@ Eigen::Array3i box_index(const Eigen::Vector3d& point) { return (point.array() /
 
 }  // namespace
 
-Fan::Fan(const Intersector& world, const Source& source, Event first) {
+Fan::Fan(const Intersector& world, const Source& source, Ways ways) : ways_(ways) {
   const Eigen::Vector3d axis = mean_direction(world.geometry(), source.position);
   const Grid grid{source.position, axis, perpendicular_to(axis)};
   for (const GridCell& cell : covered_cells(world.geometry(), grid))
-    send(world, source, first, grid.middle(cell), kSpacing, 0);
+    send(world, source, grid.middle(cell), kSpacing, 0);
   for (std::uint32_t seed = 0; seed < seeds_.size(); ++seed) file(seed);
 }
 
-void Fan::send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
-               double spacing, int halvings) {
+void Fan::send(const Intersector& world, const Source& source, const Eigen::Vector3d& direction, double spacing,
+               int halvings) {
   const std::size_t sent = seeds_.size();
+  const Flight flight{pencil_from(source.position, direction), source.inside, 1.0};
+  const bool too_wide = follow(world, flight, direction, spacing, 0, kNoMirror);
+  if (!too_wide || halvings == kMostHalvings) return;
+  seeds_.resize(sent);
+  const Matrix32d basis = perpendicular_to(direction);
+  for (const double a : {-0.25, 0.25})
+    for (const double b : {-0.25, 0.25})
+      send(world, source, (direction + basis * Eigen::Vector2d(a, b) * spacing).normalized(), 0.5 * spacing,
+           halvings + 1);
+}
+
+bool Fan::follow(const Intersector& world, Flight flight, const Eigen::Vector3d& direction, double spacing,
+                 int crossings, int mirror) {
   bool too_wide = false;
-  Flight flight{pencil_from(source.position, direction), source.inside, 1.0};
-  for (int crossings = 0; crossings <= kLongestChain && flight.transmittance > kFaintest; ++crossings) {
+  for (; crossings <= kLongestChain && flight.transmittance > kFaintest; ++crossings) {
     const Ray ray{flight.pencil.origin, flight.pencil.direction};
     const std::optional<Crossing> next = next_crossing(world, ray, flight.inside);
     const std::optional<Hit> opaque = world.first_opaque(ray);
     const double open = opaque ? opaque->distance : std::numeric_limits<double>::infinity();
     const bool ends = !next || open < next->hit.distance;
     const Body* medium = medium_in(world.geometry(), flight.inside);
+    const bool asked_for = ways_ == Ways::refracted ? crossings > 0 : mirror != kNoMirror;
     // In air only surfaces receive light; in a body any place may scatter it.
-    if (crossings > 0 && (medium || ends) && (std::isfinite(open) || next)) {
+    if (asked_for && (medium || ends) && (std::isfinite(open) || next)) {
       const double end = ends ? open : next->hit.distance;
-      seeds_.push_back(
-          {direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings, flight.transmittance});
+      seeds_.push_back({direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings,
+                        flight.transmittance, mirror});
       too_wide = too_wide || reach(seeds_.back(), end) > kBox;
     }
     if (ends) break;
-    pass(world, *next, crossings == 0 ? first : Event::refract, flight);
+    if (ways_ == Ways::mirrored && mirror == kNoMirror) {
+      Flight mirrored = flight;
+      const bool in_part = pass(world, *next, Event::reflect, mirrored) < 1.0;
+      if (in_part && follow(world, mirrored, direction, spacing, crossings + 1, crossings)) too_wide = true;
+    }
+    pass(world, *next, Event::refract, flight);
   }
-  if (!too_wide || halvings == kMostHalvings) return;
-  seeds_.resize(sent);
-  const Matrix32d basis = perpendicular_to(direction);
-  for (const double a : {-0.25, 0.25})
-    for (const double b : {-0.25, 0.25})
-      send(world, source, first, (direction + basis * Eigen::Vector2d(a, b) * spacing).normalized(), 0.5 * spacing,
-           halvings + 1);
+  return too_wide;
 }
 
 void Fan::file(std::uint32_t number) {

@@ -19,12 +19,15 @@ struct Seed {
   const Body* medium;         ///< around the piece
   int crossings;
   double transmittance;  ///< of power from the source to the piece's beginning
+  int mirror;            ///< number of the interface that reflected in part, or kNoMirror
 };
+
+/// Whether one of the interfaces on a way reflects in part, or none.
+enum class Ways { refracted, mirrored };
 
 class Fan {
  public:
-  /// `first` is what the first interface does.
-  Fan(const Intersector& world, const Source& source, Event first);
+  Fan(const Intersector& world, const Source& source, Ways ways);
 
   struct Candidate {
     const Seed* seed;
@@ -39,14 +42,19 @@ class Fan {
   double strength_near(const Eigen::Vector3d& target) const;
 
  private:
-  void send(const Intersector& world, const Source& source, Event first, const Eigen::Vector3d& direction,
-            double spacing, int halvings);
+  void send(const Intersector& world, const Source& source, const Eigen::Vector3d& direction, double spacing,
+            int halvings);
+  /// Adds the pieces of a flight that left in a direction and has passed `crossings` interfaces. Whether one of them is
+  /// too wide.
+  bool follow(const Intersector& world, Flight flight, const Eigen::Vector3d& direction, double spacing, int crossings,
+              int mirror);
   void file(std::uint32_t seed);
 
   struct Box {
     std::vector<std::uint32_t> seeds;  ///< whose pencils touch it
     double strength = 0.0;             ///< as strength_near()
   };
+  Ways ways_;
   std::vector<Seed> seeds_;
   std::unordered_map<std::uint64_t, Box> boxes_;
 };

@@ -56,14 +56,14 @@ std::optional<OpenWay> through_level(const Source& source, const Receiver& recei
 
 /// Where a shot led, or seemed to lead when it failed. Neighbouring seeds would lead to the same place.
 struct Tried {
-  int crossings;
+  int crossings, mirror;
   bool turned_over;
   Eigen::Vector3d direction;
   double around;  ///< how far [rad]
 
   bool covers(const Fan::Candidate& candidate) const {
-    return crossings == candidate.seed->crossings && turned_over == candidate.turned_over &&
-           (direction - candidate.direction).norm() < around;
+    return crossings == candidate.seed->crossings && mirror == candidate.seed->mirror &&
+           turned_over == candidate.turned_over && (direction - candidate.direction).norm() < around;
   }
 };
 
@@ -80,7 +80,7 @@ PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position
       mirrors_.push_back({*body.level, area});
     }
   if (world.level_liquids_only() && !source_.inside) return;
-  fan_.emplace(world, source_, Event::refract);
+  fan_.emplace(world, source_, Ways::refracted);
 }
 
 void PointLight::connect_each(std::span<const Receiver> receivers, const Visitor& visit) const {
@@ -90,7 +90,7 @@ void PointLight::connect_each(std::span<const Receiver> receivers, const Visitor
   for (std::size_t i = 0; i < receivers.size(); ++i) {
     found.clear();
     if (const Connection* way = straight_ways.find(i)) found.push_back(*way);
-    connect_from(*fan_, Event::refract, receivers[i], found);
+    connect_from(*fan_, receivers[i], found);
     for (const Connection& way : found) visit(i, way);
   }
 }
@@ -146,7 +146,7 @@ void PointLight::connect_exactly(std::span<const Receiver> receivers, const Visi
     if (!blocked[i]) visit(of_way[i], ways[i].connection);
 }
 
-void PointLight::connect_mirrored_each(const Receiver& receiver, Rng& rng,
+void PointLight::connect_mirrored_each(const Receiver& receiver, double share, Rng& rng,
                                        const std::function<void(const Connection&)>& visit) const {
   std::vector<Connection> found;
   for (const Mirror& mirror : mirrors_) {
@@ -161,19 +161,18 @@ void PointLight::connect_mirrored_each(const Receiver& receiver, Rng& rng,
   }
   const auto level_ones = static_cast<std::ptrdiff_t>(found.size());
   if (fan_) {
-    std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Event::reflect); });
+    std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Ways::mirrored); });
     constexpr double kFaint = 0.1;  // beside the straight light
-    const double chance = std::min(
-        mirrored_fan_->strength_near(receiver.point) * (receiver.point - source_.position).squaredNorm() / kFaint, 1.0);
-    if (chance == 1.0 || rng.uniform() < chance) connect_from(*mirrored_fan_, Event::reflect, receiver, found);
+    const double straight = 1.0 / (receiver.point - source_.position).squaredNorm();
+    const double chance = std::min(share * mirrored_fan_->strength_near(receiver.point) / (kFaint * straight), 1.0);
+    if (chance == 1.0 || rng.uniform() < chance) connect_from(*mirrored_fan_, receiver, found);
     std::for_each(found.begin() + level_ones, found.end(), [&](Connection& way) { way.transmittance /= chance; });
   }
   for (const Connection& way : found)
     if (!from_behind(receiver, way.arrival)) visit(way);
 }
 
-void PointLight::connect_from(const Fan& fan, Event first, const Receiver& receiver,
-                              std::vector<Connection>& found) const {
+void PointLight::connect_from(const Fan& fan, const Receiver& receiver, std::vector<Connection>& found) const {
   constexpr std::size_t kMostShots = 8;  // where light is scarce most candidates lead nowhere
   std::vector<Tried> tried;
   for (const Fan::Candidate& candidate : fan.near(receiver.point, receiver.around)) {
@@ -181,14 +180,15 @@ void PointLight::connect_from(const Fan& fan, Event first, const Receiver& recei
         std::any_of(tried.begin(), tried.end(), [&](const Tried& other) { return other.covers(candidate); });
     if (covered || from_behind(receiver, candidate.seed->pencil.direction)) continue;
     if (tried.size() == kMostShots) break;
-    const auto way = shoot(world_, source_, receiver.point, receiver.around, candidate.seed->direction,
-                           candidate.seed->crossings, first == Event::reflect ? 0 : kNoMirror);
+    const Seed& seed = *candidate.seed;
+    const auto way =
+        shoot(world_, source_, receiver.point, receiver.around, seed.direction, seed.crossings, seed.mirror);
     if (way)
-      tried.push_back({way->crossings, way->turned_over, way->direction, 2.0 * candidate.seed->spacing});
+      tried.push_back({seed.crossings, seed.mirror, way->turned_over, way->direction, 2.0 * seed.spacing});
     else
-      tried.push_back(
-          {candidate.seed->crossings, candidate.turned_over, candidate.direction, 0.5 * candidate.seed->spacing});
-    if (way && !from_behind(receiver, way->arrival)) add_new(found, way);
+      tried.push_back({seed.crossings, seed.mirror, candidate.turned_over, candidate.direction, 0.5 * seed.spacing});
+    if (way && !from_behind(receiver, way->arrival) && way->partly_mirrored == (seed.mirror != kNoMirror))
+      add_new(found, way);
   }
 }
 

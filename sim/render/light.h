@@ -1,4 +1,4 @@
-// A point of light and every way in which it reaches a point: straight, through clear bodies, or mirrored by a liquid.
+// A point of light and every way in which it reaches a point: straight, through clear bodies, or mirrored by them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -39,12 +39,12 @@ class PointLight {
   void connect(const Receiver& receiver, Visit&& visit) const {
     connect(std::span(&receiver, 1), [&](std::size_t, const Connection& way) { visit(way); });
   }
-  /// The same for light that a liquid's surface mirrors first. Where curved surfaces throw but faint light, chance
-  /// decides whether it is looked for, and its transmittance is that of all that is not. Surfaces that are not level
-  /// are searched for when first asked.
+  /// The same for light that one interface on its way reflects in part. Where curved surfaces throw but faint light,
+  /// chance decides whether it is looked for, and its transmittance is that of all that is not; the less of the light
+  /// there counts, by `share`, the fainter it is. Surfaces that are not level are searched for when first asked.
   template <class Visit>
-  void connect_mirrored(const Receiver& receiver, Rng& rng, Visit&& visit) const {
-    connect_mirrored_each(receiver, rng, std::ref(visit));
+  void connect_mirrored(const Receiver& receiver, double share, Rng& rng, Visit&& visit) const {
+    connect_mirrored_each(receiver, share, rng, std::ref(visit));
   }
 
   const Intersector& world() const { return world_; }
@@ -56,9 +56,9 @@ class PointLight {
   void connect_each(std::span<const Receiver> receivers, const Visitor& visit) const;
   Packet<Connection> connect_straight(std::span<const Receiver> receivers) const;
   void connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const;
-  void connect_mirrored_each(const Receiver& receiver, Rng& rng,
+  void connect_mirrored_each(const Receiver& receiver, double share, Rng& rng,
                              const std::function<void(const Connection&)>& visit) const;
-  void connect_from(const Fan& fan, Event first, const Receiver& receiver, std::vector<Connection>& found) const;
+  void connect_from(const Fan& fan, const Receiver& receiver, std::vector<Connection>& found) const;
 
   const Intersector& world_;
   Source source_;

@@ -24,7 +24,7 @@ class Connector {
   void at_scattering(const Walker& walker) {
     const Body* body = medium_in(projector_.world().geometry(), walker.region);
     const double factor = std::numbers::pi * walker.weight / (body->medium.n * body->medium.n);
-    connect({walker.position, body}, [&](const Connection& way) {
+    connect(walker, {walker.position, body}, [&](const Connection& way) {
       // Seen from the light: it arrives and is sent towards where the walk came from.
       return factor * henyey_greenstein(-way.arrival.dot(walker.direction), body->medium.anisotropy);
     });
@@ -46,21 +46,21 @@ class Connector {
   void at_surface(const Walker& walker, const Eigen::Vector3d& normal, Reflectance reflectance) {
     const Body* body = medium_in(projector_.world().geometry(), walker.region);
     const double n = index_of(body), factor = walker.weight / (n * n);
-    connect({walker.position, body, &normal},
+    connect(walker, {walker.position, body, &normal},
             [&](const Connection& way) { return -factor * reflectance(way) * normal.dot(way.arrival); });
   }
 
-  /// Chance with which light that a liquid mirrors is looked for: it is a few hundredths of all.
+  /// Chance with which mirrored light is looked for: it is a few hundredths of all.
   static constexpr double kMirrored = 0.25;
 
   /// `returned(way)` is the share of a way's light that the camera receives.
   template <class Returned>
-  void connect(const Receiver& receiver, Returned returned) {
+  void connect(const Walker& walker, const Receiver& receiver, Returned returned) {
     const double chance = receiver.around ? worth(*receiver.around, receiver.point) : 1.0;
     if (chance < 1.0 && rng_.uniform() >= chance) return;
     projector_.connect(receiver, [&](const Connection& way) { give(way, returned(way) / chance, receiver.point); });
     if (rng_.uniform() >= kMirrored) return;
-    projector_.connect_mirrored(receiver, rng_, [&](const Connection& way) {
+    projector_.connect_mirrored(receiver, walker.weight, rng_, [&](const Connection& way) {
       give(way, returned(way) / (chance * kMirrored), receiver.point);
     });
   }

@@ -17,7 +17,7 @@ struct Trial {
   Flight flight;
   std::array<Eigen::Vector3d, kMostCrossings> bends;
   Landing landing;
-  bool through_scattering = false;
+  bool through_scattering = false, partly_mirrored = false;
 
   double miss() const { return landing.miss.norm(); }
 };
@@ -37,7 +37,8 @@ struct Aim {
       const std::optional<Crossing> next =
           next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
       if (!next) return std::nullopt;
-      pass(world, *next, i == mirror ? Event::reflect : Event::refract, flight);
+      const double reflectance = pass(world, *next, i == mirror ? Event::reflect : Event::refract, flight);
+      if (i == mirror) result.partly_mirrored = reflectance < 1.0;
       const bool left = medium_in(world.geometry(), flight.inside) != next->from;
       result.through_scattering |= left && next->from && next->from->scatters();
       result.bends[i] = next->hit.point;
@@ -95,7 +96,7 @@ struct Aim {
 
 }  // namespace
 
-void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight) {
+double pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight) {
   const Hit& hit = crossing.hit;
   const double n_from = index_of(crossing.from), n_to = index_of(crossing.to);
   const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
@@ -111,6 +112,7 @@ void pass(const Intersector& world, const Crossing& crossing, Event event, Fligh
     reflect(flight.pencil, surface);
     flight.inside = crossing.before;
   }
+  return reflectance;
 }
 
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
@@ -126,7 +128,8 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
                     flight.transmittance * transmittance(extinction_of(around), found->landing.distance),
                     crossings,
                     area < 0.0,
-                    found->through_scattering};
+                    found->through_scattering,
+                    found->partly_mirrored};
 }
 
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {

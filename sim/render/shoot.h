@@ -22,6 +22,7 @@ struct Connection {
   bool turned_over;           ///< whether neighbouring rays land mirror-inverted, as they do past a caustic
   /// Whether it has come out of a body that scatters; where such bodies are taken as opaque, this light is not there.
   bool through_scattering = false;
+  bool partly_mirrored = false;  ///< whether an interface on it reflects in part
 };
 
 /// Where the light comes from, and what bodies it starts in.
@@ -46,7 +47,8 @@ enum class Event { refract, reflect };
 inline constexpr int kNoMirror = -1;
 
 /// Carries the flight to the crossing and over it, or back from it. Refraction becomes total reflection where it must.
-void pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight);
+/// Returns the reflectance there.
+double pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight);
 
 /// Aims at `target`, which lies in the medium `around` (nullptr: air), by way of exactly `crossings` interfaces,
 /// starting from `direction`; number `mirror` of them reflects. Nothing when Newton's method finds no such way or

@@ -84,9 +84,10 @@ struct Renderer {
   double indirect_radiance(const SeenPoint& seen, Rng& rng) const {
     double ghosts = 0.0, sum = 0.0;
     if (!seen.entered)
-      projector.connect_mirrored({seen.point, seen.around, &seen.normal}, rng, [&](const Connection& way) {
-        ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
-      });
+      projector.connect_mirrored(
+          {seen.point, seen.around, &seen.normal}, seen.transmittance, rng, [&](const Connection& way) {
+            ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
+          });
     const int walks = seen.entered ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
       walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
