@@ -133,10 +133,6 @@ void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
     if (const auto seen = follow(world, *image, world.first_hit(image->ray), &reflections)) visit(*seen);
 }
 
-bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
-  return !seen.entered || refract(arrival, seen.normal, index_of(seen.around), seen.entered->medium.n);
-}
-
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {
   Packet<SeenPoint> alone;
   alone.set(0, seen);

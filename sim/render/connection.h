@@ -3,13 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
 
 #include "core/rng.h"
 #include "sim/optics/glazed_wall.h"
+#include "sim/optics/snell.h"
 #include "sim/render/light.h"
 
 namespace fathom {
@@ -53,7 +53,9 @@ void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
 
 /// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
 /// totally.
-bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival);
+inline bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
+  return !seen.entered || refract(arrival, seen.normal, index_of(seen.around), seen.entered->medium.n);
+}
 
 /// π · BRDF for light that travels in the direction `arrival` and is seen by the camera: a diffuse surface's albedo.
 inline double reflectance_factor(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
@@ -68,14 +70,10 @@ inline Illumination illumination_by(const Connection& way, const SeenPoint& seen
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
 template <class Visit>
 void for_each_illumination(const PointLight& projector, const Packet<SeenPoint>& seen, Visit&& visit) {
-  std::array<Receiver, kPacket> receivers;
-  std::array<std::size_t, kPacket> number;
-  std::size_t count = 0;
+  Packet<Receiver> receivers;
   for (std::size_t i = 0; i < kPacket; ++i)
-    if (const SeenPoint* at = seen.find(i))
-      receivers[count] = {at->point, at->around, &at->normal}, number[count++] = i;
-  projector.connect(std::span(receivers).first(count), [&](std::size_t receiver, const Connection& way) {
-    const std::size_t i = number[receiver];
+    if (const SeenPoint* at = seen.find(i)) receivers.set(i, {at->point, at->around, &at->normal});
+  projector.connect(receivers, [&](std::size_t i, const Connection& way) {
     const SeenPoint& at = *seen.find(i);
     if (takes_up(at, way.arrival)) visit(i, illumination_by(way, at));
   });

@@ -21,14 +21,11 @@ struct Plane {
 
 /// Which rays of a packet Embree is to trace.
 struct Lanes {
-  explicit Lanes(std::size_t count) {
-    assert(count <= kPacket);
-    std::fill_n(valid, count, -1);
-  }
   alignas(32) int valid[kPacket] = {};
 };
 
-void set_lane(RTCRay8& rays, std::size_t i, const RTCRay& ray) {
+void set_lane(Lanes& lanes, RTCRay8& rays, std::size_t i, const RTCRay& ray) {
+  lanes.valid[i] = -1;
   rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
   rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
   rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar;
@@ -152,15 +149,20 @@ struct Intersector::Impl {
     return ray.tfar < 0.0f;
   }
 
-  static std::bitset<kPacket> hits(RTCScene scene, std::span<const Piece> pieces) {
-    if (pieces.size() == 1) return hits(scene, pieces[0]);  // alone it is cheaper by itself
-    RTCIntersectContext context = coherent();
-    Lanes lanes(pieces.size());
-    RTCRay8 query;
-    for (std::size_t i = 0; i < pieces.size(); ++i) set_lane(query, i, embree_ray(pieces[i]));
-    rtcOccluded8(lanes.valid, scene, &context, &query);
+  static std::bitset<kPacket> hits(RTCScene scene, const Packet<Piece>& pieces) {
     std::bitset<kPacket> result;
-    for (std::size_t i = 0; i < pieces.size(); ++i) result[i] = query.tfar[i] < 0.0f;
+    if (pieces.count() < 2) {  // alone it is cheaper by itself
+      for (std::size_t i = 0; i < kPacket; ++i)
+        if (const Piece* piece = pieces.find(i)) result[i] = hits(scene, *piece);
+      return result;
+    }
+    RTCIntersectContext context = coherent();
+    Lanes lanes;
+    RTCRay8 query;
+    for (std::size_t i = 0; i < kPacket; ++i)
+      if (const Piece* piece = pieces.find(i)) set_lane(lanes, query, i, embree_ray(*piece));
+    rtcOccluded8(lanes.valid, scene, &context, &query);
+    for (std::size_t i = 0; i < kPacket; ++i) result[i] = lanes.valid[i] && query.tfar[i] < 0.0f;
     return result;
   }
 
@@ -192,11 +194,12 @@ std::optional<Hit> Intersector::first_interface(const Ray& ray) const { return i
 std::optional<Hit> Intersector::first_opaque(const Ray& ray) const { return impl_->trace(impl_->opaque, ray); }
 
 Packet<Hit> Intersector::first_hits(std::span<const Ray> rays) const {
+  assert(rays.size() <= kPacket);
   RTCIntersectContext context = Impl::coherent();
-  Lanes lanes(rays.size());
+  Lanes lanes;
   RTCRayHit8 query;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    set_lane(query.ray, i, Impl::embree_ray(rays[i], kClearance, std::numeric_limits<float>::infinity()));
+    set_lane(lanes, query.ray, i, Impl::embree_ray(rays[i], kClearance, std::numeric_limits<float>::infinity()));
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
@@ -204,9 +207,11 @@ Packet<Hit> Intersector::first_hits(std::span<const Ray> rays) const {
   Packet<Hit> hits;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    std::optional<Hit> hit = impl_->hit_on(query.hit.geomID[i], query.hit.primID[i], rays[i]);
-    if (!hit) hit = impl_->trace(impl_->all, rays[i], std::max<double>(query.ray.tfar[i], kClearance) + kClearance);
-    if (hit) hits.set(i, *hit);
+    if (const auto hit = impl_->hit_on(query.hit.geomID[i], query.hit.primID[i], rays[i]))
+      hits.set(i, *hit);
+    else if (const auto next =
+                 impl_->trace(impl_->all, rays[i], std::max<double>(query.ray.tfar[i], kClearance) + kClearance))
+      hits.set(i, *next);
   }
   return hits;
 }
@@ -215,11 +220,11 @@ bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& t
   return Impl::hits(impl_->opaque, {from, to});
 }
 
-std::bitset<kPacket> Intersector::occluded(std::span<const Piece> pieces) const {
+std::bitset<kPacket> Intersector::occluded(const Packet<Piece>& pieces) const {
   return Impl::hits(impl_->opaque, pieces);
 }
 
-std::bitset<kPacket> Intersector::interrupted(std::span<const Piece> pieces) const {
+std::bitset<kPacket> Intersector::interrupted(const Packet<Piece>& pieces) const {
   return Impl::hits(impl_->all, pieces);
 }
 

@@ -38,6 +38,8 @@ class Packet {
     present_.set(i);
   }
   void reset(std::size_t i) { present_.reset(i); }
+  void reset(const std::bitset<kPacket>& which) { present_ &= ~which; }
+  std::size_t count() const { return present_.count(); }
 
  private:
   std::array<T, kPacket> values_;
@@ -67,10 +69,10 @@ class Intersector {
   std::optional<Hit> first_opaque(const Ray& ray) const;
   /// Whether an opaque surface stands strictly between two points, each moved `kClearance` towards the other.
   bool occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
-  /// The same of at most kPacket pieces, bit by bit.
-  std::bitset<kPacket> occluded(std::span<const Piece> pieces) const;
+  /// The same of the pieces of a packet, bit by bit.
+  std::bitset<kPacket> occluded(const Packet<Piece>& pieces) const;
   /// Whether a surface of any kind stands there.
-  std::bitset<kPacket> interrupted(std::span<const Piece> pieces) const;
+  std::bitset<kPacket> interrupted(const Packet<Piece>& pieces) const;
 
   /// d normal / d point of a hit's surface [1/m], for the normal that the hit has.
   Eigen::Matrix3d curvature(const Hit& hit) const;

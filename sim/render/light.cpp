@@ -1,7 +1,6 @@
 #include "sim/render/light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sim/optics/flat_refraction.h"
@@ -15,27 +14,25 @@ bool from_behind(const Receiver& receiver, const Eigen::Vector3d& arrival) {
   return receiver.facing && receiver.facing->dot(arrival) >= 0.0;
 }
 
-/// A way on which nothing opaque has been looked for yet.
-struct OpenWay {
-  Connection connection;
-  std::optional<Eigen::Vector3d> bend;  ///< where it is not straight
-};
-
-/// The straight way through one medium.
-std::optional<OpenWay> straight(const Source& source, const Receiver& receiver) {
+/// Adds the straight way to receiver `i` through one medium, and what of it is to be free of obstacles.
+void add_straight(const Source& source, std::size_t i, const Receiver& receiver, Packet<Connection>& ways,
+                  Packet<Piece>& pieces) {
   const Eigen::Vector3d path = receiver.point - source.position;
   const double squared = path.squaredNorm(), length = std::sqrt(squared);
   const Eigen::Vector3d direction = path / length;
-  if (from_behind(receiver, direction)) return std::nullopt;
-  const double through = transmittance(extinction_of(receiver.around), length);
-  return OpenWay{{direction, direction, 1.0 / squared, through, 0, false}, std::nullopt};
+  if (from_behind(receiver, direction)) return;
+  const double through = receiver.around ? transmittance(receiver.around->extinction(), length) : 1.0;
+  ways.set(i, {direction, direction, 1.0 / squared, through, 0, false});
+  pieces.set(i, {receiver.point, source.position});
 }
 
-/// The way that bends once, at a level surface: exact root of Snell's law.
-std::optional<OpenWay> through_level(const Source& source, const Receiver& receiver) {
+/// Adds the way to receiver `i` that bends once, at a level surface, and its pieces above and below: exact root of
+/// Snell's law.
+void add_bent(const Source& source, std::size_t i, const Receiver& receiver, Packet<Connection>& ways,
+              Packet<Piece>& above, Packet<Piece>& below) {
   const Body& liquid = *receiver.around;
   const double height = source.position.z() - *liquid.level, depth = *liquid.level - receiver.point.z();
-  if (height <= 0.0 || depth <= 0.0) return std::nullopt;
+  if (height <= 0.0 || depth <= 0.0) return;
   const Eigen::Vector2d across = (receiver.point - source.position).head<2>();
   const double separation = across.norm();
   const FlatCrossing crossing = cross_flat_interface(height, depth, separation, 1.0, liquid.medium.n);
@@ -45,13 +42,14 @@ std::optional<OpenWay> through_level(const Source& source, const Receiver& recei
   const Eigen::Vector3d from_bend = receiver.point - bend;
   const double path_in_liquid = from_bend.norm();
   const Eigen::Vector3d arrival = from_bend / path_in_liquid;
-  if (from_behind(receiver, arrival)) return std::nullopt;
+  if (from_behind(receiver, arrival)) return;
   const Eigen::Vector3d direction = (bend - source.position).normalized();
   const double cos_above = std::min(-direction.z(), 1.0);
   const double through =
       (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) * transmittance(liquid.extinction(), path_in_liquid);
-  return OpenWay{{direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false},
-                 bend};
+  ways.set(i, {direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false});
+  above.set(i, {bend, source.position});
+  below.set(i, {receiver.point, bend});
 }
 
 /// Where a shot led, or seemed to lead when it failed. Neighbouring seeds would lead to the same place.
@@ -83,67 +81,37 @@ PointLight::PointLight(const Intersector& world, const Eigen::Vector3d& position
   fan_.emplace(world, source_, Ways::refracted);
 }
 
-void PointLight::connect_each(std::span<const Receiver> receivers, const Visitor& visit) const {
-  if (!fan_) return connect_exactly(receivers, visit);
-  const Packet<Connection> straight_ways = connect_straight(receivers);
-  std::vector<Connection> found;
-  for (std::size_t i = 0; i < receivers.size(); ++i) {
-    found.clear();
-    if (const Connection* way = straight_ways.find(i)) found.push_back(*way);
-    connect_from(*fan_, receivers[i], found);
-    for (const Connection& way : found) visit(i, way);
-  }
-}
-
-Packet<Connection> PointLight::connect_straight(std::span<const Receiver> receivers) const {
+Packet<Connection> PointLight::connect_straight(const Packet<Receiver>& receivers) const {
   const Body* medium = medium_in(world_.geometry(), source_.inside);
   Packet<Connection> ways;
-  std::array<Piece, kPacket> pieces;
-  std::array<std::size_t, kPacket> of_piece;  // receivers
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < receivers.size(); ++i) {
-    if (receivers[i].around != medium) continue;
-    const std::optional<OpenWay> way = straight(source_, receivers[i]);
-    if (!way) continue;
-    ways.set(i, way->connection);
-    pieces[count] = {receivers[i].point, source_.position}, of_piece[count++] = i;
+  Packet<Piece> pieces;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const Receiver* receiver = receivers.find(i);
+    if (receiver && receiver->around == medium) add_straight(source_, i, *receiver, ways, pieces);
   }
-  if (!count) return ways;
-  const std::bitset<kPacket> interrupted = world_.interrupted(std::span(pieces).first(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    if (!interrupted[k]) continue;
+  const std::bitset<kPacket> interrupted = world_.interrupted(pieces);
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    if (!interrupted[i]) continue;
     // Boundaries within bodies may be all that is there.
-    const std::size_t i = of_piece[k];
     const Eigen::Vector3d towards = ways.find(i)->direction;
     ways.reset(i);
-    if (const auto way = shoot(world_, source_, receivers[i].point, medium, towards, 0)) ways.set(i, *way);
+    if (const auto way = shoot(world_, source_, receivers.find(i)->point, medium, towards, 0)) ways.set(i, *way);
   }
   return ways;
 }
 
-void PointLight::connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const {
-  std::array<OpenWay, kPacket> ways;
-  std::array<std::size_t, kPacket> of_way;  // receivers
-  std::array<Piece, kPacket> below, above;
-  std::array<std::size_t, kPacket> of_above;  // ways
-  std::size_t open = 0, bent = 0;
-  for (std::size_t i = 0; i < receivers.size(); ++i) {
-    const std::optional<OpenWay> way =
-        receivers[i].around ? through_level(source_, receivers[i]) : straight(source_, receivers[i]);
-    if (!way) continue;
-    below[open] = {receivers[i].point, way->bend.value_or(source_.position)};
-    if (way->bend) above[bent] = {*way->bend, source_.position}, of_above[bent++] = open;
-    ways[open] = *way, of_way[open++] = i;
+Packet<Connection> PointLight::connect_exactly(const Packet<Receiver>& receivers) const {
+  Packet<Connection> ways;
+  Packet<Piece> above, below;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const Receiver* receiver = receivers.find(i);
+    if (receiver && receiver->around)
+      add_bent(source_, i, *receiver, ways, above, below);
+    else if (receiver)
+      add_straight(source_, i, *receiver, ways, below);
   }
-  if (!open) return;
-  std::bitset<kPacket> blocked = world_.occluded(std::span(below).first(open));
-  if (bent) {
-    const std::bitset<kPacket> blocked_above = world_.occluded(std::span(above).first(bent));
-    for (std::size_t i = 0; i < bent; ++i)
-      if (blocked_above[i]) blocked.set(of_above[i]);
-  }
-  for (std::size_t i = 0; i < open; ++i)
-    if (!blocked[i]) visit(of_way[i], ways[i].connection);
+  ways.reset(world_.occluded(below) | world_.occluded(above));
+  return ways;
 }
 
 void PointLight::connect_mirrored_each(const Receiver& receiver, double share, Rng& rng,

@@ -5,7 +5,6 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/rng.h"
@@ -27,17 +26,31 @@ class PointLight {
   /// searched for the directions that lead through its clear bodies: a second, more where they fill much of its view.
   PointLight(const Intersector& world, const Eigen::Vector3d& position);
 
-  /// Calls `visit(i, connection)` for each connection of each of at most kPacket receivers, by rising i. Straight and
-  /// level ways are exact and complete; of the others those are found that lie near a seed (see Fan). Safe to call from
-  /// several threads.
+  /// Calls `visit(i, connection)` for each connection of each of the receivers, by rising i. Straight and level ways
+  /// are exact and complete; of the others those are found that lie near a seed (see Fan). Safe to call from several
+  /// threads.
   template <class Visit>
-  void connect(std::span<const Receiver> receivers, Visit&& visit) const {
-    connect_each(receivers, std::ref(visit));
+  void connect(const Packet<Receiver>& receivers, Visit&& visit) const {
+    const Packet<Connection> ways = fan_ ? connect_straight(receivers) : connect_exactly(receivers);
+    std::vector<Connection> found;
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      const Connection* way = ways.find(i);
+      if (!fan_) {
+        if (way) visit(i, *way);
+      } else if (const Receiver* receiver = receivers.find(i)) {
+        found.clear();
+        if (way) found.push_back(*way);
+        connect_from(*fan_, *receiver, found);
+        for (const Connection& each : found) visit(i, each);
+      }
+    }
   }
   /// The same for one: `visit(connection)`.
   template <class Visit>
   void connect(const Receiver& receiver, Visit&& visit) const {
-    connect(std::span(&receiver, 1), [&](std::size_t, const Connection& way) { visit(way); });
+    Packet<Receiver> alone;
+    alone.set(0, receiver);
+    connect(alone, [&](std::size_t, const Connection& way) { visit(way); });
   }
   /// The same for light that one interface on its way reflects in part. Where curved surfaces throw but faint light,
   /// chance decides whether it is looked for, and its transmittance is that of all that is not; the less of the light
@@ -52,10 +65,10 @@ class PointLight {
   const Eigen::Vector3d& position() const { return source_.position; }
 
  private:
-  using Visitor = std::function<void(std::size_t receiver, const Connection&)>;
-  void connect_each(std::span<const Receiver> receivers, const Visitor& visit) const;
-  Packet<Connection> connect_straight(std::span<const Receiver> receivers) const;
-  void connect_exactly(std::span<const Receiver> receivers, const Visitor& visit) const;
+  /// The straight ways.
+  Packet<Connection> connect_straight(const Packet<Receiver>& receivers) const;
+  /// All ways where there are level liquids only.
+  Packet<Connection> connect_exactly(const Packet<Receiver>& receivers) const;
   void connect_mirrored_each(const Receiver& receiver, double share, Rng& rng,
                              const std::function<void(const Connection&)>& visit) const;
   void connect_from(const Fan& fan, const Receiver& receiver, std::vector<Connection>& found) const;
