@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -66,15 +67,19 @@ struct Rig {
   Eigen::Vector3d projector_in_world() const { return world_from_camera * Eigen::Vector3d(sensor.baseline, 0.0, 0.0); }
   /// Unit direction in the world of a point of the depth image; (0.5, 0.5) is the first pixel's centre.
   Eigen::Vector3d direction_in_world(double x_px, double y_px) const {
-    const Eigen::Vector3d in_camera(x_px - sensor.principal_px.x(), y_px - sensor.principal_px.y(), sensor.focal_px);
-    return world_from_camera.linear() * (1.0 / in_camera.norm() * in_camera);
+    // Single numbers stay in registers; a vector would go by way of memory, which takes longer than the arithmetic.
+    const double x = x_px - sensor.principal_px.x(), y = y_px - sensor.principal_px.y(), z = sensor.focal_px;
+    const double scale = 1.0 / std::sqrt(x * x + y * y + z * z);
+    return world_from_camera.linear() * Eigen::Vector3d(scale * x, scale * y, scale * z);
   }
   /// Rectified image coordinates of a direction, in units of the focal length; the same for camera and projector.
   /// Nothing for a direction that does not go forward.
   std::optional<Eigen::Vector2d> rectified(const Eigen::Vector3d& direction_in_world) const {
-    const Eigen::Vector3d in_camera = world_from_camera.linear().transpose() * direction_in_world;
-    if (in_camera.z() <= 0.0) return std::nullopt;
-    return in_camera.head<2>() / in_camera.z();
+    const auto axes = world_from_camera.linear();
+    const double forward = axes.col(2).dot(direction_in_world);
+    if (forward <= 0.0) return std::nullopt;
+    return Eigen::Vector2d(axes.col(0).dot(direction_in_world) / forward,
+                           axes.col(1).dot(direction_in_world) / forward);
   }
 };
 
