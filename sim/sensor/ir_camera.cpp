@@ -22,27 +22,35 @@ constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
 /// Walks per camera ray that enters a scattering body; other surfaces get one.
 constexpr int kWalksIntoBody = 4;
 
+/// The middles of the cells of a grid in the unit square, row by row.
+std::vector<Eigen::Vector2d> sample_places(int across) {
+  std::vector<Eigen::Vector2d> places;
+  for (int row = 0; row < across; ++row)
+    for (int column = 0; column < across; ++column) places.emplace_back((column + 0.5) / across, (row + 0.5) / across);
+  return places;
+}
+
 /// What a camera's samples look at, and what they look with.
 struct Renderer {
   const PointLight& projector;
   const Rig& rig;
   const Pattern& pattern;
   const BlurredPattern& blurred;
-  int samples_across;
+  std::vector<Eigen::Vector2d> places;  ///< of a pixel's samples in it
   LightModel light;
   std::uint64_t seed;
+  double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
 
   double intensity(const Eigen::Vector3d& direction) const { return intensity_towards(pattern, rig, direction); }
 
-  int samples_per_pixel() const { return samples_across * samples_across; }
+  int samples_per_pixel() const { return static_cast<int>(places.size()); }
   int samples_per_row() const { return samples_per_pixel() * rig.sensor.ir_width; }
 
   /// Ray of a sample of row y; the samples of a pixel follow one another.
   Ray camera_ray(int y, int sample) const {
-    const int x = sample / samples_per_pixel(), within = sample % samples_per_pixel();
-    const double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
-    const double x_ir_px = x + (within % samples_across + 0.5) / samples_across;
-    const double y_ir_px = y - rig.sensor.ir_first_row() + (within / samples_across + 0.5) / samples_across;
+    const int x = sample / samples_per_pixel();
+    const Eigen::Vector2d& place = places[sample % samples_per_pixel()];
+    const double x_ir_px = x + place.x(), y_ir_px = y - rig.sensor.ir_first_row() + place.y();
     return {rig.camera_in_world(), rig.direction_in_world(x_ir_px * px_per_ir_px, y_ir_px * px_per_ir_px)};
   }
 
@@ -102,7 +110,7 @@ struct Renderer {
 Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                        LightModel light, std::uint64_t seed) {
   const BlurredPattern blurred(pattern);
-  const Renderer renderer{projector, rig, pattern, blurred, samples_across, light, seed};
+  const Renderer renderer{projector, rig, pattern, blurred, sample_places(samples_across), light, seed};
   Image<float> image(rig.sensor.ir_width, rig.sensor.ir_height);
   const int per_pixel = renderer.samples_per_pixel(), per_row = renderer.samples_per_row();
   parallel_ranges(image.height(), [&](int begin, int end) {

@@ -182,13 +182,13 @@ void Pattern::set_dot_gains(std::span<const float> gains) {
 
 double Pattern::intensity(const Eigen::Vector2d& on_grid) const {
   const double column = on_grid.x(), row = on_grid.y();
-  const double left = std::floor(column), top = std::floor(row);
-  if (!(left >= 1.0 && top >= 1.0 && left < columns() - 2 && top < rows() - 2)) return 0.0;
+  if (!(column >= 1.0 && row >= 1.0 && column < columns() - 2 && row < rows() - 2)) return 0.0;
+  const int left = static_cast<int>(column), top = static_cast<int>(row);
   const Eigen::Array4f& across = profile_[static_cast<int>((column - left) * kTableSize + 0.5)];
   const Eigen::Array4f& down = profile_[static_cast<int>((row - top) * kTableSize + 0.5)];
   Eigen::Array4f sums = Eigen::Array4f::Zero();
   for (int r = 0; r < 4; ++r) {
-    const float* dots = &brightness_(static_cast<int>(left) - 1, static_cast<int>(top) - 1 + r);
+    const float* dots = &brightness_(left - 1, top - 1 + r);
     sums += down[r] * Eigen::Map<const Eigen::Array4f>(dots);
   }
   return (across * sums).sum();
