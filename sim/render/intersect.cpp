@@ -123,9 +123,7 @@ struct Intersector::Impl {
   }
 
   static RTCRay embree_ray(const Piece& piece) {
-    const Eigen::Vector3d path = piece.to - piece.from;
-    const double length = path.norm();
-    return embree_ray({piece.from, path / length}, kClearance, length - kClearance);
+    return embree_ray({piece.from, piece.direction}, kClearance, piece.length - kClearance);
   }
 
   std::optional<Hit> trace(RTCScene scene, const Ray& ray, double near = kClearance) const {
@@ -217,7 +215,9 @@ Packet<Hit> Intersector::first_hits(std::span<const Ray> rays) const {
 }
 
 bool Intersector::occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  return Impl::hits(impl_->opaque, {from, to});
+  const Eigen::Vector3d path = to - from;
+  const double length = path.norm();
+  return Impl::hits(impl_->opaque, Piece{from, path / length, length});
 }
 
 std::bitset<kPacket> Intersector::occluded(const Packet<Piece>& pieces) const {

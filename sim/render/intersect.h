@@ -48,7 +48,9 @@ class Packet {
 
 /// A straight piece of a light's way.
 struct Piece {
-  Eigen::Vector3d from, to;  ///< [m] world
+  Eigen::Vector3d from;       ///< [m] world
+  Eigen::Vector3d direction;  ///< unit
+  double length;              ///< [m]
 };
 
 class Intersector {

@@ -23,7 +23,7 @@ void add_straight(const Source& source, std::size_t i, const Receiver& receiver,
   if (from_behind(receiver, direction)) return;
   const double through = receiver.around ? transmittance(receiver.around->extinction(), length) : 1.0;
   ways.set(i, {direction, direction, 1.0 / squared, through, 0, false});
-  pieces.set(i, {receiver.point, source.position});
+  pieces.set(i, {receiver.point, -direction, length});
 }
 
 /// Adds the way to receiver `i` that bends once, at a level surface, and its pieces above and below: exact root of
@@ -43,13 +43,15 @@ void add_bent(const Source& source, std::size_t i, const Receiver& receiver, Pac
   const double path_in_liquid = from_bend.norm();
   const Eigen::Vector3d arrival = from_bend / path_in_liquid;
   if (from_behind(receiver, arrival)) return;
-  const Eigen::Vector3d direction = (bend - source.position).normalized();
+  const Eigen::Vector3d to_bend = bend - source.position;
+  const double path_above = to_bend.norm();
+  const Eigen::Vector3d direction = to_bend / path_above;
   const double cos_above = std::min(-direction.z(), 1.0);
   const double through =
       (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) * transmittance(liquid.extinction(), path_in_liquid);
   ways.set(i, {direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false});
-  above.set(i, {bend, source.position});
-  below.set(i, {receiver.point, bend});
+  above.set(i, {bend, -direction, path_above});
+  below.set(i, {receiver.point, -arrival, path_in_liquid});
 }
 
 /// Where a shot led, or seemed to lead when it failed. Neighbouring seeds would lead to the same place.
