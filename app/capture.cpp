@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 
-#include "app/capture_files.h"
 #include "app/commands.h"
 #include "core/files.h"
 #include "core/progress.h"
@@ -16,6 +15,7 @@
 #include "core/units.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"
+#include "sim/sensor/capture_files.h"
 
 namespace fathom {
 namespace {
@@ -64,8 +64,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   std::vector<Row> rows;
   int without_depth = 0;
   for (int i = 0; i < options.frames; ++i) {
-    const std::filesystem::path folder =
-        options.frames == 1 ? common.output : common.output / fmt::format("frame_{:04}", i);
+    const std::filesystem::path folder = frame_folder(common.output, i, options.frames);
     make_directory(folder);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
     write_frame(folder, frame, camera.truth(), setup.rig.sensor.noise.bits);
@@ -108,7 +107,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
       ->check(CLI::IsMember({"direct", "full"}))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")
-      ->check(CLI::Range(1, 100000))
+      ->check(CLI::Range(1, kMostFrames))
       ->capture_default_str();
   return [options, &common] {
     require_output(common);

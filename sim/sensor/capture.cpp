@@ -70,11 +70,7 @@ Frame Camera::shoot_photometric(std::uint64_t frame) {
   shot.ir = expose(radiance_, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, reference_).disparity_px; });
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
-  Image<float> intensity(sensor.width, sensor.height);
-  const Image<float> half = columns_in_pairs(rows_in_pairs(shot.ir));
-  for (int y = 0; y < sensor.height; ++y)
-    for (int x = 0; x < sensor.width; ++x) intensity(x, y) = half(x, y + sensor.ir_first_row() / 2);
-  shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);
+  shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));
   return shot;
 }
 

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/units.h"
-
 namespace fathom {
 namespace {
 
@@ -15,10 +13,11 @@ double steps_per_inverse_mm(const SensorModel& sensor) {
 
 }  // namespace
 
-std::optional<double> device_depth(const SensorModel& sensor, int code) {
+std::optional<double> device_depth(const SensorModel& sensor, int code, double unit) {
   const double inverse_mm = 1.0 / mm_from_metres(sensor.reference) - (code + 0.5) / steps_per_inverse_mm(sensor);
   if (inverse_mm <= 0.0) return std::nullopt;
-  return metres_from_mm(std::floor(1.0 / inverse_mm));
+  const double unit_mm = mm_from_metres(unit);
+  return metres_from_mm(std::floor(1.0 / inverse_mm / unit_mm) * unit_mm);
 }
 
 int device_code(const SensorModel& sensor, double depth) {
@@ -29,16 +28,25 @@ int device_code(const SensorModel& sensor, double depth) {
 
 double disparity_of_depth(const SensorModel& sensor, double depth) { return sensor.focal_px * sensor.baseline / depth; }
 
-Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px) {
+Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px, double unit) {
   Image<float> depth(disparity_px.width(), disparity_px.height());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double disparity = disparity_px.pixels()[i];
     if (disparity <= 0.0) continue;
     std::optional<double> z = sensor.focal_px * sensor.baseline / disparity;
-    if (sensor.quantized) z = device_depth(sensor, device_code(sensor, *z));
+    if (sensor.quantized) z = device_depth(sensor, device_code(sensor, *z), unit);
     if (z && *z >= sensor.near && *z <= sensor.far) depth.pixels()[i] = static_cast<float>(*z);
   }
   return depth;
+}
+
+Image<std::uint16_t> depth_in_units(const Image<float>& depth, double unit) {
+  Image<std::uint16_t> whole(depth.width(), depth.height());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const long units = std::lround(depth.pixels()[i] / unit);
+    if (units <= std::numeric_limits<std::uint16_t>::max()) whole.pixels()[i] = static_cast<std::uint16_t>(units);
+  }
+  return whole;
 }
 
 Image<CloudPoint> cloud_of_depth(const SensorModel& sensor, const Image<float>& depth, const Image<float>& intensity) {

@@ -11,6 +11,7 @@
 #include "sim/render/radiance.h"
 #include "sim/sensor/blurred_pattern.h"
 #include "sim/sensor/glints.h"
+#include "sim/sensor/reference.h"
 
 namespace fathom {
 namespace {
@@ -157,6 +158,14 @@ Image<float> expose(const Image<float>& radiance, const NoiseModel& noise, std::
       }
   });
   return image;
+}
+
+Image<float> at_depth_scale(const SensorModel& sensor, const Image<float>& ir) {
+  const Image<float> half = columns_in_pairs(rows_in_pairs(ir));
+  Image<float> middle(sensor.width, sensor.height);
+  for (int y = 0; y < sensor.height; ++y)
+    std::copy_n(half.row(y + sensor.ir_first_row() / 2), sensor.width, middle.row(y));
+  return middle;
 }
 
 }  // namespace fathom

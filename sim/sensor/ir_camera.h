@@ -28,4 +28,7 @@ std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern
 /// Adds the detector's noise of one frame: shot, read, rounding and saturation. Keyed by (seed, frame, pixel).
 Image<float> expose(const Image<float>& radiance, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame);
 
+/// The infrared image at the depth image's size: the mean of the four pixels that lie in each depth pixel.
+Image<float> at_depth_scale(const SensorModel& sensor, const Image<float>& ir);
+
 }  // namespace fathom

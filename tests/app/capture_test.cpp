@@ -8,7 +8,10 @@
 #include "core/files.h"
 #include "core/image_file.h"
 #include "core/json.h"
+#include "sim/sensor/depth.h"
+#include "sim/sensor/read_capture.h"
 #include "tests/app/run_fathom.h"
+#include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
@@ -97,6 +100,33 @@ TEST_F(CaptureCommand, FramesDifferInTheirNoiseOnly) {
   EXPECT_FALSE(read_text(out / "frame_0000" / "ir.exr") == read_text(out / "frame_0001" / "ir.exr"));
   EXPECT_TRUE(std::filesystem::exists(out / "truth.exr"));
   EXPECT_EQ(read_json(out / "run.json")["frames"], 2);
+}
+
+TEST_F(CaptureCommand, IsReadBackAsItWasShot) {
+  const std::filesystem::path out = capture("out", "--frames 2 --seed 3");
+  const RecordedCapture recorded = read_capture(out);
+  const fathom::Setup setup = setup_from_json(small_scene(), "scene");
+  EXPECT_EQ(recorded.sensor.focal_px, setup.rig.sensor.focal_px);
+  EXPECT_EQ(recorded.sensor.noise.bits, 10);
+  ASSERT_EQ(recorded.frames.size(), 2u);
+  Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, 3);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Frame shot = camera.shoot(i), read = read_frame(recorded, i);
+    EXPECT_TRUE(std::ranges::equal(read.ir.pixels(), shot.ir.pixels()));
+    EXPECT_TRUE(std::ranges::equal(read.disparity_px.pixels(), shot.disparity_px.pixels()));
+    EXPECT_TRUE(std::ranges::equal(read.depth.pixels(), shot.depth.pixels()));
+  }
+}
+
+TEST_F(CaptureCommand, IsRefusedWhenReadBackIncomplete) {
+  const std::filesystem::path out = capture("out", "--mode geometric");
+  EXPECT_FALSE(read_capture(out).infrared);
+  write_exr(out / "disparity.exr", {{"Y", Image<float>(4, 3)}});
+  expect_error([&] { read_frame(read_capture(out), 0); }, {"disparity.exr: is 4 × 3 pixels, expected", "320 × 240"});
+  std::filesystem::remove(out / "disparity.exr");
+  expect_error([&] { read_frame(read_capture(out), 0); }, {"disparity.exr: "});
+  std::filesystem::remove(out / "run.json");
+  expect_error([&] { read_capture(out); }, {"out: holds no complete capture: there is no run.json"});
 }
 
 TEST_F(CaptureCommand, GeometricModeMakesNoImages) {

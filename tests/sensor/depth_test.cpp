@@ -48,6 +48,29 @@ TEST(DepthLaw, IsThePrintedOneForEveryCode) {
   }
 }
 
+TEST(DepthLaw, IsCutToTenthsOfMillimetresOnTheFinerOutput) {
+  const double tenth_mm = 1e-4;
+  for (const PrintedLaw& law : kLaws) {
+    const SensorModel sensor = sensor_named(law.model);
+    for_codes(law, [&](int n, double z_mm) {
+      const double tenths = *device_depth(sensor, n, tenth_mm) / tenth_mm;
+      ASSERT_NEAR(tenths, std::round(tenths), 1e-8) << law.model << " code " << n;  // rounding of 1e5 tenths to double
+      ASSERT_NEAR(tenths + 0.5, 10.0 * z_mm, 0.5 + 1e-8) << law.model << " code " << n;  // cut, not rounded
+    });
+  }
+}
+
+TEST(DepthInUnits, IsTheNearestWholeNumberAndNothingWhere16BitsEnd) {
+  Image<float> depth(4, 1);
+  depth(1, 0) = 0.7126f;
+  depth(2, 0) = 6.5535f;
+  depth(3, 0) = 6.5536f;
+  const Image<std::uint16_t> mm = depth_in_units(depth, 1e-3), tenths = depth_in_units(depth, 1e-4);
+  EXPECT_EQ((std::vector(mm.pixels().begin(), mm.pixels().end())), (std::vector<std::uint16_t>{0, 713, 6554, 6554}));
+  EXPECT_EQ((std::vector(tenths.pixels().begin(), tenths.pixels().end())),
+            (std::vector<std::uint16_t>{0, 7126, 65535, 0}));
+}
+
 TEST(DepthLaw, CodeIsTheInverseOfDepth) {
   for (const PrintedLaw& law : kLaws) {
     const SensorModel sensor = sensor_named(law.model);

@@ -8,8 +8,14 @@
 
 namespace fathom {
 
+/// Of one capture.
+inline constexpr int kMostFrames = 100000;
+
 /// Removes what an earlier capture left in the folder, run.json first: while it is there the folder counts as complete.
 void remove_capture(const std::filesystem::path& folder);
+
+/// Where the frame of that number lies: in the folder itself when it is the only one, else in frame_0000 …
+std::filesystem::path frame_folder(const std::filesystem::path& folder, int frame, int frames);
 
 /// Writes one frame: ir.exr and ir.png (photometric mode only), disparity.exr, depth.exr, depth.png, cloud.pcd and
 /// preview.png, a picture for people. `ir_bits` is the full scale of ir.png; 0 = 10.

@@ -1,14 +1,17 @@
-#include "app/capture_files.h"
+#include "sim/sensor/capture_files.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/preview.h"
 #include "core/files.h"
 #include "core/image_file.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
+#include "sim/sensor/depth.h"
+#include "sim/sensor/preview.h"
 
 namespace fathom {
 namespace {
@@ -20,13 +23,6 @@ Image<std::uint8_t> grey_from_dn(const Image<float>& ir, int bits) {
   for (std::size_t i = 0; i < ir.size(); ++i)
     grey.pixels()[i] = static_cast<std::uint8_t>(std::lround(std::clamp(ir.pixels()[i] * scale, 0.0f, 255.0f)));
   return grey;
-}
-
-Image<std::uint16_t> whole_mm(const Image<float>& depth) {
-  Image<std::uint16_t> mm(depth.width(), depth.height());
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    mm.pixels()[i] = static_cast<std::uint16_t>(std::clamp(std::lround(mm_from_metres(depth.pixels()[i])), 0L, 65535L));
-  return mm;
 }
 
 /// One channel of the truth as an image.
@@ -55,6 +51,10 @@ void remove_capture(const std::filesystem::path& folder) {
   }
 }
 
+std::filesystem::path frame_folder(const std::filesystem::path& folder, int frame, int frames) {
+  return frames == 1 ? folder : folder / fmt::format("frame_{:04}", frame);
+}
+
 void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth, int ir_bits) {
   if (!frame.ir.empty()) {
     write_exr(folder / "ir.exr", {{"Y", frame.ir}});
@@ -62,7 +62,7 @@ void write_frame(const std::filesystem::path& folder, const Frame& frame, const 
   }
   write_exr(folder / "disparity.exr", {{"Y", frame.disparity_px}});
   write_exr(folder / "depth.exr", {{"Z", frame.depth}});
-  write_png(folder / "depth.png", whole_mm(frame.depth));
+  write_png(folder / "depth.png", depth_in_units(frame.depth, kMetresPerMm));
   write_pcd(folder / "cloud.pcd", frame.cloud);
   write_png(folder / "preview.png", preview(frame, truth));
 }

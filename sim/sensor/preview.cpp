@@ -1,4 +1,4 @@
-#include "app/preview.h"
+#include "sim/sensor/preview.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,24 @@
+// What `fathom capture` wrote, read back.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "sim/sensor/capture.h"
+
+namespace fathom {
+
+struct RecordedCapture {
+  SensorModel sensor;
+  bool infrared;                              ///< photometric mode, so that its frames have infrared images
+  std::vector<std::filesystem::path> frames;  ///< the folder of each, at least one
+};
+
+/// Reads run.json. Throws Error when the folder holds no complete capture.
+RecordedCapture read_capture(const std::filesystem::path& folder);
+
+/// One frame: infrared image and disparities as they were written, their depth; the cloud is left empty. Throws Error
+/// naming the file that is missing, damaged or of another size than the sensor's images.
+Frame read_frame(const RecordedCapture& capture, std::size_t index);
+
+}  // namespace fathom
