@@ -7,6 +7,8 @@ find_package(PNG REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(CLI11 REQUIRED)
+find_path(OPENNI2_INCLUDE_DIR OpenNI.h PATH_SUFFIXES openni2 REQUIRED)
+find_library(OPENNI2_LIBRARY OpenNI2 REQUIRED)
 # Debian's PCL asks for optional parts that are not installed; only its own are used here.
 set(FATHOM_PCL_COMPONENTS common io kdtree search sample_consensus segmentation filters features registration)
 find_package(PCL 1.12 REQUIRED QUIET COMPONENTS ${FATHOM_PCL_COMPONENTS})

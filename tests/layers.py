@@ -15,6 +15,7 @@ LAYERS = {
     "sim/scene": ["core", "sim/optics"],
     "sim/render": ["core", "sim/optics", "sim/scene"],
     "sim/sensor": ["core", "sim/*"],
+    "openni2": ["core", "sim/*"],
     "detector": ["core"],
     "app": EVERYTHING,
     "bench": EVERYTHING,
@@ -29,6 +30,7 @@ BORDERS = {
     "libpng": ["core/*.cpp"],
     "CLI11": ["app/*.cpp"],
     "OpenCV": ["bench/*"],
+    "OpenNI2": ["openni2/*", "app/live_cloud.cpp", "tests/*.cpp"],
 }
 LIBRARY_HEADERS = {
     "Embree": r"embree\d/",
@@ -38,6 +40,7 @@ LIBRARY_HEADERS = {
     "libpng": r"(libpng\d*/)?png\.h",
     "CLI11": r"CLI/",
     "OpenCV": r"opencv\d?/",
+    "OpenNI2": r"(Oni\w+|OpenNI|PS1080)\.h|Driver/",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 DOCUMENT = "docs/architecture.md"

@@ -1,0 +1,33 @@
+// Where the frames of a virtual device come from: a scene that is shot live, or a captured folder that is played.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim/sensor/capture.h"
+
+namespace fathom {
+
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  virtual const SensorModel& sensor() const = 0;
+  virtual bool has_infrared() const = 0;
+  /// How many frames there are to be played; nothing when every frame is new.
+  virtual std::optional<int> frames() const = 0;
+
+  /// What has to be done once before the first frame; may take seconds. Throws Error.
+  virtual void prepare() {}
+  /// Infrared image and disparities of the frame of that number, counted from 0. Throws Error.
+  virtual Frame shoot(int frame) = 0;
+};
+
+/// Whether a device's URI is meant for this driver: the name of a scene file, whether or not it exists, or a folder.
+bool names_source(const std::string& uri);
+
+/// Reads the scene file, or run.json of the folder. Throws Error.
+std::unique_ptr<FrameSource> open_source(const std::string& uri);
+
+}  // namespace fathom

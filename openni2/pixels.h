@@ -1,0 +1,30 @@
+// A frame's images as the 16-bit pixels of an OpenNI2 stream.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/sensor/capture.h"
+
+namespace fathom {
+
+/// Depth in whole multiples of `unit` [m] on the device's law; 0 = nothing measured.
+Image<std::uint16_t> depth_pixels(const SensorModel& sensor, const Frame& frame, double unit);
+
+/// The infrared image in DN, whole or, when `width` is the depth image's, at its size. 0 … infrared_full_scale().
+Image<std::uint16_t> infrared_pixels(const SensorModel& sensor, const Frame& frame, int width);
+int infrared_full_scale(const SensorModel& sensor);
+
+/// Part of an image, in pixels.
+struct Region {
+  int left, top, width, height;
+
+  bool inside(int image_width, int image_height) const {
+    return left >= 0 && top >= 0 && width > 0 && height > 0 && left <= image_width - width &&
+           top <= image_height - height;
+  }
+};
+
+/// Writes the region row by row; `mirrored` turns left and right of the whole image before it is cut.
+void copy_region(const Image<std::uint16_t>& image, const Region& region, bool mirrored, std::uint16_t* to);
+
+}  // namespace fathom

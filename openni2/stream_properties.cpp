@@ -1,0 +1,125 @@
+#include "openni2/stream_properties.h"
+
+#include <OniCProperties.h>
+#include <PS1080.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/units.h"
+#include "openni2/pixels.h"
+#include "openni2/shift_tables.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kCentimetre = 0.01;
+
+using Value = std::optional<PropertyValue>;
+
+double field_of_view(int pixels, double focal_px) { return 2.0 * std::atan(0.5 * pixels / focal_px); }
+
+int max_depth(const SensorModel& sensor, double unit) {
+  return static_cast<int>(std::min(std::floor(sensor.far / unit), 65535.0));
+}
+
+std::int64_t max_value(const FrameSource& source, const StreamState& state) {
+  return state.type == ONI_SENSOR_DEPTH ? max_depth(source.sensor(), state.depth_unit())
+                                        : infrared_full_scale(source.sensor());
+}
+
+int columns(const StreamState& state) { return state.cropping.enabled ? state.cropping.width : state.mode.resolutionX; }
+
+PropertyValue table(const std::vector<std::uint16_t>& entries) { return bytes_of(entries.data(), entries.size()); }
+
+/// A property that only depth streams have.
+template <auto kValue>
+Value of_depth(const FrameSource& source, const StreamState& state) {
+  if (state.type != ONI_SENSOR_DEPTH) return std::nullopt;
+  return kValue(source.sensor(), state);
+}
+
+template <std::int64_t kNumber>
+PropertyValue constant(const SensorModel&, const StreamState&) {
+  return kNumber;
+}
+
+PropertyValue zero_plane_distance(const SensorModel& sensor, const StreamState&) {
+  return static_cast<std::int64_t>(std::llround(sensor.reference / kCentimetre));
+}
+
+/// Of the 1280 pixels that the imager has for the image's 640, on the reference plane.
+PropertyValue zero_plane_pixel_size(const SensorModel& sensor, const StreamState&) {
+  return sensor.reference / kCentimetre / (2.0 * sensor.focal_px);
+}
+
+PropertyValue emitter_to_camera(const SensorModel& sensor, const StreamState&) { return sensor.baseline / kCentimetre; }
+
+PropertyValue s2d(const SensorModel& sensor, const StreamState& state) {
+  return table(shift_to_depth(sensor, state.depth_unit()));
+}
+
+PropertyValue d2s(const SensorModel& sensor, const StreamState& state) {
+  const double unit = state.depth_unit();
+  return table(depth_to_shift(shift_to_depth(sensor, unit), max_depth(sensor, unit)));
+}
+
+constexpr std::array kProperties{
+    StreamProperty{ONI_STREAM_PROPERTY_VIDEO_MODE,
+                   [](const FrameSource&, const StreamState& state) -> Value { return bytes_of(&state.mode, 1); }},
+    StreamProperty{ONI_STREAM_PROPERTY_CROPPING,
+                   [](const FrameSource&, const StreamState& state) -> Value { return bytes_of(&state.cropping, 1); }},
+    StreamProperty{ONI_STREAM_PROPERTY_MIRRORING,
+                   [](const FrameSource&, const StreamState& state) -> Value { return std::int64_t{state.mirrored}; }},
+    StreamProperty{ONI_STREAM_PROPERTY_HORIZONTAL_FOV,
+                   [](const FrameSource& source, const StreamState&) -> Value {
+                     return field_of_view(source.sensor().width, source.sensor().focal_px);
+                   }},
+    StreamProperty{ONI_STREAM_PROPERTY_VERTICAL_FOV,
+                   [](const FrameSource& source, const StreamState& state) -> Value {
+                     const SensorModel& sensor = source.sensor();
+                     const bool whole_imager = state.mode.resolutionX == sensor.ir_width;
+                     return whole_imager ? field_of_view(sensor.ir_height, sensor.ir_scale() * sensor.focal_px)
+                                         : field_of_view(sensor.height, sensor.focal_px);
+                   }},
+    StreamProperty{ONI_STREAM_PROPERTY_MIN_VALUE,
+                   [](const FrameSource&, const StreamState&) -> Value { return std::int64_t{0}; }},
+    StreamProperty{
+        ONI_STREAM_PROPERTY_MAX_VALUE,
+        [](const FrameSource& source, const StreamState& state) -> Value { return max_value(source, state); }},
+    StreamProperty{ONI_STREAM_PROPERTY_STRIDE,
+                   [](const FrameSource&, const StreamState& state) -> Value {
+                     return static_cast<std::int64_t>(columns(state) * sizeof(std::uint16_t));
+                   }},
+    StreamProperty{ONI_STREAM_PROPERTY_NUMBER_OF_FRAMES,
+                   [](const FrameSource& source, const StreamState&) -> Value {
+                     return source.frames() ? Value(std::int64_t{*source.frames()}) : std::nullopt;
+                   }},
+    StreamProperty{XN_STREAM_PROPERTY_CONST_SHIFT, of_depth<constant<kConstShift>>},
+    StreamProperty{XN_STREAM_PROPERTY_PIXEL_SIZE_FACTOR, of_depth<constant<1>>},
+    StreamProperty{XN_STREAM_PROPERTY_MAX_SHIFT, of_depth<constant<kMaxShift>>},
+    StreamProperty{XN_STREAM_PROPERTY_PARAM_COEFF, of_depth<constant<kParamCoeff>>},
+    StreamProperty{XN_STREAM_PROPERTY_SHIFT_SCALE, of_depth<constant<kShiftScale>>},
+    StreamProperty{XN_STREAM_PROPERTY_ZERO_PLANE_DISTANCE, of_depth<zero_plane_distance>},
+    StreamProperty{XN_STREAM_PROPERTY_ZERO_PLANE_PIXEL_SIZE, of_depth<zero_plane_pixel_size>},
+    StreamProperty{XN_STREAM_PROPERTY_EMITTER_DCMOS_DISTANCE, of_depth<emitter_to_camera>},
+    StreamProperty{XN_STREAM_PROPERTY_S2D_TABLE, of_depth<s2d>},
+    StreamProperty{XN_STREAM_PROPERTY_D2S_TABLE, of_depth<d2s>},
+};
+
+}  // namespace
+
+double StreamState::depth_unit() const {
+  return mode.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 0.1 * kMetresPerMm : kMetresPerMm;
+}
+
+std::span<const StreamProperty> stream_properties() { return kProperties; }
+
+std::optional<PropertyValue> stream_property(const FrameSource& source, const StreamState& state, int id) {
+  for (const StreamProperty& property : kProperties)
+    if (property.id == id) return property.value(source, state);
+  return std::nullopt;
+}
+
+}  // namespace fathom
