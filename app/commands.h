@@ -27,9 +27,11 @@ inline constexpr std::array kCommands{
             "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50 -o out/theory\n"
             "  fathom theory --max-skew",
             define_theory},
-    Command{"detect", "Finds cups on a desk and the liquids in them, in measured or simulated clouds",
+    Command{"detect",
+            "Finds cups on a desk and the liquids in them, in measured or simulated clouds or before a depth camera",
             "  fathom detect cloud.pcd\n  fathom detect cloud.pcd --height-mm 650 --pitch-deg 58.4 --json\n"
-            "  fathom detect shot1.pcd shot2.ply --config detector.json -o out/detected",
+            "  fathom detect shot1.pcd shot2.ply --config detector.json -o out/detected\n"
+            "  fathom detect --live --frames 10",
             define_detect},
     Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"

@@ -1,13 +1,15 @@
-// fathom detect: cups and their liquids in clouds, as rows or as JSON.
+// fathom detect: cups and their liquids in clouds of files or of a device, as rows or as JSON.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/detection_report.h"
 #include "app/detector_options.h"
+#include "app/live_cloud.h"
 #include "app/results.h"
 #include "core/error.h"
 #include "core/progress.h"
@@ -18,6 +20,8 @@ namespace {
 
 struct DetectOptions {
   std::vector<std::filesystem::path> clouds;
+  std::optional<std::string> live;  ///< a device's URI; empty: the first one
+  int frames = 1;                   ///< of the device
   std::string method{methods().front().name};
   DeskOptions desk;
   std::filesystem::path config;
@@ -28,18 +32,24 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
   DetectorSettings settings = detector_settings(options.config);
   settings.prior = options.desk.prior();
 
+  std::optional<LiveCamera> camera;
+  if (options.live) camera.emplace(*options.live);
+  const std::size_t count = camera ? static_cast<std::size_t>(options.frames) : options.clouds.size();
+
   Json all = Json::array();
   std::string rows;
-  Progress progress("detect", options.clouds.size(), common.quiet || options.clouds.size() == 1);
-  for (const std::filesystem::path& path : options.clouds) {
-    const Detection detection = method.detect(read_cloud(path), settings);
-    if (common.json && options.clouds.size() == 1) {
+  Progress progress("detect", count, common.quiet || count == 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = camera ? camera->uri() : options.clouds[i].string();
+    const Cloud cloud = camera ? cloud_from_image(camera->next_cloud()) : read_cloud(options.clouds[i]);
+    const Detection detection = method.detect(cloud, settings);
+    if (common.json && count == 1) {
       all = detection_json(detection);
     } else if (common.json) {
-      all.push_back({{"cloud", path.string()}});
+      all.push_back({{"cloud", name}});
       all.back().update(detection_json(detection));
     } else {
-      const std::string text = format_rows(detection_rows(path.string(), detection), false);
+      const std::string text = format_rows(detection_rows(name, detection), false);
       fmt::print("{}", text);
       std::fflush(stdout);  // into pipes too, while the next cloud is worked on
       rows += text;
@@ -62,14 +72,28 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) 
     names.emplace_back(method.name);
     help += fmt::format(" {} ({})", method.name, method.summary);
   }
-  app.add_option("clouds", options->clouds, "PCD or PLY clouds, metres, camera frame")->required()->type_name("CLOUD");
+  CLI::Option* clouds =
+      app.add_option("clouds", options->clouds, "PCD or PLY clouds, metres, camera frame")->type_name("CLOUD");
+  CLI::Option* live =
+      app.add_option("--live", options->live, "Frames of a device of OpenNI2, the first one or that URI")
+          ->type_name("[URI]")
+          ->expected(0, 1)
+          ->default_str("")
+          ->excludes(clouds);
+  app.add_option("--frames", options->frames, "How many of the device's")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str()
+      ->needs(live);
   app.add_option("--method", options->method, help)->capture_default_str()->check([names](const std::string& name) {
     const bool known = std::find(names.begin(), names.end(), name) != names.end();
     return known ? std::string() : unknown_name("method", name, names);
   });
   add_desk_options(app, options->desk);
   app.add_option("--config", options->config, "Parameters of the method and its templates")->type_name("JSON");
-  return [options, &common] { run_detect(*options, common); };
+  return [options, &common] {
+    if (options->clouds.empty() && !options->live) throw UsageError("needs a CLOUD or --live");
+    run_detect(*options, common);
+  };
 }
 
 }  // namespace fathom

@@ -9,6 +9,9 @@ find_package(embree 3.13 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_path(OPENNI2_INCLUDE_DIR OpenNI.h PATH_SUFFIXES openni2 REQUIRED)
 find_library(OPENNI2_LIBRARY OpenNI2 REQUIRED)
+add_library(OpenNI2::OpenNI2 UNKNOWN IMPORTED)
+set_target_properties(OpenNI2::OpenNI2 PROPERTIES
+  IMPORTED_LOCATION ${OPENNI2_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${OPENNI2_INCLUDE_DIR})
 # Debian's PCL asks for optional parts that are not installed; only its own are used here.
 set(FATHOM_PCL_COMPONENTS common io kdtree search sample_consensus segmentation filters features registration)
 find_package(PCL 1.12 REQUIRED QUIET COMPONENTS ${FATHOM_PCL_COMPONENTS})
