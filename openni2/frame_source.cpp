@@ -19,7 +19,7 @@ class LiveScene : public FrameSource {
     constexpr std::uint64_t kSeed = 1;
     if (!camera_) camera_.emplace(setup_, CaptureMode::photometric, kDefaultSamplesPerPixel, kSeed);
   }
-  Frame shoot(int frame) override { return camera_->shoot(static_cast<std::uint64_t>(frame)); }
+  Frame shoot(int frame, bool /*infrared*/) override { return camera_->shoot(static_cast<std::uint64_t>(frame)); }
 
  private:
   Setup setup_;
@@ -33,7 +33,9 @@ class PlayedFolder : public FrameSource {
   const SensorModel& sensor() const override { return capture_.sensor; }
   bool has_infrared() const override { return capture_.infrared; }
   std::optional<int> frames() const override { return static_cast<int>(capture_.frames.size()); }
-  Frame shoot(int frame) override { return read_frame(capture_, static_cast<std::size_t>(frame)); }
+  Frame shoot(int frame, bool infrared) override {
+    return read_frame(capture_, static_cast<std::size_t>(frame), infrared);
+  }
 
  private:
   RecordedCapture capture_;

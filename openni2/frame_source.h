@@ -20,8 +20,8 @@ class FrameSource {
 
   /// What has to be done once before the first frame; may take seconds. Throws Error.
   virtual void prepare() {}
-  /// Infrared image and disparities of the frame of that number, counted from 0. Throws Error.
-  virtual Frame shoot(int frame) = 0;
+  /// Disparities and, where wanted, infrared image of the frame of that number, counted from 0. Throws Error.
+  virtual Frame shoot(int frame, bool infrared) = 0;
 };
 
 /// Whether a device's URI is meant for this driver: the name of a scene file, whether or not it exists, or a folder.

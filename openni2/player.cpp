@@ -13,7 +13,7 @@ Player::Player(std::unique_ptr<FrameSource> source, Ended ended)
 
 Player::~Player() = default;
 
-void Player::add(const void* owner, Receiver receiver) {
+void Player::add(const void* owner, bool wants_infrared, Receiver receiver) {
   {
     const std::lock_guard lock(mutex_);
     if (!prepared_) source_->prepare();
@@ -24,7 +24,7 @@ void Player::add(const void* owner, Receiver receiver) {
     receivers_[owner] = std::move(receiver);
   }
   const std::lock_guard lock(mutex_);
-  ++started_;
+  started_[owner] = wants_infrared;
   wake_.notify_all();
 }
 
@@ -34,7 +34,7 @@ void Player::remove(const void* owner) {
     if (receivers_.erase(owner) == 0) return;
   }
   const std::lock_guard lock(mutex_);
-  --started_;
+  started_.erase(owner);
 }
 
 float Player::speed() const {
@@ -74,7 +74,13 @@ void Player::trigger() {
 
 bool Player::at_end() const { return source_->frames() && next_ >= *source_->frames(); }
 
-bool Player::wanted() const { return started_ > 0 && (speed_ != kManual || triggered_) && (!at_end() || repeats_); }
+bool Player::wanted() const {
+  return !started_.empty() && (speed_ != kManual || triggered_) && (!at_end() || repeats_);
+}
+
+bool Player::infrared_wanted() const {
+  return std::any_of(started_.begin(), started_.end(), [](const auto& owner) { return owner.second; });
+}
 
 Player::Clock::duration Player::pause() const {
   if (speed_ <= 0.0f) return Clock::duration::zero();
@@ -101,13 +107,14 @@ void Player::play(std::stop_token stop) {
     triggered_ = false;
     if (at_end()) next_ = 0;
     const int number = next_++, seeks = seeks_;
+    const bool infrared = infrared_wanted();
     lock.unlock();
-    Shot shot{source_->shoot(number), number + 1, 0};
+    Shot shot{source_->shoot(number, infrared), number + 1, 0};
     lock.lock();
     due = std::max(due + pause(), Clock::now());
-    wake_.wait_until(lock, stop, due, [&] { return seeks_ != seeks || started_ == 0; });
+    wake_.wait_until(lock, stop, due, [&] { return seeks_ != seeks || started_.empty(); });
     if (stop.stop_requested()) return;
-    if (seeks_ != seeks || started_ == 0) continue;
+    if (seeks_ != seeks || started_.empty()) continue;
     shot.time_us = time_us();
     ++handed_out_;
     const bool last = at_end() && !repeats_;

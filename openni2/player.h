@@ -35,8 +35,9 @@ class Player {
 
   const FrameSource& source() const { return *source_; }
 
-  /// The first receiver waits until the source is prepared. Throws Error. Receivers are called on the player's thread.
-  void add(const void* owner, Receiver receiver);
+  /// The first receiver waits until the source is prepared. Throws Error. Receivers are called on the player's thread,
+  /// those that want no infrared image perhaps without.
+  void add(const void* owner, bool wants_infrared, Receiver receiver);
   /// After it returns that receiver is not called any more.
   void remove(const void* owner);
 
@@ -55,8 +56,9 @@ class Player {
 
   void run(const std::stop_token& stop);
   void play(std::stop_token stop);
-  bool wanted() const;  ///< with mutex_ held
-  bool at_end() const;  ///< with mutex_ held
+  bool wanted() const;           ///< with mutex_ held
+  bool infrared_wanted() const;  ///< with mutex_ held
+  bool at_end() const;           ///< with mutex_ held
   Clock::duration pause() const;
   std::uint64_t time_us() const;
 
@@ -67,7 +69,7 @@ class Player {
   mutable std::mutex mutex_;  ///< of what follows; never held while receivers run
   std::condition_variable_any wake_;
   bool prepared_ = false;
-  int started_ = 0;  ///< receivers
+  std::map<const void*, bool> started_;  ///< the receivers' owners, and whether they want infrared images
   int next_ = 0;
   std::uint64_t handed_out_ = 0;
   int seeks_ = 0;

@@ -36,7 +36,7 @@ StreamState Stream::state() const {
 
 OniStatus Stream::start() {
   return guarded(services_, ONI_STATUS_ERROR, [&] {
-    player_.add(this, [this](const Shot& shot) { deliver(shot); });
+    player_.add(this, state().type == ONI_SENSOR_IR, [this](const Shot& shot) { deliver(shot); });
     const std::lock_guard lock(mutex_);
     started_ = true;
     return ONI_STATUS_OK;
@@ -123,6 +123,7 @@ void Stream::notifyAllProperties() {
 
 void Stream::deliver(const Shot& shot) {
   const StreamState now = state();
+  if (now.type == ONI_SENSOR_IR && shot.frame.ir.empty()) return;  // taken before this stream was started
   const SensorModel& sensor = player_.source().sensor();
   const Region region = region_of(now.cropping);
   const Image<std::uint16_t> image = now.type == ONI_SENSOR_DEPTH

@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "core/image_file.h"
 #include "sim/sensor/capture_files.h"
-#include "sim/sensor/depth.h"
 
 namespace fathom {
 namespace {
@@ -32,13 +31,12 @@ RecordedCapture read_capture(const std::filesystem::path& folder) {
   return capture;
 }
 
-Frame read_frame(const RecordedCapture& capture, std::size_t index) {
+Frame read_frame(const RecordedCapture& capture, std::size_t index, bool infrared) {
   const SensorModel& sensor = capture.sensor;
   const std::filesystem::path& folder = capture.frames.at(index);
   Frame frame;
-  if (capture.infrared) frame.ir = read_image(folder / "ir.exr", sensor.ir_width, sensor.ir_height);
+  if (infrared && capture.infrared) frame.ir = read_image(folder / "ir.exr", sensor.ir_width, sensor.ir_height);
   frame.disparity_px = read_image(folder / "disparity.exr", sensor.width, sensor.height);
-  frame.depth = depth_image(sensor, frame.disparity_px);
   return frame;
 }
 

@@ -17,8 +17,8 @@ struct RecordedCapture {
 /// Reads run.json. Throws Error when the folder holds no complete capture.
 RecordedCapture read_capture(const std::filesystem::path& folder);
 
-/// One frame: infrared image and disparities as they were written, their depth; the cloud is left empty. Throws Error
+/// One frame's disparities and, where wanted, infrared image as they were written; the rest is left empty. Throws Error
 /// naming the file that is missing, damaged or of another size than the sensor's images.
-Frame read_frame(const RecordedCapture& capture, std::size_t index);
+Frame read_frame(const RecordedCapture& capture, std::size_t index, bool infrared);
 
 }  // namespace fathom

@@ -38,6 +38,12 @@ std::vector<std::uint16_t> in_units(const Image<float>& depth, double unit) {
   return {whole.pixels().begin(), whole.pixels().end()};
 }
 
+/// A captured frame's depth in whole mm.
+std::vector<std::uint16_t> captured_mm(const std::string& folder, int frame) {
+  const RecordedCapture recorded = read_capture(folder);
+  return in_units(depth_image(recorded.sensor, read_frame(recorded, frame, false).disparity_px), 1e-3);
+}
+
 std::vector<std::uint16_t> in_dn(const Image<float>& ir) {
   std::vector<std::uint16_t> dn;
   for (const float value : ir.pixels()) dn.push_back(static_cast<std::uint16_t>(std::lround(value)));
@@ -107,7 +113,6 @@ TEST_F(Device, DepthAndInfraredAreOfTheSameShot) {
 }
 
 TEST_F(Device, AFolderIsPlayedInALoop) {
-  const RecordedCapture recorded = read_capture(captured().frames);
   Client client(captured().frames, openni::SENSOR_DEPTH);
   ASSERT_TRUE(client.device.isFile());
   EXPECT_EQ(client.device.getPlaybackControl()->getNumberOfFrames(client.stream), 3);
@@ -117,7 +122,7 @@ TEST_F(Device, AFolderIsPlayedInALoop) {
     const ReadFrame frame = client.read();
     EXPECT_EQ(frame.number, 1 + i % 3);
     EXPECT_EQ(frame.time_us, static_cast<std::uint64_t>(i * 1'000'000LL / 30));
-    EXPECT_EQ(frame.pixels, in_units(read_frame(recorded, static_cast<std::size_t>(i % 3)).depth, 1e-3));
+    EXPECT_EQ(frame.pixels, captured_mm(captured().frames, i % 3));
   }
 }
 
@@ -185,7 +190,7 @@ TEST_F(Device, SaysWhatTheXtionSays) {
 }
 
 TEST_F(Device, MirrorsAndCrops) {
-  const std::vector<std::uint16_t> plain = in_units(read_frame(read_capture(captured().frames), 0).depth, 1e-3);
+  const std::vector<std::uint16_t> plain = captured_mm(captured().frames, 0);
   Client client(captured().frames, openni::SENSOR_DEPTH);
   EXPECT_FALSE(client.stream.getMirroringEnabled());
   ASSERT_EQ(client.stream.setMirroringEnabled(true), STATUS_OK);
