@@ -26,19 +26,31 @@ class LiveScene : public FrameSource {
   std::optional<Camera> camera_;
 };
 
+/// Reading an infrared image takes longer than the device's frame, so the frames are kept, unless there are many.
 class PlayedFolder : public FrameSource {
  public:
-  explicit PlayedFolder(const std::filesystem::path& folder) : capture_(read_capture(folder)) {}
+  explicit PlayedFolder(const std::filesystem::path& folder) : capture_(read_capture(folder)) {
+    constexpr std::size_t kMostKept = std::size_t{256} << 20;  // [bytes] 40 frames of the Xtion
+    const SensorModel& model = capture_.sensor;
+    const std::size_t pixels = std::size_t(model.width) * model.height + std::size_t(model.ir_width) * model.ir_height;
+    if (capture_.frames.size() * pixels * sizeof(float) <= kMostKept) kept_.resize(capture_.frames.size());
+  }
 
   const SensorModel& sensor() const override { return capture_.sensor; }
   bool has_infrared() const override { return capture_.infrared; }
   std::optional<int> frames() const override { return static_cast<int>(capture_.frames.size()); }
   Frame shoot(int frame, bool infrared) override {
-    return read_frame(capture_, static_cast<std::size_t>(frame), infrared);
+    const auto index = static_cast<std::size_t>(frame);
+    if (kept_.empty()) return read_frame(capture_, index, infrared);
+    Frame& kept = kept_[index];
+    const bool lacks_infrared = infrared && capture_.infrared && kept.ir.empty();
+    if (kept.disparity_px.empty() || lacks_infrared) kept = read_frame(capture_, index, infrared);
+    return kept;
   }
 
  private:
   RecordedCapture capture_;
+  std::vector<Frame> kept_;  ///< empty images where not read yet; none at all when they would be too many
 };
 
 }  // namespace
