@@ -39,19 +39,16 @@ OniStatus Driver::initialize(oni::driver::DeviceConnectedCallback connected,
   });
 }
 
-void Driver::connect(const std::string& uri) {
-  const OniDeviceInfo info = device_info(uri);
-  deviceConnected(&info);
-}
-
-/// Only names are looked at: what is wrong with a scene is said when it is opened.
-OniStatus Driver::tryDevice(const char* uri) {
+OniStatus Driver::connect(const std::string& uri) {
   return guarded(getServices(), ONI_STATUS_ERROR, [&] {
-    if (!names_source(uri)) return ONI_STATUS_NO_DEVICE;
-    connect(uri);
+    const OniDeviceInfo info = device_info(uri);
+    deviceConnected(&info);
     return ONI_STATUS_OK;
   });
 }
+
+/// Only names are looked at: what is wrong with a scene is said when it is opened.
+OniStatus Driver::tryDevice(const char* uri) { return names_source(uri) ? connect(uri) : ONI_STATUS_NO_DEVICE; }
 
 oni::driver::DeviceBase* Driver::deviceOpen(const char* uri, const char*) {
   return guarded(getServices(), static_cast<oni::driver::DeviceBase*>(nullptr), [&]() -> oni::driver::DeviceBase* {

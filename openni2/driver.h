@@ -28,7 +28,7 @@ class Driver final : public oni::driver::DriverBase {
   void* enableFrameSync(oni::driver::StreamBase** streams, int count) override;
 
  private:
-  void connect(const std::string& uri);
+  OniStatus connect(const std::string& uri);
 
   std::mutex mutex_;
   std::vector<std::unique_ptr<Device>> devices_;  ///< the open ones

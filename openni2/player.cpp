@@ -114,7 +114,11 @@ void Player::play(std::stop_token stop) {
     due = std::max(due + pause(), Clock::now());
     wake_.wait_until(lock, stop, due, [&] { return seeks_ != seeks || started_.empty(); });
     if (stop.stop_requested()) return;
-    if (seeks_ != seeks || started_.empty()) continue;
+    if (seeks_ != seeks) continue;
+    if (started_.empty()) {
+      next_ = number;
+      continue;
+    }
     shot.time_us = time_us();
     ++handed_out_;
     const bool last = at_end() && !repeats_;
