@@ -147,9 +147,7 @@ void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
 }
 
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {
-  Packet<SeenPoint> alone;
-  alone.set(0, seen);
-  const Packet<Illumination> lights = illuminate(projector, alone);
+  const Packet<Illumination> lights = illuminate(projector, alone(seen));
   const Illumination* light = lights.find(0);
   return light ? std::optional(*light) : std::nullopt;
 }

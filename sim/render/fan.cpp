@@ -158,9 +158,9 @@ void Fan::file(std::uint32_t number) {
 std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body* around) const {
   constexpr double kMostSteps = 2.5;
   std::vector<Candidate> candidates;
-  const auto box = boxes_.find(box_of(box_index(target)));
-  if (box == boxes_.end()) return candidates;
-  for (const std::uint32_t number : box->second.seeds) {
+  const Box* box = box_around(target);
+  if (!box) return candidates;
+  for (const std::uint32_t number : box->seeds) {
     const Seed& seed = seeds_[number];
     if (seed.medium != around) continue;
     const Eigen::Vector3d offset = target - seed.pencil.origin;
@@ -186,8 +186,13 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
 }
 
 double Fan::strength_near(const Eigen::Vector3d& target) const {
-  const auto box = boxes_.find(box_of(box_index(target)));
-  return box == boxes_.end() ? 0.0 : box->second.strength;
+  const Box* box = box_around(target);
+  return box ? box->strength : 0.0;
+}
+
+const Fan::Box* Fan::box_around(const Eigen::Vector3d& point) const {
+  const auto box = boxes_.find(box_of(box_index(point)));
+  return box == boxes_.end() ? nullptr : &box->second;
 }
 
 }  // namespace fathom

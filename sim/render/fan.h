@@ -54,6 +54,9 @@ class Fan {
     std::vector<std::uint32_t> seeds;  ///< whose pencils touch it
     double strength = 0.0;             ///< as strength_near()
   };
+  /// nullptr where no pencil touches it.
+  const Box* box_around(const Eigen::Vector3d& point) const;
+
   Ways ways_;
   std::vector<Seed> seeds_;
   std::unordered_map<std::uint64_t, Box> boxes_;

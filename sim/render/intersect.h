@@ -46,6 +46,14 @@ class Packet {
   std::bitset<kPacket> present_;
 };
 
+/// A packet of one.
+template <class T>
+Packet<T> alone(const T& value) {
+  Packet<T> packet;
+  packet.set(0, value);
+  return packet;
+}
+
 /// A straight piece of a light's way.
 struct Piece {
   Eigen::Vector3d from;       ///< [m] world

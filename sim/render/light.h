@@ -48,9 +48,7 @@ class PointLight {
   /// The same for one: `visit(connection)`.
   template <class Visit>
   void connect(const Receiver& receiver, Visit&& visit) const {
-    Packet<Receiver> alone;
-    alone.set(0, receiver);
-    connect(alone, [&](std::size_t, const Connection& way) { visit(way); });
+    connect(alone(receiver), [&](std::size_t, const Connection& way) { visit(way); });
   }
   /// The same for light that one interface on its way reflects in part. Where curved surfaces throw but faint light,
   /// chance decides whether it is looked for, and its transmittance is that of all that is not; the less of the light

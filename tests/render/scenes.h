@@ -67,13 +67,6 @@ inline void add_room(Geometry& geometry) {
   geometry.surfaces.push_back({static_cast<int>(geometry.objects.size()), std::move(room), Diffuse{0.0}});
 }
 
-/// A packet of one.
-inline Packet<SeenPoint> alone(const SeenPoint& seen) {
-  Packet<SeenPoint> packet;
-  packet.set(0, seen);
-  return packet;
-}
-
 /// The sensor over a cup of the given shape at 300 mm; `more` goes into the cup.
 inline Setup cup_of(const std::string& shape, const std::string& more) {
   return setup_from_json(Json::parse(fmt::format(R"({{"sensor": {{"height_mm": 650, "aim_mm": [0, 300, 0]}},
