@@ -19,6 +19,9 @@ constexpr double kBend = 1e-2;
 constexpr double kMiss = 1e-8;
 /// Of the product of a tube's widths. Central differences err by about the square of kBend.
 constexpr double kArea = 1e-3;
+/// Of a tube's width over its angle: farther behind, as on the handle's or the wall's far side, a ray makes the tube
+/// wider by as much.
+constexpr double kStepInDepth = 0.1 * kArea;
 
 /// Where five neighbouring rays land, as seen along the middle one: [m] from where that lands, perpendicular to its
 /// direction there.
@@ -26,6 +29,7 @@ struct Tube {
   Eigen::Vector3d landing;    ///< of the middle ray
   Eigen::Matrix2d per_angle;  ///< [m/rad] from one side to the other, over the angle between them
   Eigen::Matrix2d bend;       ///< [m] by which the middle ray lands off the others' middle
+  Eigen::Vector2d step;       ///< [m] the same along its direction
 };
 
 class Tubes {
@@ -38,14 +42,16 @@ class Tubes {
     const std::optional<SeenPoint> middle = land(direction);
     if (!middle) return std::nullopt;
     const Matrix32d angles = perpendicular_to(direction), plane = perpendicular_to(arrival);
-    Tube tube{middle->point, {}, {}};
+    Tube tube{middle->point, {}, {}, {}};
     for (int axis = 0; axis < 2; ++axis) {
       const Eigen::Vector3d aside = kStep * angles.col(axis);
       const auto low = land(direction - aside), high = land(direction + aside);
       for (const auto& side : {low, high})
         if (!side || side->object != middle->object || side->around != middle->around) return std::nullopt;
       tube.per_angle.col(axis) = plane.transpose() * (high->point - low->point) / (2.0 * kStep);
-      tube.bend.col(axis) = plane.transpose() * (0.5 * (high->point + low->point) - middle->point);
+      const Eigen::Vector3d off_middle = 0.5 * (high->point + low->point) - middle->point;
+      tube.bend.col(axis) = plane.transpose() * off_middle;
+      tube.step[axis] = arrival.dot(off_middle);
     }
     return tube;
   }
@@ -93,7 +99,9 @@ class PointLaws {
       return fmt::format("a way spreads by {}", way.spreading);
     const auto tube = tubes_.sent(way.direction, way.arrival);
     // Beyond a smooth surface's edge rays land elsewhere, or bend by another law.
-    if (!tube || tube->bend.norm() > kBend * kStep * tube->per_angle.norm()) {
+    const bool whole = tube && tube->bend.norm() <= kBend * kStep * tube->per_angle.norm() &&
+                       tube->step.norm() <= kStepInDepth * tube->per_angle.norm();
+    if (!whole) {
       ++counts_.torn;
       return std::nullopt;
     }
