@@ -2,44 +2,33 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/image_file.h"
 #include "core/units.h"
 #include "sim/scene/library.h"
 
 namespace fathom {
 namespace {
 
-/// Presets of the image noise.
-/// basic: per-dot speckle Gamma(4.54, mean 1) and detector noise 10.4 DN of 10 bits (Landau 2016); the shot noise's
-/// 10 electrons per DN are an estimate.
-const std::array<std::pair<std::string, NoiseModel>, 2> kNoisePresets{{
-    {"off", NoiseModel{}},
-    {"basic", NoiseModel{4.54, 10.0, 10.4, 10}},
-}};
-
-NoiseModel noise_from_json(const JsonReader& json) {
-  if (json.value().is_string()) {
-    std::vector<std::string> names;
-    for (const auto& preset : kNoisePresets) names.push_back(preset.first);
-    return kNoisePresets[json.choice(names, "noise preset")].second;
-  }
-  json.allow_only({"speckle_shape", "electrons_per_dn", "read_dn", "bits"});
-  NoiseModel noise;
-  noise.speckle_shape = json.number_or("speckle_shape", 0.0, kNonNegative);
-  if (noise.speckle_shape > 0.0 && noise.speckle_shape < 1.0)
-    json.fail_at("speckle_shape", "must be 0 (none) or at least 1 (fully developed speckle)");
-  noise.electrons_per_dn = json.number_or("electrons_per_dn", 0.0, kNonNegative);
-  noise.read_dn = json.number_or("read_dn", 0.0, kNonNegative);
-  noise.bits = json.integer_or("bits", 0, 0, 16);
-  return noise;
+/// A grey PNG, a pixel for each position of the grid; relative to the file that names it.
+void read_pattern_image(const JsonReader& json, PatternModel& pattern) {
+  pattern.image_file = (std::filesystem::path(json.file()).parent_path() / json.text()).string();
+  const Image<std::uint16_t> grey = read_png_grey(pattern.image_file);
+  const std::uint16_t brightest = *std::max_element(grey.pixels().begin(), grey.pixels().end());
+  if (brightest == 0) json.fail("is black all over; a pattern needs bright pixels");
+  if (grey.width() < 16 || grey.height() < 16) json.fail("must have at least 16 × 16 pixels");
+  Image<float> brightness(grey.width(), grey.height());
+  std::transform(grey.pixels().begin(), grey.pixels().end(), brightness.pixels().begin(),
+                 [&](std::uint16_t value) { return static_cast<float>(value) / static_cast<float>(brightest); });
+  pattern.image = std::make_shared<const Image<float>>(std::move(brightness));
 }
 
 void read_pattern(const JsonReader& json, PatternModel& pattern) {
   json.allow_only({"tile_columns", "tile_rows", "tiles_across", "tiles_down", "step_px", "dots_per_tile",
-                   "dot_sigma_ir_px", "seed"});
+                   "dot_sigma_ir_px", "zero_order", "tile_spread", "image", "seed"});
   pattern.tile_columns = json.integer_or("tile_columns", pattern.tile_columns, 16, 512);
   pattern.tile_rows = json.integer_or("tile_rows", pattern.tile_rows, 16, 512);
   pattern.tiles_across = json.integer_or("tiles_across", pattern.tiles_across, 1, 64);
@@ -55,12 +44,19 @@ void read_pattern(const JsonReader& json, PatternModel& pattern) {
   const double widest_ir_px = 1.2 * pattern.step_px;
   if (pattern.dot_sigma_ir_px > widest_ir_px)
     json.fail_at("dot_sigma_ir_px", fmt::format("must be at most 1.2 step_px, here {:g}", widest_ir_px));
+  pattern.zero_order = json.number_or("zero_order", pattern.zero_order, {0.0, 1000.0});
+  pattern.tile_spread = json.number_or("tile_spread", pattern.tile_spread, {0.0, 0.3});
+  if (json.has("image")) read_pattern_image(json.at("image"), pattern);
   pattern.seed = static_cast<std::uint64_t>(json.integer_or("seed", static_cast<int>(pattern.seed), 0, 1 << 30));
 }
 
 void read_matcher(const JsonReader& json, MatcherModel& matcher) {
-  json.allow_only(
-      {"window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min", "contrast_min_dn"});
+  json.allow_only({"method", "window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min",
+                   "contrast_min_dn"});
+  if (json.has("method")) {
+    const std::string choices[] = {"precise", "device"};
+    matcher.method = MatchMethod{static_cast<int>(json.at("method").choice(choices, "matching method"))};
+  }
   matcher.window_columns = json.integer_or("window_columns", matcher.window_columns, 3, 31);
   matcher.window_rows = json.integer_or("window_rows", matcher.window_rows, 3, 31);
   if (matcher.window_columns % 2 == 0) json.fail_at("window_columns", "must be odd");
@@ -106,6 +102,8 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
   if (sensor.far <= sensor.near) json.fail_at("far_mm", "must be above near_mm");
   sensor.radiant_dn_mm2 = json.number_or("radiant_dn_mm2", sensor.radiant_dn_mm2, kPositive);
   if (json.has("noise")) sensor.noise = noise_from_json(json.at("noise"));
+  if (json.has("optics")) sensor.optics = optics_from_json(json.at("optics"), sensor.optics);
+  if (json.has("unit")) sensor.unit = unit_from_json(json.at("unit"), sensor.unit);
   if (json.has("pattern")) read_pattern(json.at("pattern"), sensor.pattern);
   if (json.has("matcher")) read_matcher(json.at("matcher"), sensor.matcher);
   if (json.has("quantization")) {
@@ -168,11 +166,12 @@ double roll_of(const Eigen::Matrix3d& world_from_camera) {
 }
 
 Rig rig_from_json(const JsonReader& json) {
-  json.allow_only({"model", "height_mm", "aim_mm", "pitch_deg", "roll_deg", "baseline_mm", "wavelength_nm",
-                   "ir_size_px", "depth_size_px", "focal_px", "principal_px", "reference_mm", "near_mm", "far_mm",
-                   "radiant_dn_mm2", "noise", "quantization", "pattern", "matcher"});
+  json.allow_only(
+      {"model",          "height_mm",     "aim_mm",   "pitch_deg",    "roll_deg",     "baseline_mm", "wavelength_nm",
+       "ir_size_px",     "depth_size_px", "focal_px", "principal_px", "reference_mm", "near_mm",     "far_mm",
+       "radiant_dn_mm2", "optics",        "noise",    "quantization", "pattern",      "matcher",     "unit"});
   Rig rig;
-  rig.sensor.noise = kNoisePresets[1].second;
+  rig.sensor.noise = basic_noise();
   rig.sensor.name.clear();  // a full description has no model's name
   if (json.has("model")) {
     const std::string name = json.text("model");
@@ -181,8 +180,8 @@ Rig rig_from_json(const JsonReader& json) {
     const Json text = read_json(file);
     const JsonReader model(text, file.string());
     model.allow_only({"source", "baseline_mm", "wavelength_nm", "ir_size_px", "depth_size_px", "focal_px",
-                      "principal_px", "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2", "noise", "quantization",
-                      "pattern", "matcher"});
+                      "principal_px", "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2", "optics", "noise",
+                      "quantization", "pattern", "matcher", "unit"});
     read_model(model, rig.sensor);
     rig.sensor.name = name;
   }
@@ -210,11 +209,9 @@ Json json_from_rig(const Rig& rig) {
       {"far_mm", mm_from_metres(s.far)},
       {"radiant_dn_mm2", s.radiant_dn_mm2},
       {"quantization", s.quantized ? "device" : "off"},
-      {"noise",
-       {{"speckle_shape", s.noise.speckle_shape},
-        {"electrons_per_dn", s.noise.electrons_per_dn},
-        {"read_dn", s.noise.read_dn},
-        {"bits", s.noise.bits}}},
+      {"optics", json_from_optics(s.optics)},
+      {"noise", json_from_noise(s.noise)},
+      {"unit", json_from_unit(s.unit)},
       {"pattern",
        {{"tile_columns", s.pattern.tile_columns},
         {"tile_rows", s.pattern.tile_rows},
@@ -223,15 +220,19 @@ Json json_from_rig(const Rig& rig) {
         {"step_px", s.pattern.step_px},
         {"dots_per_tile", s.pattern.dots_per_tile},
         {"dot_sigma_ir_px", s.pattern.dot_sigma_ir_px},
+        {"zero_order", s.pattern.zero_order},
+        {"tile_spread", s.pattern.tile_spread},
         {"seed", s.pattern.seed}}},
       {"matcher",
-       {{"window_columns", s.matcher.window_columns},
+       {{"method", s.matcher.method == MatchMethod::device ? "device" : "precise"},
+        {"window_columns", s.matcher.window_columns},
         {"window_rows", s.matcher.window_rows},
         {"disparity_min_px", s.matcher.disparity_min_px},
         {"disparity_max_px", s.matcher.disparity_max_px},
         {"correlation_min", s.matcher.correlation_min},
         {"contrast_min_dn", s.matcher.contrast_min}}},
   });
+  if (s.pattern.image) json["pattern"]["image"] = s.pattern.image_file;
   return json;
 }
 

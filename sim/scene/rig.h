@@ -5,11 +5,16 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "core/image.h"
 #include "core/json.h"
 #include "core/pose.h"
+#include "sim/scene/noise.h"
+#include "sim/scene/optics_model.h"
+#include "sim/scene/unit_model.h"
 
 namespace fathom {
 
@@ -20,18 +25,21 @@ struct PatternModel {
   double step_px = 1.0;
   int dots_per_tile = 3861;      ///< 11.1 % of the positions
   double dot_sigma_ir_px = 0.9;  ///< standard deviation of a dot's image, lens included
+  double zero_order = 1.0;       ///< brightness of the spot in each tile's middle over that of a dot
+  double tile_spread = 0.0;      ///< standard deviation of the tiles' brightness over their mean
   std::uint64_t seed = 1;
+  /// Brightness of every position of the grid, 0 … 1, instead of dots of our own; and the file that it came from.
+  std::shared_ptr<const Image<float>> image;
+  std::string image_file;
 };
 
-/// What turns radiance into digital numbers. All zero: an ideal camera.
-struct NoiseModel {
-  double speckle_shape = 0.0;     ///< per-dot Gamma speckle of unit mean; 0 = none
-  double electrons_per_dn = 0.0;  ///< shot noise: variance = signal / electrons_per_dn [DN²]; 0 = none
-  double read_dn = 0.0;           ///< standard deviation of the detector's own noise [DN]
-  int bits = 0;                   ///< rounding and saturation at 2^bits − 1; 0 = none
+enum class MatchMethod {
+  precise,  ///< slopes and edges are followed, which no device does
+  device    ///< plain block correlation: see sim/sensor/block_match.h
 };
 
 struct MatcherModel {
+  MatchMethod method = MatchMethod::precise;
   int window_columns = 9, window_rows = 9;  ///< odd, depth pixels
   int disparity_min_px = -32;               ///< of the search, relative to the reference plane; positive = nearer
   int disparity_max_px = 63;
@@ -52,8 +60,10 @@ struct SensorModel {
   double radiant_dn_mm2 = 5.90e8;  ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
   bool quantized = true;           ///< depth on the device's law; false: float depth
   PatternModel pattern;
+  OpticsModel optics;
   NoiseModel noise;
   MatcherModel matcher;
+  UnitModel unit;
 
   double ir_scale() const { return static_cast<double>(ir_width) / width; }
   int ir_first_row() const { return (ir_height - static_cast<int>(ir_scale()) * height) / 2; }
@@ -68,7 +78,12 @@ struct Rig {
   /// Unit direction in the world of a point of the depth image; (0.5, 0.5) is the first pixel's centre.
   Eigen::Vector3d direction_in_world(double x_px, double y_px) const {
     // Single numbers stay in registers; a vector would go by way of memory, which takes longer than the arithmetic.
-    const double x = x_px - sensor.principal_px.x(), y = y_px - sensor.principal_px.y(), z = sensor.focal_px;
+    double x = x_px - sensor.principal_px.x(), y = y_px - sensor.principal_px.y();
+    const double z = sensor.focal_px;
+    if (sensor.optics.distorts()) {
+      const Eigen::Vector2d direction = sensor.optics.undistorted({x / z, y / z});
+      x = direction.x() * z, y = direction.y() * z;
+    }
     const double scale = 1.0 / std::sqrt(x * x + y * y + z * z);
     return world_from_camera.linear() * Eigen::Vector3d(scale * x, scale * y, scale * z);
   }

@@ -1,5 +1,6 @@
 #include "sim/sensor/capture.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -7,6 +8,7 @@
 #include "sim/render/intersect.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
+#include "sim/sensor/speckle.h"
 
 namespace fathom {
 namespace {
@@ -18,6 +20,12 @@ auto timed(double& seconds, Work work) {
   auto result = work();
   seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+/// What this unit makes of disparities [px]; 0 stays invalid.
+void misread(const UnitError& error, Image<float>& disparity) {
+  for (float& value : disparity.pixels())
+    if (value > 0.0f) value = static_cast<float>(std::max(error.scale * value + error.offset_px, 0.0));
 }
 
 }  // namespace
@@ -34,22 +42,21 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   if (mode == CaptureMode::geometric) return;
 
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
-  Pattern pattern(sensor.pattern, sensor.ir_scale());
-  const int margin = reference_margin(sensor.matcher);
-  reference_ = timed(statistics_.reference_s, [&] {
-    return memorise(sensor, reference_image(sensor, pattern, margin, samples_across_), margin);
-  });
+  Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
+  reference_ = timed(statistics_.reference_s, [&] { return remember(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ =
       timed(statistics_.render_s, [&] { return render_ir(*projector, rig_, pattern, samples_across_, light, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
+  speckle_ = speckle_field(sensor, sensor.noise.pixel_speckle, sensor.ir_width, sensor.ir_height, seed);
+  if (sensor.noise.ambient_dn > 0.0) ambient_ = render_ambient(world, rig_);
 }
 
 Frame Camera::shoot(std::uint64_t frame) {
-  return mode_ == CaptureMode::geometric ? shoot_geometric() : shoot_photometric(frame);
+  return mode_ == CaptureMode::geometric ? shoot_geometric(frame) : shoot_photometric(frame);
 }
 
-Frame Camera::shoot_geometric() {
+Frame Camera::shoot_geometric(std::uint64_t frame) {
   Frame shot;
   shot.disparity_px = Image<float>(truth_.width(), truth_.height());
   Image<float> intensity(truth_.width(), truth_.height());
@@ -59,6 +66,7 @@ Frame Camera::shoot_geometric() {
     if (pixel.apparent_depth)
       shot.disparity_px.pixels()[i] = static_cast<float>(disparity_of_depth(rig_.sensor, *pixel.apparent_depth));
   }
+  misread(unit_error(rig_.sensor.unit, frame), shot.disparity_px);
   shot.depth = depth_image(rig_.sensor, shot.disparity_px);
   shot.cloud = cloud_of_depth(rig_.sensor, shot.depth, intensity);
   return shot;
@@ -67,8 +75,12 @@ Frame Camera::shoot_geometric() {
 Frame Camera::shoot_photometric(std::uint64_t frame) {
   const SensorModel& sensor = rig_.sensor;
   Frame shot;
-  shot.ir = expose(radiance_, sensor.noise, seed_, frame);
+  Image<float> light = radiance_;
+  add_speckle(renewed_speckle(sensor, speckle_, seed_, frame), light);
+  for (std::size_t i = 0; i < ambient_.size(); ++i) light.pixels()[i] += ambient_.pixels()[i];
+  shot.ir = expose(light, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, reference_).disparity_px; });
+  misread(unit_error(sensor.unit, frame), shot.disparity_px);
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));
   return shot;

@@ -43,14 +43,15 @@ class Camera {
 
   const Geometry& geometry() const { return geometry_; }
   const Image<TruePixel>& truth() const { return truth_; }
-  /// What every infrared pixel receives before noise [DN], ir_width × ir_height; empty in geometric mode.
+  /// What every infrared pixel receives from the projector before noise and speckle on pixels [DN], ir_width ×
+  /// ir_height; empty in geometric mode.
   const Image<float>& radiance() const { return radiance_; }
   /// Samples per infrared pixel after rounding up to a square grid; 0 in geometric mode.
   int samples_per_pixel() const { return samples_across_ * samples_across_; }
   const CaptureStatistics& statistics() const { return statistics_; }
 
  private:
-  Frame shoot_geometric();
+  Frame shoot_geometric(std::uint64_t frame);
   Frame shoot_photometric(std::uint64_t frame);
 
   Rig rig_;
@@ -60,6 +61,8 @@ class Camera {
   Geometry geometry_;
   Image<TruePixel> truth_;
   Image<float> radiance_;
+  Image<float> speckle_;  ///< of the static scene; empty: none
+  Image<float> ambient_;  ///< [DN]; empty: none
   Reference reference_;
   CaptureStatistics statistics_;
 };

@@ -9,6 +9,7 @@
 #include "sim/render/connection.h"
 #include "sim/render/light_walk.h"
 #include "sim/render/radiance.h"
+#include "sim/sensor/bloom.h"
 #include "sim/sensor/blurred_pattern.h"
 #include "sim/sensor/glints.h"
 #include "sim/sensor/reference.h"
@@ -42,7 +43,12 @@ struct Renderer {
   std::uint64_t seed;
   double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
 
-  double intensity(const Eigen::Vector3d& direction) const { return intensity_towards(pattern, rig, direction); }
+  /// Of the dots as the camera sees them on a surface at `point`.
+  double intensity(const Eigen::Vector3d& direction, const Eigen::Vector3d& point) const {
+    if (!rig.sensor.optics.defocuses()) return intensity_towards(pattern, rig, direction);
+    const double depth = rig.world_from_camera.linear().col(2).dot(point - rig.camera_in_world());
+    return intensity_towards(pattern, rig, direction, blur_steps(rig.sensor, depth));
+  }
 
   int samples_per_pixel() const { return static_cast<int>(places.size()); }
   int samples_per_row() const { return samples_per_pixel() * rig.sensor.ir_width; }
@@ -74,7 +80,8 @@ struct Renderer {
       }
     for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
       if (light == LightModel::direct && from_projector.through_scattering) return;
-      sums[i] += radiance_dn(rig.sensor, *seen.find(i), from_projector) * intensity(from_projector.direction);
+      const SeenPoint& at = *seen.find(i);
+      sums[i] += radiance_dn(rig.sensor, at, from_projector) * intensity(from_projector.direction, at.point);
     });
     return sums;
   }
@@ -84,7 +91,7 @@ struct Renderer {
     double sum = 0.0;
     if (!seen.entered)
       projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
-        sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
+        sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
       });
     return sum;
   }
@@ -95,7 +102,7 @@ struct Renderer {
     if (!seen.entered)
       projector.connect_mirrored(
           {seen.point, seen.around, &seen.normal}, seen.transmittance, rng, [&](const Connection& way) {
-            ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction);
+            ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
           });
     const int walks = seen.entered ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
@@ -130,28 +137,51 @@ Image<float> render_ir(const PointLight& projector, const Rig& rig, const Patter
   return image;
 }
 
+Image<float> render_ambient(const Intersector& world, const Rig& rig) {
+  const SensorModel& sensor = rig.sensor;
+  const double px_per_ir_px = 1.0 / sensor.ir_scale();
+  Image<float> image(sensor.ir_width, sensor.ir_height);
+  parallel_ranges(image.height(), [&](int begin, int end) {
+    std::array<Ray, kPacket> rays;
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < image.width(); x += kPacket) {
+        const int count = std::min<int>(kPacket, image.width() - x);
+        for (int i = 0; i < count; ++i)
+          rays[i] = {rig.camera_in_world(), rig.direction_in_world((x + i + 0.5) * px_per_ir_px,
+                                                                   (y - sensor.ir_first_row() + 0.5) * px_per_ir_px)};
+        const Packet<SeenPoint> seen = see(world, std::span(rays.data(), count));
+        for (int i = 0; i < count; ++i)
+          if (const SeenPoint* at = seen.find(i))
+            image(x + i, y) = static_cast<float>(sensor.noise.ambient_dn * at->transmittance * at->albedo);
+      }
+  });
+  return image;
+}
+
 std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed) {
   std::vector<float> gains;
   if (noise.speckle_shape <= 0.0) return gains;
   gains.resize(static_cast<std::size_t>(pattern.columns()) * pattern.rows());
   for (std::size_t dot = 0; dot < gains.size(); ++dot)
-    gains[dot] =
-        static_cast<float>(Rng(seed, kSpeckleStream, dot).gamma(noise.speckle_shape, 1.0 / noise.speckle_shape));
+    gains[dot] = static_cast<float>(
+        Rng(seed, kSpeckleStream, dot).gamma(noise.speckle_shape, noise.speckle_mean / noise.speckle_shape));
   return gains;
 }
 
-Image<float> expose(const Image<float>& radiance, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame) {
-  Image<float> image(radiance.width(), radiance.height());
+Image<float> expose(const Image<float>& light, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame) {
+  Image<float> image = light;
+  for (float& value : image.pixels()) value *= static_cast<float>(noise.gain);
   const double full_scale = noise.bits > 0 ? std::exp2(noise.bits) - 1.0 : 0.0;
+  if (noise.bits > 0) bloom(full_scale, noise.bloom_share, noise.bloom_ir_px, image);
   const bool random = noise.electrons_per_dn > 0.0 || noise.read_dn > 0.0;
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
-        double value = radiance(x, y);
+        double value = image(x, y);
         if (random) {
           Rng rng(seed, kDetectorStream, frame, static_cast<std::uint64_t>(y) * image.width() + x);
-          const double shot_variance = noise.electrons_per_dn > 0.0 ? value / noise.electrons_per_dn : 0.0;
-          value += std::sqrt(shot_variance + noise.read_dn * noise.read_dn) * rng.normal();
+          const double shot_variance = noise.electrons_per_dn > 0.0 ? value * noise.gain / noise.electrons_per_dn : 0.0;
+          value += noise.offset_dn + std::sqrt(shot_variance + noise.read_dn * noise.read_dn) * rng.normal();
         }
         if (noise.bits > 0) value = std::clamp(std::round(value), 0.0, full_scale);
         image(x, y) = static_cast<float>(value);

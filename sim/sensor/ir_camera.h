@@ -22,11 +22,16 @@ enum class LightModel {
 Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                        LightModel light, std::uint64_t seed);
 
-/// Speckle of a static scene: one gain of unit mean for every dot, Gamma(shape, 1/shape).
+/// Ambient infrared light that every infrared pixel receives [DN], even and from all sides, on what it sees; of one ray
+/// per pixel.
+Image<float> render_ambient(const Intersector& world, const Rig& rig);
+
+/// Speckle of a static scene, dot by dot: one gain for each, Gamma(shape, mean/shape).
 std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed);
 
-/// Adds the detector's noise of one frame: shot, read, rounding and saturation. Keyed by (seed, frame, pixel).
-Image<float> expose(const Image<float>& radiance, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame);
+/// The detector's numbers for the light of one frame [DN at gain 1]: gain, blooming, shot and read noise, rounding and
+/// saturation. Keyed by (seed, frame, pixel).
+Image<float> expose(const Image<float>& light, const NoiseModel& noise, std::uint64_t seed, std::uint64_t frame);
 
 /// The infrared image at the depth image's size: the mean of the four pixels that lie in each depth pixel.
 Image<float> at_depth_scale(const SensorModel& sensor, const Image<float>& ir);

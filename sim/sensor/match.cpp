@@ -10,9 +10,14 @@ namespace fathom {
 Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference) {
   const Image<float> paired = rows_in_pairs(ir);
   const Image<float> coarse = search(sensor, paired, reference);
-  Estimates estimates = refine(sensor, paired, reference, coarse);
-  carry_to_pixels(estimates);
-  settle_edges(sensor, paired, reference, estimates);
+  Estimates estimates(0, 0);
+  if (sensor.matcher.method == MatchMethod::device) {
+    estimates.disparity = block_match(sensor, paired, reference.blocks, reference.margin_px, coarse);
+  } else {
+    estimates = refine(sensor, paired, reference, coarse);
+    carry_to_pixels(estimates);
+    settle_edges(sensor, paired, reference, estimates);
+  }
 
   const float at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));
   Match result{std::move(estimates.disparity), std::move(estimates.correlation)};

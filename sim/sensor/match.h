@@ -5,6 +5,8 @@
 //     derivative, in closed form, on images of full width;
 //   carry: that shift belongs to the centroid of the window's gradient energy, the local slope carries it to the pixel;
 //   settle: near edges, the surface whose prediction explains the few dots around the pixel itself.
+//
+// The device's own way is less: the same search, then block_match().
 #pragma once
 
 #include <cmath>
@@ -17,7 +19,7 @@ namespace fathom {
 
 struct Match {
   Image<float> disparity_px;  ///< f b / Z at depth scale, 0 = invalid
-  Image<float> correlation;   ///< of the refined window, −1 … 1; 0 where nothing was found
+  Image<float> correlation;  ///< of the refined window, −1 … 1; 0 where nothing was found; empty of the device's method
 };
 
 /// `ir` is the whole infrared image [DN], ir_width × ir_height.

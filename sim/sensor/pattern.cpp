@@ -12,6 +12,7 @@
 namespace fathom {
 namespace {
 
+constexpr std::uint64_t kTileStream = 0x74696c65ULL;
 constexpr int kUniqueWindow = 9, kUniqueRange = 136, kUniqueCells = 5;
 
 /// Distance of two positions on a ring of `size` places.
@@ -125,6 +126,21 @@ void compare_windows(const Image<WindowBits>& windows, int range, Visit visit) {
       }
 }
 
+/// Brightness of the whole grid: tiles that are not alike bright, each with a spot in its middle.
+Image<float> tiled(const PatternModel& model, const Image<std::uint8_t>& tile) {
+  Image<float> grid(model.tile_columns * model.tiles_across, model.tile_rows * model.tiles_down);
+  for (int row = 0; row < grid.height(); ++row)
+    for (int column = 0; column < grid.width(); ++column) {
+      const int x = column % model.tile_columns, y = row % model.tile_rows;
+      if (!tile(x, y)) continue;
+      Rng rng(model.seed, kTileStream, column / model.tile_columns, row / model.tile_rows);
+      const double of_tile = model.tile_spread > 0.0 ? std::max(1.0 + model.tile_spread * rng.normal(), 0.1) : 1.0;
+      const bool in_middle = x == model.tile_columns / 2 && y == model.tile_rows / 2;
+      grid(column, row) = static_cast<float>(of_tile * (in_middle ? model.zero_order : 1.0));
+    }
+  return grid;
+}
+
 }  // namespace
 
 Image<std::uint8_t> make_dot_tile(const PatternModel& model) {
@@ -160,11 +176,11 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
   return least;
 }
 
-Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px)
-    : dots_(make_dot_tile(model)),
-      brightness_(model.tile_columns * model.tiles_across, model.tile_rows * model.tiles_down),
+Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px, double pincushion)
+    : permanent_(model.image ? *model.image : tiled(model, make_dot_tile(model))),
       step_px_(model.step_px),
-      sigma_steps_(model.dot_sigma_ir_px / (ir_px_per_depth_px * model.step_px)) {
+      sigma_steps_(model.dot_sigma_ir_px / (ir_px_per_depth_px * model.step_px)),
+      pincushion_(pincushion) {
   set_dot_gains({});
   for (int i = 0; i <= kTableSize; ++i)
     for (int c = 0; c < 4; ++c) {
@@ -174,10 +190,9 @@ Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px)
 }
 
 void Pattern::set_dot_gains(std::span<const float> gains) {
-  assert(gains.empty() || gains.size() == brightness_.size());
-  for (int row = 0, dot = 0; row < rows(); ++row)
-    for (int column = 0; column < columns(); ++column, ++dot)
-      brightness_(column, row) = !has_dot(column, row) ? 0.0f : gains.empty() ? 1.0f : gains[dot];
+  assert(gains.empty() || gains.size() == permanent_.size());
+  brightness_ = permanent_;
+  for (std::size_t dot = 0; dot < gains.size(); ++dot) brightness_.pixels()[dot] *= gains[dot];
 }
 
 double Pattern::intensity(const Eigen::Vector2d& on_grid) const {
@@ -194,10 +209,44 @@ double Pattern::intensity(const Eigen::Vector2d& on_grid) const {
   return (across * sums).sum();
 }
 
+double Pattern::intensity(const Eigen::Vector2d& on_grid, double blur_steps) const {
+  if (blur_steps == 0.0) return intensity(on_grid);
+  constexpr int kReach = 4;
+  const double sharp = sigma_steps_ * sigma_steps_, variance = sharp + blur_steps * blur_steps;
+  const int left = static_cast<int>(std::floor(on_grid.x())), top = static_cast<int>(std::floor(on_grid.y()));
+  if (left < kReach || top < kReach || left >= columns() - kReach || top >= rows() - kReach) return 0.0;
+  const auto weights = [&](double place, int first) {
+    std::array<double, 2 * kReach> weight;
+    for (int i = 0; i < 2 * kReach; ++i) {
+      const double off = place - (first + i);
+      weight[i] = std::exp(-0.5 * off * off / variance);
+    }
+    return weight;
+  };
+  const auto across = weights(on_grid.x(), left - kReach + 1), down = weights(on_grid.y(), top - kReach + 1);
+  double sum = 0.0;
+  for (int j = 0; j < 2 * kReach; ++j) {
+    const float* dots = &brightness_(left - kReach + 1, top - kReach + 1 + j);
+    for (int i = 0; i < 2 * kReach; ++i) sum += down[j] * across[i] * dots[i];
+  }
+  return sum * sharp / variance;
+}
+
 double Pattern::mean_intensity() const {
-  int dots = 0;
-  for (const std::uint8_t dot : dots_.pixels()) dots += dot;
-  return 2.0 * std::numbers::pi * sigma_steps_ * sigma_steps_ * dots / static_cast<double>(dots_.size());
+  double sum = 0.0;
+  for (const float dot : permanent_.pixels()) sum += dot;
+  return 2.0 * std::numbers::pi * sigma_steps_ * sigma_steps_ * sum / static_cast<double>(permanent_.size());
+}
+
+double blur_steps(const SensorModel& sensor, double depth) {
+  const OpticsModel& optics = sensor.optics;
+  if (!optics.defocuses()) return 0.0;
+  const double focal_ir_px = sensor.ir_scale() * sensor.focal_px;
+  const double aperture = 1e-6 * optics.pixel_um * focal_ir_px / optics.f_number;  // [m]
+  // The standard deviation of an evenly lit disc is a quarter of its diameter.
+  const double disc = optics.focus > 0.0 ? 0.25 * aperture * std::fabs(1.0 / depth - 1.0 / optics.focus) : 0.0;
+  const double beam = 0.25 * optics.beam / depth;
+  return sensor.focal_px / sensor.pattern.step_px * std::hypot(disc, beam);
 }
 
 }  // namespace fathom

@@ -22,12 +22,12 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
 
 class Pattern {
  public:
-  /// `ir_px_per_depth_px` turns the model's dot size into grid steps.
-  Pattern(const PatternModel& model, double ir_px_per_depth_px);
+  /// `ir_px_per_depth_px` turns the model's dot size into grid steps; `pincushion` is OpticsModel::projector_k1.
+  Pattern(const PatternModel& model, double ir_px_per_depth_px, double pincushion = 0.0);
 
   int columns() const { return brightness_.width(); }
   int rows() const { return brightness_.height(); }
-  bool has_dot(int column, int row) const { return dots_(column % dots_.width(), row % dots_.height()) != 0; }
+  bool has_dot(int column, int row) const { return permanent_(column, row) > 0.0f; }
   /// Of the dot at each place of the grid, columns × rows; 0 where there is none.
   const Image<float>& brightness() const { return brightness_; }
   double sigma_steps() const { return sigma_steps_; }
@@ -35,7 +35,7 @@ class Pattern {
   /// Where a direction lies on the grid: dot (i, j) has its centre at (i, j), the grid's middle lies on the projector's
   /// axis. `x`, `y` are the rectified image coordinates in units of the focal length, `focal_px` in depth pixels.
   Eigen::Vector2d on_grid(double x, double y, double focal_px) const {
-    const double steps = focal_px / step_px_;
+    const double steps = focal_px / step_px_ / (1.0 + pincushion_ * (x * x + y * y));
     return {x * steps + 0.5 * (columns() - 1), y * steps + 0.5 * (rows() - 1)};
   }
 
@@ -44,6 +44,8 @@ class Pattern {
 
   /// Relative radiant intensity at a place on the grid: 1 at an isolated dot's centre, 0 outside.
   double intensity(const Eigen::Vector2d& on_grid) const;
+  /// The same of dots that are out of focus: as much light, spread by another `blur_steps` (standard deviation).
+  double intensity(const Eigen::Vector2d& on_grid, double blur_steps) const;
 
   /// Mean of intensity() over the grid.
   double mean_intensity() const;
@@ -51,12 +53,17 @@ class Pattern {
  private:
   static constexpr int kTableSize = 512;
 
-  Image<std::uint8_t> dots_;                            ///< one tile
-  Image<float> brightness_;                             ///< of the whole grid
+  Image<float> permanent_;                              ///< brightness of the whole grid without speckle
+  Image<float> brightness_;                             ///< with it
   std::array<Eigen::Array4f, kTableSize + 1> profile_;  ///< Gaussian at −1 … 2 steps from a fraction of a step
   double step_px_;
   double sigma_steps_;
+  double pincushion_;
 };
+
+/// How far the dots on a surface at `depth` [m] along the axis are spread by defocus, standard deviation in grid steps:
+/// the disc of light that the camera's aperture makes of a point, and the width of the projector's beam.
+double blur_steps(const SensorModel& sensor, double depth);
 
 /// Where a direction in the world lies on the pattern's grid; nothing behind the projector.
 inline std::optional<Eigen::Vector2d> on_grid(const Pattern& pattern, const Rig& rig,
@@ -66,9 +73,10 @@ inline std::optional<Eigen::Vector2d> on_grid(const Pattern& pattern, const Rig&
 }
 
 /// Relative radiant intensity in a direction in the world; 0 behind the projector.
-inline double intensity_towards(const Pattern& pattern, const Rig& rig, const Eigen::Vector3d& direction) {
+inline double intensity_towards(const Pattern& pattern, const Rig& rig, const Eigen::Vector3d& direction,
+                                double blur_steps = 0.0) {
   const std::optional<Eigen::Vector2d> at = on_grid(pattern, rig, direction);
-  return at ? pattern.intensity(*at) : 0.0;
+  return at ? pattern.intensity(*at, blur_steps) : 0.0;
 }
 
 }  // namespace fathom

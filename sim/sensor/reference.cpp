@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "core/parallel.h"
+#include "core/rng.h"
 #include "core/simd.h"
+#include "sim/sensor/speckle.h"
 
 namespace fathom {
 namespace {
@@ -115,14 +117,16 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
   const int scale = static_cast<int>(sensor.ir_scale());
   Image<float> image(sensor.ir_width + 2 * margin_px * scale, sensor.ir_height);
   const double parallax = sensor.baseline / sensor.reference;
+  const double blur = blur_steps(sensor, sensor.reference);
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
         const auto sample = [&](double dx, double dy) {
           const double x_px = (x + dx) / scale - margin_px, y_px = (y - sensor.ir_first_row() + dy) / scale;
           const Eigen::Vector2d centred(x_px - sensor.principal_px.x(), y_px - sensor.principal_px.y());
-          return pattern.intensity(pattern.on_grid(centred.x() / sensor.focal_px - parallax,
-                                                   centred.y() / sensor.focal_px, sensor.focal_px));
+          Eigen::Vector2d seen = centred / sensor.focal_px;
+          if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
+          return pattern.intensity(pattern.on_grid(seen.x() - parallax, seen.y(), sensor.focal_px), blur);
         };
         image(x, y) = static_cast<float>(kBrightness * pixel_mean(samples_across, sample));
       }
@@ -186,7 +190,19 @@ Reference memorise(const SensorModel& sensor, const Image<float>& image, int mar
     reference.shifted.push_back(convolved(paired, kernel(phase, lanczos)));
     reference.gradient.push_back(convolved(paired, kernel(phase, lanczos_slope)));
   }
+  if (sensor.matcher.method == MatchMethod::device)
+    reference.blocks = block_reference(sensor.matcher, reference.shifted);
   return reference;
+}
+
+Reference remember(const SensorModel& sensor, const Pattern& pattern, int samples_across) {
+  constexpr std::uint64_t kReferenceStream = 0x7265666572ULL;
+  const int margin = reference_margin(sensor.matcher);
+  Image<float> image = reference_image(sensor, pattern, margin, samples_across);
+  add_speckle(speckle_field(sensor, sensor.noise.reference_speckle, image.width(), image.height(),
+                            mix_bits(kReferenceStream ^ sensor.unit.serial)),
+              image);
+  return memorise(sensor, image, margin);
 }
 
 int refine_first_row(const SensorModel& sensor, int depth_row) {

@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "sim/scene/rig.h"
+#include "sim/sensor/block_match.h"
 #include "sim/sensor/pattern.h"
 
 namespace fathom {
@@ -24,6 +25,7 @@ struct Reference {
   Image<std::int16_t> search;          ///< halved and locally normalised, (width + 2 margin) × (ir_height / 2)
   std::vector<Image<float>> shifted;   ///< [phase] rows in pairs, at x + phase / kPhases infrared pixels
   std::vector<Image<float>> gradient;  ///< [phase] its derivative along x [1/infrared px]
+  BlockReference blocks;               ///< of the device's method only
 };
 
 /// The ideal image of a plane at sensor.reference, facing the camera, of even brightness; wider than the camera's image
@@ -38,6 +40,10 @@ int reference_margin(const MatcherModel& matcher);
 
 /// Prepares an image as reference_image() makes it (or a recorded one of the same size) for match().
 Reference memorise(const SensorModel& sensor, const Image<float>& image, int margin_px);
+
+/// The reference as the sensor remembers it: of the image above, taken with the speckle of its noise model, which is
+/// the unit's own.
+Reference remember(const SensorModel& sensor, const Pattern& pattern, int samples_across);
 
 /// Mean of each pair of rows: half the height.
 Image<float> rows_in_pairs(const Image<float>& image);

@@ -164,8 +164,8 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   EXPECT_EQ(error_of(with("/fill_sigma_mm", 1e9)), "/fill_sigma_mm: must be a number from 0 to 80, got 1000000000.0\n");
   EXPECT_EQ(error_of(with("/placement_sigma_mm", 44)), "/placement_sigma_mm: must be a number from 0 to 43, got 44\n");
   EXPECT_EQ(error_of(with("/sensor", {{"height_mm", 650}, {"pitch_deg", 58}})),
-            "/sensor/model: is missing: a measurement's rig names its sensor, choose from kinect_v1, xtion_pro_live; "
-            "other keys change it\n");
+            "/sensor/model: is missing: a measurement's rig names its sensor, choose from kinect_v1, kinect_v1_device, "
+            "xtion_pro_live, xtion_pro_live_device; other keys change it\n");
   EXPECT_EQ(error_of(with("/sensor/wavelength_nm", 2000)),
             "/liquids/water: the index of water is known from 200 to 1100 nm, the sensor works at 2000 nm\n");
   EXPECT_EQ(error_of(with("/distance_mm", Json::array())), "/distance_mm: must hold at least one length\n");

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace fathom {
 namespace {
 
@@ -71,7 +74,7 @@ TEST(Rig, ADescriptionReadsBackAsTheSameRig) {
         R"("pitch_deg": 58, "roll_deg": 7)", R"("pitch_deg": 90, "roll_deg": 20)",
         R"("pitch_deg": 30, "roll_deg": 170)", R"("aim_mm": [-200, 300, 0], "roll_deg": -12)"}) {
     const Rig rig = rig_of((std::string(R"({"model": "kinect_v1", "height_mm": 650, "noise": {"read_dn": 3},
-        "quantization": "off", "pattern": {"seed": 7}, "matcher": {"window_rows": 7}, )") +
+        "quantization": "off", "optics": {"focus_mm": 1500}, "unit": {"serial": 5}, "pattern": {"seed": 7}, "matcher": {"window_rows": 7}, )") +
                             pose + "}")
                                .c_str());
     const Json json = json_from_rig(rig);
@@ -79,12 +82,47 @@ TEST(Rig, ADescriptionReadsBackAsTheSameRig) {
     // Degrees and back cost a few roundings.
     EXPECT_TRUE(again.world_from_camera.isApprox(rig.world_from_camera, 1e-14)) << pose << "\n" << json.dump();
     EXPECT_EQ(json_from_rig(again)["matcher"], json["matcher"]);
+    for (const char* part : {"optics", "noise", "unit"}) EXPECT_EQ(json_from_rig(again)[part], json[part]);
+    EXPECT_EQ(again.sensor.optics.focus, 1.5);
+    EXPECT_EQ(again.sensor.unit.serial, 5u);
     EXPECT_EQ(again.sensor.pattern.seed, 7u);
     EXPECT_EQ(again.sensor.matcher.window_rows, 7);
     EXPECT_EQ(again.sensor.noise.read_dn, 3.0);
     EXPECT_FALSE(again.sensor.quantized);
     EXPECT_EQ(again.sensor.focal_px, rig.sensor.focal_px);
   }
+}
+
+TEST(Optics, UndistortedIsTheInverseOfDistorted) {
+  OpticsModel optics;
+  for (const double k1 : {-0.2, 0.1})
+    for (const double x : {0.0, 0.3, -0.56}) {
+      optics.camera_k1 = k1, optics.camera_k2 = 0.05;
+      const Eigen::Vector2d direction(x, 0.42);  // the corner of the view is at 0.56, 0.42
+      // Twenty rounds of a third each leave 3e-10 of it.
+      EXPECT_LT((optics.undistorted(optics.distorted(direction)) - direction).norm(), 1e-9);
+    }
+}
+
+TEST(Unit, DiffersFromOthersAndWarmsUp) {
+  UnitModel unit;
+  unit.disparity_sigma_px = 0.5;
+  double sum = 0.0, squares = 0.0;
+  constexpr int kUnits = 4000;
+  for (int serial = 0; serial < kUnits; ++serial) {
+    unit.serial = static_cast<std::uint64_t>(serial);
+    const double offset = unit_error(unit, 0).offset_px;
+    EXPECT_EQ(offset, unit_error(unit, 1000).offset_px);
+    sum += offset, squares += offset * offset;
+  }
+  // 4 standard errors each.
+  EXPECT_NEAR(sum / kUnits, 0.0, 4.0 * 0.5 / std::sqrt(kUnits));
+  EXPECT_NEAR(squares / kUnits, 0.25, 4.0 * 0.25 * std::sqrt(2.0 / kUnits));
+
+  UnitModel cold;
+  cold.warm_up_px = 0.2, cold.warm_up_s = 600.0, cold.on_for_s = 0.0;
+  EXPECT_DOUBLE_EQ(unit_error(cold, 0).offset_px, 0.2);
+  EXPECT_DOUBLE_EQ(unit_error(cold, 30 * 600).offset_px, 0.2 / std::numbers::e);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ Json schema() { return read_json(std::filesystem::path(FATHOM_SCENES) / "schema.
 /// A scene in which every kind of object of the schema stands.
 Json full_scene() {
   return Json::parse(R"({
-    "sensor": {"height_mm": 650, "pitch_deg": 60, "noise": {}, "pattern": {}, "matcher": {}},
+    "sensor": {"height_mm": 650, "pitch_deg": 60, "optics": {}, "noise": {}, "pattern": {}, "matcher": {}, "unit": {}},
     "desk": {"glaze": {"roughness": 0.5}},
     "cups": [{"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33, "handle": {}},
               "position_mm": [0, 400], "fill_mm": 20, "glaze": {"roughness": 0.1, "index": 1.5},
@@ -63,7 +63,9 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
   const std::pair<const char*, const char*> places[] = {
       {"", ""},
       {"/sensor", "/$defs/sensor"},
+      {"/sensor/optics", "/$defs/optics"},
       {"/sensor/noise", "/$defs/noise"},
+      {"/sensor/unit", "/$defs/unit"},
       {"/sensor/pattern", "/$defs/pattern"},
       {"/sensor/matcher", "/$defs/matcher"},
       {"/desk", "/$defs/desk"},
@@ -97,7 +99,7 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
 }
 
 TEST(Schema, WholeNumbersHaveTheRangesOfTheParser) {
-  for (const char* part : {"noise", "pattern", "matcher"})
+  for (const char* part : {"noise", "pattern", "matcher", "unit"})
     for (const auto& [key, rule] : schema().at("$defs").at(part).at("properties").items()) {
       if (rule.value("type", "") != "integer" || !rule.contains("maximum")) continue;
       const int low = rule.at("minimum"), high = rule.at("maximum");

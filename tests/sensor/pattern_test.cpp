@@ -126,5 +126,43 @@ TEST(Pattern, ADotIsAGaussianAndTheGridsMeanIsItsMean) {
   EXPECT_NEAR(sum / (kSamples * kSamples) / pattern.mean_intensity(), 1.0, 0.005);
 }
 
+TEST(Pattern, DotsOutOfFocusSpreadTheSameLight) {
+  const Pattern pattern(PatternModel{}, 2.0);
+  const auto mean = [&](double blur) {
+    double sum = 0.0;
+    constexpr int kSamples = 200;
+    for (int j = 0; j < kSamples; ++j)
+      for (int i = 0; i < kSamples; ++i)
+        sum += pattern.intensity({211.0 + (i + 0.5) / kSamples * 211.0, 165.0 + (j + 0.5) / kSamples * 165.0}, blur);
+    return sum / (kSamples * kSamples);
+  };
+  // The grid of samples is a step wide; 0.5 % covers what it misses of sharp dots.
+  EXPECT_NEAR(mean(0.6) / mean(0.0), 1.0, 0.005);
+  EXPECT_LT(pattern.intensity({105.0, 82.0}, 0.6), pattern.intensity({105.0, 82.0}));  // the middle of a tile is a dot
+}
+
+TEST(Pattern, TilesHaveASpotInTheirMiddleAndTheirOwnBrightness) {
+  PatternModel model;
+  model.zero_order = 5.0, model.tile_spread = 0.2;
+  const Pattern pattern(model, 2.0);
+  const auto brightness = [&](int column, int row) { return pattern.brightness()(column, row); };
+  int column = 0;
+  while (!pattern.has_dot(column, 0)) ++column;
+  EXPECT_FLOAT_EQ(brightness(105, 82), 5.0f * brightness(column, 0));
+  EXPECT_NE(brightness(105, 82), brightness(105 + 211, 82));
+}
+
+TEST(Pattern, MayBeAUsersImage) {
+  PatternModel model;
+  Image<float> own(40, 30);
+  own(20, 15) = 1.0f, own(10, 15) = 0.25f;
+  model.image = std::make_shared<const Image<float>>(own);
+  const Pattern pattern(model, 2.0);
+  EXPECT_EQ(pattern.columns(), 40);
+  EXPECT_NEAR(pattern.intensity({20.0, 15.0}), 1.0, 1e-6);
+  EXPECT_NEAR(pattern.intensity({10.0, 15.0}), 0.25, 1e-6);
+  EXPECT_NEAR(pattern.intensity({15.0, 15.0}), 0.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace fathom

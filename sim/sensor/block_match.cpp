@@ -1,0 +1,146 @@
+#include "sim/sensor/block_match.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "core/simd.h"
+#include "sim/sensor/match.h"
+
+namespace fathom {
+namespace {
+
+Blocks blocks_of(const MatcherModel& matcher, Image<float> values) {
+  const int columns = matcher.window_columns, rows = matcher.window_rows;
+  const double count = columns * rows;
+  Blocks blocks{std::move(values), {}, {}};
+  const int width = blocks.values.width(), height = blocks.values.height();
+  blocks.sum = Image<float>(width, height);
+  blocks.spread = Image<float>(width, height);
+  parallel_ranges(std::max(height - rows + 1, 0), [&](int begin, int end) {
+    std::vector<double> sums(width), squares(width);
+    for (int y = begin; y < end; ++y) {
+      std::fill(sums.begin(), sums.end(), 0.0);
+      std::fill(squares.begin(), squares.end(), 0.0);
+      for (int row = 0; row < rows; ++row)
+        for (int x = 0; x < width; ++x) {
+          const double value = blocks.values(x, y + row);
+          sums[x] += value, squares[x] += value * value;
+        }
+      for (int x = 0; x + columns <= width; ++x) {
+        double sum = 0.0, square = 0.0;
+        for (int column = 0; column < columns; ++column) sum += sums[x + column], square += squares[x + column];
+        blocks.sum(x, y) = static_cast<float>(sum);
+        blocks.spread(x, y) = static_cast<float>(std::sqrt(std::max(square - sum * sum / count, 0.0)));
+      }
+    }
+  });
+  return blocks;
+}
+
+/// Sum of products of two blocks of `columns` × `rows`.
+template <int kColumns>
+inline __attribute__((always_inline)) float block_product(const float* a, std::ptrdiff_t stride_a, const float* b,
+                                                          std::ptrdiff_t stride_b, int columns, int rows) {
+  float sum[16] = {};
+  for (int row = 0; row < rows; ++row, a += stride_a, b += stride_b)
+    for (int x = 0; x < (kColumns > 0 ? kColumns : columns); ++x) sum[x & 15] += a[x] * b[x];
+  float total = 0.0f;
+  for (const float part : sum) total += part;
+  return total;
+}
+
+/// The blocks of one row of the depth image.
+class RowMatcher {
+ public:
+  RowMatcher(const SensorModel& sensor, const Blocks& live, const BlockReference& reference, int margin_px)
+      : matcher_(sensor.matcher),
+        live_(live),
+        reference_(reference),
+        margin_px_(margin_px),
+        count_(static_cast<float>(matcher_.window_columns * matcher_.window_rows)) {}
+
+  /// Climbs from a disparity [1/8 px] to the best of its surroundings; nothing where that is not alike enough.
+  FATHOM_SIMD_CLONES
+  float climb(int left, int top, int eighths) const {
+    constexpr int kMostSteps = 2 * kBlockPhases;
+    float best = score(left, top, eighths);
+    for (int direction : {1, -1})
+      for (int step = 0; step < kMostSteps; ++step) {
+        const float next = score(left, top, eighths + direction);
+        if (next <= best) break;
+        best = next, eighths += direction;
+        if (step == kMostSteps - 1) return std::numeric_limits<float>::quiet_NaN();
+      }
+    return best >= matcher_.correlation_min ? static_cast<float>(eighths) / kBlockPhases
+                                            : std::numeric_limits<float>::quiet_NaN();
+  }
+
+ private:
+  /// Zero-mean normalised cross-correlation of a block with the reference at a disparity.
+  inline __attribute__((always_inline)) float score(int left, int top, int eighths) const {
+    constexpr int kOffset = 1 << 14;  // keeps the division of a positive number
+    const int shift = kOffset * kBlockPhases - eighths;
+    const int column = left + margin_px_ + shift / kBlockPhases - kOffset;
+    const Blocks& reference = reference_.phase[shift % kBlockPhases];
+    const float *a = &live_.values(left, top), *b = &reference.values(column, top);
+    const float product =
+        matcher_.window_columns == 9
+            ? block_product<9>(a, live_.values.width(), b, reference.values.width(), 9, matcher_.window_rows)
+            : block_product<0>(a, live_.values.width(), b, reference.values.width(), matcher_.window_columns,
+                               matcher_.window_rows);
+    return (product - live_.sum(left, top) * reference.sum(column, top) / count_) /
+           (live_.spread(left, top) * reference.spread(column, top) + 1e-6f);
+  }
+
+  const MatcherModel& matcher_;
+  const Blocks& live_;
+  const BlockReference& reference_;
+  int margin_px_;
+  float count_;
+};
+
+}  // namespace
+
+BlockReference block_reference(const MatcherModel& matcher, const std::vector<Image<float>>& shifted) {
+  static_assert(kBlockPhases == 2 * kPhases, "a depth pixel is two infrared ones");
+  BlockReference reference;
+  for (int eighth = 0; eighth < kBlockPhases; ++eighth) {
+    const Image<float>& source = shifted[eighth % kPhases];
+    const int first = eighth / kPhases;
+    Image<float> values(source.width() / 2, source.height());
+    for (int y = 0; y < values.height(); ++y)
+      for (int x = 0; x < values.width(); ++x) {
+        const int column = std::min(2 * x + first, source.width() - 2);
+        values(x, y) = 0.5f * (source(column, y) + source(column + 1, y));
+      }
+    reference.phase.push_back(blocks_of(matcher, std::move(values)));
+  }
+  return reference;
+}
+
+Image<float> block_match(const SensorModel& sensor, const Image<float>& paired, const BlockReference& reference,
+                         int margin_px, const Image<float>& coarse) {
+  const MatcherModel& matcher = sensor.matcher;
+  const Blocks live = blocks_of(matcher, columns_in_pairs(paired));
+  const RowMatcher rows(sensor, live, reference, margin_px);
+  const int half_columns = matcher.window_columns / 2, half_rows = matcher.window_rows / 2;
+  const auto least_spread = static_cast<float>(
+      matcher.contrast_min * std::sqrt(static_cast<double>(matcher.window_columns) * matcher.window_rows));
+  Image<float> disparity(sensor.width, sensor.height, std::numeric_limits<float>::quiet_NaN());
+  parallel_ranges(sensor.height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const int top = sensor.ir_first_row() / 2 + y - half_rows;
+      if (top < 0 || top + matcher.window_rows > live.values.height()) continue;
+      for (int x = half_columns; x < sensor.width - half_columns; ++x) {
+        const float start = coarse(x, y / kSearchStep);
+        if (std::isnan(start) || live.spread(x - half_columns, top) < least_spread) continue;
+        disparity(x, y) = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kBlockPhases)));
+      }
+    }
+  });
+  return disparity;
+}
+
+}  // namespace fathom

@@ -1,0 +1,77 @@
+// The device's matching: steps of 1/8 px, a border of half a block, and nothing that allows for slopes.
+#include "sim/sensor/block_match.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/sensor/capture.h"
+#include "sim/sensor/depth.h"
+#include "tests/render/scenes.h"
+
+namespace fathom {
+namespace {
+
+/// A level desk `height_mm` below a sensor that looks straight down.
+Setup facing_desk(double height_mm, const std::string& more) {
+  return setup_from_json(Json::parse(fmt::format(R"({{"sensor": {{"model": "xtion_pro_live_device", "height_mm": {},
+      "pitch_deg": 90{}}}, "desk": {{"size_mm": [4000, 4000]}}}})",
+                                                 height_mm, more)),
+                         "test");
+}
+constexpr const char* kIdeal = R"(, "noise": "off", "quantization": "off")";
+
+TEST(BlockMatch, MeasuresAFacingPlaneToTheNearestEighth) {
+  for (const double height_mm : {700.0, 1700.0}) {
+    const auto setup = facing_desk(height_mm, kIdeal);
+    Camera camera(setup, CaptureMode::photometric, 4, 1);
+    const Frame frame = camera.shoot(0);
+    const double truth = disparity_of_depth(setup.rig.sensor, metres_from_mm(height_mm));
+    const double at_reference = disparity_of_depth(setup.rig.sensor, setup.rig.sensor.reference);
+    int right = 0, valid = 0;
+    for (const float disparity : frame.disparity_px.pixels()) {
+      if (disparity == 0.0f) continue;
+      ++valid;
+      const double steps = 8.0 * (disparity - at_reference);
+      ASSERT_NEAR(steps, std::round(steps), 1e-3);
+      // Half a step, and half a step for dots as wide as the pixels that sample them, and out of focus beside the
+      // reference's.
+      right += std::fabs(disparity - truth) < 1.0 / 8.0;
+    }
+    // All but a border of half a block to the left and to the right.
+    EXPECT_EQ(valid, (640 - 8) * 480);
+    EXPECT_GT(right, 0.99 * valid) << height_mm;
+  }
+}
+
+TEST(BlockMatch, SlopesGetNoiseThatTheDotsDraw) {
+  // 0.1 px of disparity per row times a lot of about 0.7 rows is half a step: much more than on a facing plane.
+  const auto setup = setup_from_json(Json::parse(R"({"sensor": {"model": "xtion_pro_live_device", "height_mm": 600,
+      "pitch_deg": 35, "noise": "off", "quantization": "off"}, "desk": {"size_mm": [4000, 4000]}})"),
+                                     "test");
+  Camera camera(setup, CaptureMode::photometric, 4, 1);
+  const Frame frame = camera.shoot(0);
+  double squares = 0.0;
+  int count = 0;
+  for (int y = 200; y < 400; ++y)
+    for (int x = 100; x < 540; ++x) {
+      const auto& apparent = camera.truth()(x, y).apparent_depth;
+      if (!apparent || frame.disparity_px(x, y) == 0.0f) continue;
+      const double steps = 8.0 * (frame.disparity_px(x, y) - disparity_of_depth(setup.rig.sensor, *apparent));
+      squares += steps * steps, ++count;
+    }
+  const double sigma = std::sqrt(squares / count);
+  EXPECT_GT(sigma, std::sqrt(1.0 / 12.0) + 0.05);  // the steps themselves
+  EXPECT_LT(sigma, 0.7);                           // what desks show with speckle
+}
+
+TEST(BlockMatch, OfTheDeviceMeasuresAMatteDeskAlmostEverywhere) {
+  Camera camera(facing_desk(900.0, ""), CaptureMode::photometric, 4, 1);
+  const Frame frame = camera.shoot(0);
+  double valid = 0.0;
+  for (const float depth : frame.depth.pixels()) valid += depth > 0.0f;
+  EXPECT_GE(valid / (632.0 * 480.0), 0.99);  // promised, inside the border
+}
+
+}  // namespace
+}  // namespace fathom
