@@ -30,17 +30,16 @@ NoiseModel landau_2016() {
   return noise;
 }
 
-/// Speckle as the lens makes it, in the remembered image as well. The spill and the ambient light are estimates, as is
-/// the read noise: 12 electrons, usual for such a detector. The share that is renewed is fitted to the temporal
-/// deviation of a box face at 1.06 m, 1.05 mm.
+/// Speckle as the lens makes it, in the remembered image as well. The share that is renewed is fitted to the temporal
+/// deviation of a box face at 1.06 m, 1.05 mm; shot and read noise, ambient light and spill are estimates.
 NoiseModel device() {
   NoiseModel noise;
   noise.pixel_speckle = 1.0;
   noise.reference_speckle = 1.0;
-  noise.speckle_renewed = 0.0;
+  noise.speckle_renewed = 0.27;
   noise.ambient_dn = 4.0;
   noise.electrons_per_dn = 10.0;
-  noise.read_dn = 1.2;
+  noise.read_dn = 2.0;
   noise.bloom_share = 0.5;
   noise.bits = 10;
   return noise;

@@ -51,6 +51,30 @@ inline __attribute__((always_inline)) float block_product(const float* a, std::p
   return total;
 }
 
+struct Candidate {
+  float disparity = 0.0f;
+  float correlation = -1.0f;
+};
+
+/// Disparities of a row's candidates that are believed, NaN for the others: those alike enough, and of the less alike
+/// ones those between two such that show the same, to the left and to the right within a block. Speckle makes blocks
+/// unlike here and there; beside a shadow, where a block holds part of a surface, there is nothing to one side.
+void believe(const MatcherModel& matcher, const std::vector<Candidate>& row, float* disparity) {
+  constexpr float kLessAlike = 0.8f;    // of the least correlation
+  constexpr float kSameSurface = 0.5f;  // [px]
+  const int count = static_cast<int>(row.size()), reach = matcher.window_columns;
+  const auto least = static_cast<float>(matcher.correlation_min);
+  const auto shows_the_same = [&](int x, int direction) {
+    for (int other = x + direction; other >= 0 && other < count && std::abs(other - x) <= reach; other += direction)
+      if (row[other].correlation >= least) return std::fabs(row[other].disparity - row[x].disparity) < kSameSurface;
+    return false;
+  };
+  for (int x = 0; x < count; ++x)
+    if (row[x].correlation >= least ||
+        (row[x].correlation >= kLessAlike * least && shows_the_same(x, -1) && shows_the_same(x, 1)))
+      disparity[x] = row[x].disparity;
+}
+
 /// The blocks of one row of the depth image.
 class RowMatcher {
  public:
@@ -61,9 +85,9 @@ class RowMatcher {
         margin_px_(margin_px),
         count_(static_cast<float>(matcher_.window_columns * matcher_.window_rows)) {}
 
-  /// Climbs from a disparity [1/8 px] to the best of its surroundings; nothing where that is not alike enough.
+  /// Climbs from a disparity [1/8 px] to the best of its surroundings.
   FATHOM_SIMD_CLONES
-  float climb(int left, int top, int eighths) const {
+  Candidate climb(int left, int top, int eighths) const {
     constexpr int kMostSteps = 2 * kBlockPhases;
     float best = score(left, top, eighths);
     for (int direction : {1, -1})
@@ -71,10 +95,9 @@ class RowMatcher {
         const float next = score(left, top, eighths + direction);
         if (next <= best) break;
         best = next, eighths += direction;
-        if (step == kMostSteps - 1) return std::numeric_limits<float>::quiet_NaN();
+        if (step == kMostSteps - 1) return {};
       }
-    return best >= matcher_.correlation_min ? static_cast<float>(eighths) / kBlockPhases
-                                            : std::numeric_limits<float>::quiet_NaN();
+    return {static_cast<float>(eighths) / kBlockPhases, best};
   }
 
  private:
@@ -130,14 +153,17 @@ Image<float> block_match(const SensorModel& sensor, const Image<float>& paired, 
       matcher.contrast_min * std::sqrt(static_cast<double>(matcher.window_columns) * matcher.window_rows));
   Image<float> disparity(sensor.width, sensor.height, std::numeric_limits<float>::quiet_NaN());
   parallel_ranges(sensor.height, [&](int begin, int end) {
+    std::vector<Candidate> row(sensor.width);
     for (int y = begin; y < end; ++y) {
       const int top = sensor.ir_first_row() / 2 + y - half_rows;
       if (top < 0 || top + matcher.window_rows > live.values.height()) continue;
+      std::fill(row.begin(), row.end(), Candidate{});
       for (int x = half_columns; x < sensor.width - half_columns; ++x) {
         const float start = coarse(x, y / kSearchStep);
         if (std::isnan(start) || live.spread(x - half_columns, top) < least_spread) continue;
-        disparity(x, y) = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kBlockPhases)));
+        row[x] = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kBlockPhases)));
       }
+      believe(matcher, row, disparity.row(y));
     }
   });
   return disparity;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/render/scenes.h"
+
 namespace fathom {
 namespace {
 
@@ -45,6 +47,23 @@ TEST(Exposure, ShotAndReadNoiseAdd) {
   // 4 standard errors each: wrong once in 16000 seeds.
   EXPECT_NEAR(mean, 300.0, 4.0 * std::sqrt(expected / n));
   EXPECT_NEAR(variance, expected, 4.0 * expected * std::sqrt(2.0 / n));
+}
+
+TEST(Exposure, GainMultipliesLightAndItsShotNoise) {
+  NoiseModel noise;
+  noise.electrons_per_dn = 10.0, noise.gain = 2.0, noise.offset_dn = -3.0;
+  const Image<float> image = expose(Image<float>(1000, 400, 300.0f), noise, 3, 0);
+  const auto [mean, variance] = moments(image.pixels());
+  // 600 DN are 3000 electrons, of 0.2 DN each: 120 DN². 4 standard errors each: wrong once in 16000 seeds.
+  const double n = static_cast<double>(image.size()), expected = 120.0;
+  EXPECT_NEAR(mean, 597.0, 4.0 * std::sqrt(expected / n));
+  EXPECT_NEAR(variance, expected, 4.0 * expected * std::sqrt(2.0 / n));
+}
+
+TEST(Ambient, LightsWhatIsSeenByItsAlbedo) {
+  const LitScene scene(desk_setup(R"(, "noise": {"ambient_dn": 100})"));
+  const Image<float> image = render_ambient(scene.world, scene.rig);
+  EXPECT_FLOAT_EQ(image(640, 512), 55.0f);  // the desk's albedo is 0.55
 }
 
 TEST(Exposure, RoundsAndSaturatesAtItsBits) {
