@@ -68,7 +68,9 @@ void compare_desks() {
     for (std::size_t i = 0; i < kLagsY.size(); ++i)
       correlation('y', kLagsY[i], sim.correlation_y[i], kPublishedY[i], real.correlation_y[i]);
   }
-  print_note("Fitted: f-number and dot size, to sigma at 1.05 m and y 1. Predicted: the rest.");
+  print_note(
+      "Fitted: f-number, dot size, focus and beam, to these sigmas, to the columns' correlation and to a facing");
+  print_note("wall at 1 m, all at once. Predicted: the rows' correlation, walls over distance, pots.");
 }
 
 }  // namespace fathom

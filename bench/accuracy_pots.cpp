@@ -17,6 +17,7 @@ namespace {
 struct Floor {
   double mean_mm, deviation_mm;
   int points;
+  double right_mm, away_mm;  ///< where the pot stands, from the camera
 };
 
 /// Heights above the desk inside a pot's rim, drawn in by 10 mm; of the things labelled first … last, or of all.
@@ -42,7 +43,13 @@ Floor floor_of(const DeskImage& image, std::pair<int, int> labels) {
     sum += height_mm, sum_squares += height_mm * height_mm, ++count;
   }
   const double mean = sum / count;
-  return {mean, std::sqrt(sum_squares / count - mean * mean), count};
+  return {mean, std::sqrt(sum_squares / count - mean * mean), count, mm_from_metres(circle.center.x()),
+          mm_from_metres(circle.center.y())};
+}
+
+void print_floor(std::string_view whose, const Floor& floor) {
+  print_note(fmt::format("{}: {:.2f}, {} points, {:.2f} among them; {:.0f} mm to the right, {:.0f} mm away", whose,
+                         floor.mean_mm, floor.points, floor.deviation_mm, floor.right_mm, floor.away_mm));
 }
 
 struct Scatter {
@@ -69,29 +76,28 @@ void compare_pots() {
   for (const DeskImage& image : measured_desks())
     for (const auto& [name, labels] : pots)
       if (image.name == name) measured.push_back(floor_of(image, labels));
-  for (const Floor& floor : measured)
-    print_note(
-        fmt::format("measured: {:.2f}, {} points, {:.2f} among them", floor.mean_mm, floor.points, floor.deviation_mm));
+  for (const Floor& floor : measured) print_floor("measured", floor);
   if (measured.size() < pots.size()) print_note("skipped: no measured clouds (FATHOM_REAL_DATA)");
 
   std::vector<Floor> simulated;
   constexpr int kScenes = 8;
   for (int scene = 0; scene < kScenes; ++scene) {
-    // Put down anew each time, a few millimetres off.
+    // Put down anew each time, in another place.
     const Setup setup = desk_twin(fmt::format(R"(, "cups": [{{"shape": {{"height_mm": 104, "bottom_mm": 4,
         "inner_radius_mm": 82.5, "outer_radius_mm": 84.5, "albedo": 0.5}}, "position_mm": [{}, {}]}}])",
                                               17.0 * scene - 20.0, 556.0 + 4.0 * (scene % 3)));
     const auto image = with_desk(
         "twin", in_colour_view(shoot(setup, static_cast<std::uint64_t>(scene + 1)).depth, setup.rig.sensor.focal_px));
     if (image) simulated.push_back(floor_of(*image, {0, 0}));
-    if (image)
-      print_note(fmt::format("simulated: {:.2f}, {} points, {:.2f} among them", simulated.back().mean_mm,
-                             simulated.back().points, simulated.back().deviation_mm));
+    if (image) print_floor("simulated", simulated.back());
   }
   const Scatter ours = scatter_of(simulated);
   print_figure("deviation of the mean, scene to scene", ours.deviation_mm,
                measured.size() > 1 ? std::optional(scatter_of(measured).deviation_mm) : std::optional(0.59), "measured",
                Bar{0.3, 0.9});
+  print_note(
+      "Noise of the measured autocorrelation leaves 0.15 to 0.2 of it. The measured rest goes with the place: a");
+  print_note("pot that was not moved reads the same within 0.25, moved by 58 mm it reads 1.1 more.");
   print_figure("  if points were independent", ours.from_points_mm, 0.04, "measured");
   print_figure("mean over the scenes, true 4", ours.mean_mm,
                measured.empty() ? std::optional(4.23) : std::optional(scatter_of(measured).mean_mm), "measured");

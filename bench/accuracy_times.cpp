@@ -30,6 +30,7 @@ void compare_times() {
   print_figure("        median", near.median_mm, std::nullopt, "");
   print_figure("2.9 m: median", far.median_mm, 2.62, "measured");
   print_figure("       mean", far.mean_mm, std::nullopt, "");
+  print_note("Measured, a pixel wanders by 0.32 steps at 1.06 m and by 0.11 at 2.9 m; the scenes are not described.");
 
   print_title("One unit beside another, and warming up");
   Setup wall = facing_wall(2.5);

@@ -215,15 +215,18 @@ double Pattern::intensity(const Eigen::Vector2d& on_grid, double blur_steps) con
   const double sharp = sigma_steps_ * sigma_steps_, variance = sharp + blur_steps * blur_steps;
   const int left = static_cast<int>(std::floor(on_grid.x())), top = static_cast<int>(std::floor(on_grid.y()));
   if (left < kReach || top < kReach || left >= columns() - kReach || top >= rows() - kReach) return 0.0;
-  const auto weights = [&](double place, int first) {
+  // exp(−(f − i)² / 2v) for i = 1 − kReach … kReach: neighbours differ by a factor that itself grows by a constant one.
+  const double bend = std::exp(-0.5 / variance);
+  const auto weights = [&](double fraction) {
     std::array<double, 2 * kReach> weight;
-    for (int i = 0; i < 2 * kReach; ++i) {
-      const double off = place - (first + i);
-      weight[i] = std::exp(-0.5 * off * off / variance);
-    }
+    const double tilt = std::exp(fraction / variance);
+    weight[kReach - 1] = std::exp(-0.5 * fraction * fraction / variance);
+    double up = bend * tilt, down = bend / tilt;
+    for (int k = kReach; k < 2 * kReach; ++k, up *= bend * bend) weight[k] = weight[k - 1] * up;
+    for (int k = kReach - 2; k >= 0; --k, down *= bend * bend) weight[k] = weight[k + 1] * down;
     return weight;
   };
-  const auto across = weights(on_grid.x(), left - kReach + 1), down = weights(on_grid.y(), top - kReach + 1);
+  const auto across = weights(on_grid.x() - left), down = weights(on_grid.y() - top);
   double sum = 0.0;
   for (int j = 0; j < 2 * kReach; ++j) {
     const float* dots = &brightness_(left - kReach + 1, top - kReach + 1 + j);
