@@ -11,7 +11,7 @@ from pathlib import Path
 from error_over_time import report_convergence, report_others
 from runs import UNIT_RAYS, Runs, aligned
 
-MATCHERS = {"bm": ("StereoBM", 3.0), "sgbm": ("StereoSGBM", 0.5)}  # goals of the time ratio
+MATCHERS = {"bm": ("StereoBM", 1.5), "sgbm": ("StereoSGBM", 0.5)}  # goals of the time ratio
 LIGHT_SCENES = {"paper_water": 4.0, "meniscus_water": 8.0, "paper_milk_tea": 40.0, "glass_water": None}  # goals in U
 MATCH_CASES = ["water_clean", "water_noisy", "plane_clean", "plane_noisy"]
 

@@ -9,3 +9,11 @@
 #else
 #define FATHOM_SIMD_CLONES
 #endif
+
+namespace fathom {
+
+/// Eight numbers: half a register of AVX-512, one of AVX2, two of SSE. Arithmetic and comparison go lane by lane.
+using Float8 = float __attribute__((vector_size(32)));
+using Int8 = int __attribute__((vector_size(32)));  ///< also what comparison gives: −1 where it holds, else 0
+
+}  // namespace fathom

@@ -88,7 +88,7 @@ class RowMatcher {
   /// Climbs from a disparity [1/8 px] to the best of its surroundings.
   FATHOM_SIMD_CLONES
   Candidate climb(int left, int top, int eighths) const {
-    constexpr int kMostSteps = 2 * kBlockPhases;
+    constexpr int kMostSteps = 2 * kPhases;
     float best = score(left, top, eighths);
     for (int direction : {1, -1})
       for (int step = 0; step < kMostSteps; ++step) {
@@ -97,16 +97,16 @@ class RowMatcher {
         best = next, eighths += direction;
         if (step == kMostSteps - 1) return {};
       }
-    return {static_cast<float>(eighths) / kBlockPhases, best};
+    return {static_cast<float>(eighths) / kPhases, best};
   }
 
  private:
   /// Zero-mean normalised cross-correlation of a block with the reference at a disparity.
   inline __attribute__((always_inline)) float score(int left, int top, int eighths) const {
     constexpr int kOffset = 1 << 14;  // keeps the division of a positive number
-    const int shift = kOffset * kBlockPhases - eighths;
-    const int column = left + margin_px_ + shift / kBlockPhases - kOffset;
-    const Blocks& reference = reference_.phase[shift % kBlockPhases];
+    const int shift = kOffset * kPhases - eighths;
+    const int column = left + margin_px_ + shift / kPhases - kOffset;
+    const Blocks& reference = reference_.phase[shift % kPhases];
     const float *a = &live_.values(left, top), *b = &reference.values(column, top);
     const float product =
         matcher_.window_columns == 9
@@ -126,27 +126,25 @@ class RowMatcher {
 
 }  // namespace
 
-BlockReference block_reference(const MatcherModel& matcher, const std::vector<Image<float>>& shifted) {
-  static_assert(kBlockPhases == 2 * kPhases, "a depth pixel is two infrared ones");
+BlockReference block_reference(const MatcherModel& matcher, std::span<const Image<float>> phases) {
+  constexpr int kHalf = kPhases / 2;  // of a depth pixel: one infrared pixel
   BlockReference reference;
-  for (int eighth = 0; eighth < kBlockPhases; ++eighth) {
-    const Image<float>& source = shifted[eighth % kPhases];
-    const int first = eighth / kPhases;
-    Image<float> values(source.width() / 2, source.height());
+  for (int eighth = 0; eighth < kPhases; ++eighth) {
+    const bool in_right_half = eighth >= kHalf;
+    const Image<float>&left = phases[eighth], &right = phases[in_right_half ? eighth - kHalf : eighth + kHalf];
+    Image<float> values(left.width(), left.height());
     for (int y = 0; y < values.height(); ++y)
-      for (int x = 0; x < values.width(); ++x) {
-        const int column = std::min(2 * x + first, source.width() - 2);
-        values(x, y) = 0.5f * (source(column, y) + source(column + 1, y));
-      }
+      for (int x = 0; x < values.width(); ++x)
+        values(x, y) = 0.5f * (left(x, y) + right(std::min(x + in_right_half, right.width() - 1), y));
     reference.phase.push_back(blocks_of(matcher, std::move(values)));
   }
   return reference;
 }
 
-Image<float> block_match(const SensorModel& sensor, const Image<float>& paired, const BlockReference& reference,
+Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference,
                          int margin_px, const Image<float>& coarse) {
   const MatcherModel& matcher = sensor.matcher;
-  const Blocks live = blocks_of(matcher, columns_in_pairs(paired));
+  const Blocks live = blocks_of(matcher, std::move(halved));
   const RowMatcher rows(sensor, live, reference, margin_px);
   const int half_columns = matcher.window_columns / 2, half_rows = matcher.window_rows / 2;
   const auto least_spread = static_cast<float>(
@@ -161,7 +159,7 @@ Image<float> block_match(const SensorModel& sensor, const Image<float>& paired, 
       for (int x = half_columns; x < sensor.width - half_columns; ++x) {
         const float start = coarse(x, y / kSearchStep);
         if (std::isnan(start) || live.spread(x - half_columns, top) < least_spread) continue;
-        row[x] = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kBlockPhases)));
+        row[x] = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kPhases)));
       }
       believe(matcher, row, disparity.row(y));
     }

@@ -3,14 +3,13 @@
 // nor an edge in the block is allowed for: dots of a block that lie on a slope pull its disparity by their lot.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/image.h"
 #include "sim/scene/rig.h"
 
 namespace fathom {
-
-inline constexpr int kBlockPhases = 8;  ///< steps per depth pixel
 
 /// An image at the depth image's scale, with what a block's correlation needs: each block's sum and the root of its
 /// squares about the mean, by the block's upper left pixel.
@@ -20,16 +19,16 @@ struct Blocks {
 
 /// The remembered image at shifts of 1/8 px.
 struct BlockReference {
-  std::vector<Blocks> phase;  ///< [eighth] the image at x + eighth / 8
+  std::vector<Blocks> phase;  ///< [eighth] the image at x + eighth / 8, as many as kPhases
 };
 
-/// From the phases of Reference::shifted, which are a quarter infrared pixel apart.
-BlockReference block_reference(const MatcherModel& matcher, const std::vector<Image<float>>& shifted);
+/// From the phases of Reference::value.
+BlockReference block_reference(const MatcherModel& matcher, std::span<const Image<float>> phases);
 
 /// Disparity of every pixel relative to the reference plane [px], a multiple of 1/8; NaN where the block is not whole,
-/// has too little contrast, or nothing is alike enough. `paired` is the infrared image with its rows in pairs, `coarse`
-/// what search() found in it.
-Image<float> block_match(const SensorModel& sensor, const Image<float>& paired, const BlockReference& reference,
+/// has too little contrast, or nothing is alike enough. `halved` is the infrared image at the depth
+/// image's scale, `coarse` what search() found in it.
+Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference,
                          int margin_px, const Image<float>& coarse);
 
 }  // namespace fathom

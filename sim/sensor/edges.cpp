@@ -1,20 +1,22 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/parallel.h"
 #include "core/simd.h"
+#include "sim/sensor/dot_likeness.h"
 #include "sim/sensor/match.h"
+#include "sim/sensor/surface_fit.h"
 
 namespace fathom {
 namespace {
 
 constexpr int kReach = 4;  ///< [depth px] a window of 9 whose centre lies this far away just covers the pixel
-constexpr int kOwnColumns = 8, kOwnRows = 3;  ///< [infrared px, row pairs] the square that counts as the pixel's own
 
 struct Step {
   int dx, dy;
@@ -28,16 +30,6 @@ constexpr std::array<Step, 9> kAround{{{0, 0},
                                        {kReach, -kReach},
                                        {-kReach, kReach},
                                        {kReach, kReach}}};
-
-/// How alike the dots seen at a pixel and those a surface predicts there are.
-struct Likeness {
-  float both = 0.0f;       ///< Σ seen · predicted, both without the bias [DN²]
-  float seen = 0.0f;       ///< Σ seen²
-  float predicted = 0.0f;  ///< Σ predicted²
-
-  float energy() const { return std::max(seen, predicted); }
-  float correlation() const { return both / std::sqrt(seen * predicted + 1e-6f); }
-};
 
 /// At most kMost values, in place: edges are settled a hundred thousand times a frame.
 template <class Value, std::size_t kMost>
@@ -55,22 +47,26 @@ class Few {
   std::size_t size_ = 0;
 };
 
-/// A surface near a pixel, extended to the pixel.
-struct LocalSurface {
-  float disparity, slope_x, slope_y;
-  float correlation, gain, bias;
-  bool own;  ///< found by the pixel's own window
+/// A surface that was found near a pixel, extended to the pixel.
+struct Candidate {
+  LocalSurface surface;
+  float correlation;     ///< of the window that found it
+  bool own;              ///< whether the pixel's own window found it too
+  float least_likeness;  ///< of the pixel's dots, for it to be taken
 };
 
-enum Surroundings : std::uint8_t { kClean, kCrease, kEdge };
+// What the pixel's window found is believed unless its dots deny it; chance alone correlates 24 samples by 0.2.
+constexpr float kOwnLikeness = 0.0f, kOthersLikeness = 0.3f, kSearchedLikeness = 0.6f;
 
 /// Says of the pixels of a row what their windows meet. An edge: the disparity over ±kReach is far from straight, or
-/// much more is left unexplained than in a neighbour's window, because of foreign dots. A crease: it bends.
+/// much more is left unexplained than in a neighbour's window, because of foreign dots. A crease: it bends. `clean`
+/// gets the disparities of the other windows, which meet one straight surface, and NaN for these.
 FATHOM_SIMD_CLONES
-void mark_surroundings(const float* disparity, const float* correlation, std::ptrdiff_t stride, std::uint8_t* marks,
-                       int begin, int end) {
-  constexpr float kBreak = 0.8f;  // [px]
-  constexpr float kBend = 0.2f;   // [px]; 2 to 3 times the noise of such a difference
+void mark_surroundings(const float* disparity, const float* correlation, std::ptrdiff_t stride, std::uint8_t* edge,
+                       float* clean, int begin, int end) {
+  constexpr float kBreak = 0.8f;    // [px]
+  constexpr float kBend = 0.2f;     // [px]; 2 to 3 times the noise of such a difference
+  constexpr float kAsGood = 0.02f;  // of a correlation
 #pragma GCC ivdep
   for (int x = begin; x < end; ++x) {
     const float* d = disparity + x;
@@ -82,181 +78,147 @@ void mark_surroundings(const float* disparity, const float* correlation, std::pt
     const float best = best_across > best_down ? best_across : best_down;
     const bool whole = (across < kBreak) & (down < kBreak) & (1.0f - c[0] < 2.0f * (1.0f - best) + 0.15f);
     const bool straight = (across < kBend) & (down < kBend);
-    marks[x] = whole ? (straight ? kClean : kCrease) : kEdge;
+    edge[x] = !whole;
+    clean[x] = (whole & straight & (c[0] > best - kAsGood)) ? d[0] : std::numeric_limits<float>::quiet_NaN();
   }
 }
 
 class EdgeSettler {
  public:
-  EdgeSettler(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-              const Estimates& estimates)
+  EdgeSettler(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
+              const Image<float>& coarse, const Estimates& estimates)
       : sensor_(sensor),
         paired_(paired),
         reference_(reference),
+        coarse_(coarse),
         estimates_(estimates),
-        marks_(sensor.width, sensor.height),
-        noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kOwnColumns *
-                      kOwnRows) {
-    // The image's own border is no edge between surfaces.
-    const int margin = sensor.matcher.window_columns / 4 + kReach;
-    parallel_ranges(marks_.height() - 2 * kReach, [&](int begin, int end) {
-      for (int y = begin + kReach; y < end + kReach; ++y)
-        mark_surroundings(estimates.disparity.row(y), estimates.correlation.row(y), marks_.width(), marks_.row(y),
-                          margin, marks_.width() - margin);
+        border_(sensor.matcher.window_columns / 4),
+        edge_(sensor.width, sensor.height),
+        clean_(sensor.width + 2 * kFrame, sensor.height + 2 * kFrame, std::numeric_limits<float>::quiet_NaN()),
+        noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kDotColumns *
+                      kDotRows) {
+    parallel_ranges(sensor.height, [&](int begin, int end) {
+      for (int y = begin; y < end; ++y) mark_row(y);
     });
   }
 
-  /// Whether the windows around the pixel meet more than one surface.
-  bool is_edge(int x, int y) const { return marks_(x, y) == kEdge; }
+  /// The first pixel from x on in its row whose windows meet more than one surface; the row's width when there is none.
+  int next_edge(int x, int y) const {
+    const std::uint8_t* row = edge_.row(y);
+    const void* const found = std::memchr(row + x, 1, static_cast<std::size_t>(edge_.width() - x));
+    return found ? static_cast<int>(static_cast<const std::uint8_t*>(found) - row) : edge_.width();
+  }
 
   /// The surface whose dots are most like those at the pixel; nothing when none is.
-  std::optional<LocalSurface> settle(int x, int y) const {
-    constexpr float kExplained = 0.5f;
-    std::optional<LocalSurface> best;
-    float best_correlation = kExplained;
-    Few<LocalSurface, kAround.size()> surfaces = surfaces_around(x, y);
-    if (surfaces.empty()) return best;
-    const Neighbours neighbours = clean_neighbours(x, y);
-    for (LocalSurface& surface : surfaces) {
-      fit(neighbours, surface);
-      const Likeness found = likeness(x, y, surface);
-      // A pixel without dots, seen or predicted, keeps its own surface but takes no other's.
-      if (found.energy() < noise_energy_ && surface.own) return surface;
-      if (found.energy() < noise_energy_ || found.correlation() < best_correlation) continue;
-      best_correlation = found.correlation();
-      best = surface;
+  std::optional<Candidate> settle(int x, int y) const {
+    std::optional<Candidate> best;
+    float best_correlation = -1.0f;
+    Candidates candidates = candidates_around(x, y);
+    if (candidates.empty()) return best;
+    const Neighbours neighbours = neighbours_of(clean_, x, y);
+    for (Candidate& candidate : candidates) {
+      fit(neighbours, candidate.surface);
+      const Likeness found = dot_likeness(sensor_, paired_, reference_, x, y, candidate.surface.disparity);
+      // A pixel without dots keeps its own surface but takes no other's.
+      if (found.contrast < noise_energy_ && candidate.own) return candidate;
+      if (found.contrast < noise_energy_ || found.correlation < std::max(best_correlation, candidate.least_likeness))
+        continue;
+      best_correlation = found.correlation;
+      best = candidate;
     }
     return best;
   }
 
  private:
-  /// Inside the image and not in its border, where nothing is matched.
-  bool inside(int x, int y) const {
-    const int border = sensor_.matcher.window_columns / 4;
-    return x >= border && x < marks_.width() - border && y >= 0 && y < marks_.height();
+  static constexpr int kFrame = Neighbours::kReach;
+
+  void mark_row(int y) {
+    const int width = edge_.width();
+    const float* disparity = estimates_.disparity.row(y);
+    float* clean = clean_.row(y + kFrame) + kFrame;
+    // The image's own border is no edge between surfaces.
+    std::copy_n(disparity, width, clean);
+    const int margin = border_ + kReach;
+    if (y < kReach || y >= edge_.height() - kReach) return;
+    mark_surroundings(disparity, estimates_.correlation.row(y), width, edge_.row(y), clean, margin, width - margin);
   }
 
+  /// Inside the image and not in its border, where nothing is matched.
+  bool inside(int x, int y) const {
+    return x >= border_ && x < edge_.width() - border_ && y >= 0 && y < edge_.height();
+  }
+
+  using Candidates = Few<Candidate, kAround.size() + 1>;
+
   /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
-  /// window.
-  Few<LocalSurface, kAround.size()> surfaces_around(int x, int y) const {
-    constexpr float kDifferent = 0.6f;  // [px]
-    Few<LocalSurface, kAround.size()> surfaces;
+  /// window. Where the pixel's own found nothing, on a steep wall say, there is still what was searched; far from all
+  /// others that must be likelier.
+  Candidates candidates_around(int x, int y) const {
+    constexpr float kNear = 4.0f;  // [px]
+    Candidates candidates;
     for (const auto& [dx, dy] : kAround) {
       const int i = x + dx, j = y + dy;
       if (!inside(i, j) || !estimates_.valid(i, j)) continue;
-      LocalSurface found{
-          estimates_.disparity(i, j), estimates_.slope_x(i, j), estimates_.slope_y(i, j), estimates_.correlation(i, j),
-          estimates_.gain(i, j),      estimates_.bias(i, j),    dx == 0 && dy == 0};
-      found.disparity -= found.slope_x * static_cast<float>(dx) + found.slope_y * static_cast<float>(dy);
-      const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const LocalSurface& other) {
-        return std::fabs(other.disparity - found.disparity) < kDifferent;
-      });
-      if (same == surfaces.end()) {
-        surfaces.push_back(found);
-      } else if (found.correlation > same->correlation) {
-        found.own = same->own;
-        *same = found;
-      }
+      LocalSurface surface{estimates_.disparity(i, j), estimates_.slope_x(i, j), estimates_.slope_y(i, j)};
+      surface.disparity -= surface.slope_x * static_cast<float>(dx) + surface.slope_y * static_cast<float>(dy);
+      const bool own = dx == 0 && dy == 0;
+      propose({surface, estimates_.correlation(i, j), own, own ? kOwnLikeness : kOthersLikeness}, candidates);
     }
-    return surfaces;
+    const float searched = coarse_(x / 2, y / kSearchStep);
+    if (estimates_.valid(x, y) || searched != searched) return candidates;
+    const bool near = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+      return std::fabs(other.surface.disparity - searched) < kNear;
+    });
+    propose({{searched, 0.0f, 0.0f}, 0.0f, false, near ? kOthersLikeness : kSearchedLikeness}, candidates);
+    return candidates;
   }
 
-  struct Neighbour {
-    float dx, dy, disparity;
-  };
-  static constexpr int kFar = 9, kStride = 3;  // [px]
-  static constexpr int kAlong = 2 * kFar / kStride + 1;
-  using Neighbours = Few<Neighbour, kAlong * kAlong>;
-
-  /// Those neighbours whose windows meet one straight surface only: windows that reach over an edge or a crease are
-  /// pulled by the other side's dots, and a fit carries their errors far.
-  Neighbours clean_neighbours(int x, int y) const {
-    Neighbours neighbours;
-    for (int dy = -kFar; dy <= kFar; dy += kStride)
-      for (int dx = -kFar; dx <= kFar; dx += kStride)
-        if (inside(x + dx, y + dy) && marks_(x + dx, y + dy) == kClean && estimates_.valid(x + dx, y + dy))
-          neighbours.push_back({static_cast<float>(dx), static_cast<float>(dy), estimates_.disparity(x + dx, y + dy)});
-    return neighbours;
-  }
-
-  /// Fits a surface to those clean neighbours that lie on it; leaves it as it is where they are too few.
-  static void fit(const Neighbours& neighbours, LocalSurface& surface) {
-    for (const float same_surface :
-         {0.6f, 0.15f, 0.05f}) {  // [px]; the later rounds leave out what lies beyond a crease
-      constexpr int kEnough = 6;
-      Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
-      Eigen::Vector3f right = Eigen::Vector3f::Zero();
-      for (const Neighbour& there : neighbours) {
-        const float difference =
-            there.disparity - surface.disparity - surface.slope_x * there.dx - surface.slope_y * there.dy;
-        if (std::fabs(difference) > same_surface) continue;
-        const Eigen::Vector3f row(1.0f, there.dx, there.dy);
-        normal += row * row.transpose();
-        right += row * difference;
-      }
-      if (normal(0, 0) < kEnough) break;
-      Eigen::Matrix3f inverse;
-      bool solvable = false;
-      normal.computeInverseWithCheck(inverse, solvable, 1.0f);
-      if (!solvable) break;  // all on one line
-      const Eigen::Vector3f correction = inverse * right;
-      surface.disparity += correction[0], surface.slope_x += correction[1], surface.slope_y += correction[2];
-    }
-  }
-
-  Likeness likeness(int x, int y, const LocalSurface& surface) const {
-    const ReferenceShift shift = reference_shift(surface.disparity);
-    const int column = std::clamp(2 * x + 1 - kOwnColumns / 2, 0, paired_.width() - kOwnColumns);
-    const int row = std::clamp(sensor_.ir_first_row() / 2 + y - kOwnRows / 2, 0, paired_.height() - kOwnRows);
-    const int reference_column = column + 2 * reference_.margin_px + shift.whole;
-    if (reference_column < 0 || reference_column + kOwnColumns > reference_.shifted[0].width()) return {};
-    Likeness result;
-    for (int j = row; j < row + kOwnRows; ++j) {
-      const float* live = paired_.row(j) + column;
-      const float* shifted = reference_.shifted[shift.phase].row(j) + reference_column;
-      const float* gradient = reference_.gradient[shift.phase].row(j) + reference_column;
-      for (int i = 0; i < kOwnColumns; ++i) {
-        const float seen = live[i] - surface.bias;
-        const float predicted = surface.gain * (shifted[i] + shift.rest_ir_px * gradient[i]);
-        result.both += seen * predicted;
-        result.seen += seen * seen;
-        result.predicted += predicted * predicted;
-      }
-    }
-    return result;
+  static void propose(const Candidate& found, Candidates& candidates) {
+    constexpr float kDifferent = 0.6f;  // [px]
+    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+      return std::fabs(other.surface.disparity - found.surface.disparity) < kDifferent;
+    });
+    if (same == candidates.end())
+      candidates.push_back(found);
+    else if (found.correlation > same->correlation)
+      same->surface = found.surface, same->correlation = found.correlation;
   }
 
   const SensorModel& sensor_;
-  const Image<float>& paired_;
+  const SplitColumns<float>& paired_;
   const Reference& reference_;
+  const Image<float>& coarse_;
   const Estimates& estimates_;
-  Image<std::uint8_t> marks_;
+  int border_;
+  Image<std::uint8_t> edge_;  ///< 1 where windows meet more than one surface
+  Image<float> clean_;        ///< disparities of the windows that meet one straight surface, framed; else NaN
   float noise_energy_;
 };
 
 }  // namespace
 
-void settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                  Estimates& estimates) {
-  const EdgeSettler settler(sensor, paired, reference, estimates);
+void settle_edges(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
+                  const Image<float>& coarse, Estimates& estimates) {
+  const EdgeSettler settler(sensor, paired, reference, coarse, estimates);
   struct Settled {
     int x, y;
-    std::optional<LocalSurface> surface;
+    float disparity, correlation;
   };
-  std::vector<Settled> settled;
-  const int border = sensor.matcher.window_columns / 4;
-  for (int y = 0; y < sensor.height; ++y)
-    for (int x = border; x < sensor.width - border; ++x)
-      if (settler.is_edge(x, y)) settled.push_back({x, y, {}});
   // All are judged by what was there before any of them changes.
-  parallel_ranges(static_cast<int>(settled.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) settled[i].surface = settler.settle(settled[i].x, settled[i].y);
+  std::vector<std::vector<Settled>> settled(sensor.height);
+  parallel_ranges(sensor.height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = settler.next_edge(0, y); x < sensor.width; x = settler.next_edge(x + 1, y)) {
+        const std::optional<Candidate> best = settler.settle(x, y);
+        settled[y].push_back({x, y, best ? best->surface.disparity : std::numeric_limits<float>::quiet_NaN(),
+                              best ? best->correlation : 0.0f});
+      }
   });
-  for (const Settled& pixel : settled) {
-    estimates.disparity(pixel.x, pixel.y) =
-        pixel.surface ? pixel.surface->disparity : std::numeric_limits<float>::quiet_NaN();
-    estimates.correlation(pixel.x, pixel.y) = pixel.surface ? pixel.surface->correlation : 0.0f;
-  }
+  for (const std::vector<Settled>& row : settled)
+    for (const Settled& pixel : row) {
+      estimates.disparity(pixel.x, pixel.y) = pixel.disparity;
+      estimates.correlation(pixel.x, pixel.y) = pixel.correlation;
+    }
 }
 
 }  // namespace fathom

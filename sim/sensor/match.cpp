@@ -8,15 +8,16 @@
 namespace fathom {
 
 Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference) {
-  const Image<float> paired = rows_in_pairs(ir);
+  const SplitColumns<float> paired = split_rows_in_pairs(ir);
   const Image<float> coarse = search(sensor, paired, reference);
   Estimates estimates(0, 0);
   if (sensor.matcher.method == MatchMethod::device) {
-    estimates.disparity = block_match(sensor, paired, reference.blocks, reference.margin_px, coarse);
+    estimates.disparity = block_match(sensor, mean_of_columns(paired, sensor.ir_width / 2), reference.blocks,
+                                      reference.margin_px, coarse);
   } else {
     estimates = refine(sensor, paired, reference, coarse);
     carry_to_pixels(estimates);
-    settle_edges(sensor, paired, reference, estimates);
+    settle_edges(sensor, paired, reference, coarse, estimates);
   }
 
   const float at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));

@@ -1,8 +1,9 @@
 // Dots to disparity: correlation of the infrared image against the memorised reference.
 //
-//   search: whole depth pixels, by zero-mean normalised cross-correlation over the matcher's window, on halved images;
+//   search: whole depth pixels, by zero-mean normalised cross-correlation over the matcher's window, on halved images,
+//     at every sixth pixel;
 //   refine: fractions of an infrared pixel, by the shift that maximises the correlation with the reference and its
-//     derivative, in closed form, on images of full width;
+//     derivative, in closed form, on images of full width; tile by tile, so that windows share their sums;
 //   carry: that shift belongs to the centroid of the window's gradient energy, the local slope carries it to the pixel;
 //   settle: near edges, the surface whose prediction explains the few dots around the pixel itself.
 //
@@ -32,15 +33,12 @@ Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& 
 struct Estimates {
   Image<float> disparity;  ///< NaN: no match
   Image<float> correlation;
-  Image<float> gain, bias;          ///< image ≈ gain · reference + bias
   Image<float> centre_x, centre_y;  ///< where `disparity` holds, from the pixel's centre [px]
   Image<float> slope_x, slope_y;    ///< of the disparity [px/px]
 
   Estimates(int width, int height)
       : disparity(width, height, std::numeric_limits<float>::quiet_NaN()),
         correlation(width, height),
-        gain(width, height),
-        bias(width, height),
         centre_x(width, height),
         centre_y(width, height),
         slope_x(width, height),
@@ -48,37 +46,43 @@ struct Estimates {
   bool valid(int x, int y) const { return disparity(x, y) == disparity(x, y); }
 };
 
-/// Every second row is searched: its windows hold eight of the nine rows of the one below.
-inline constexpr int kSearchStep = 2;
+/// One row of kSearchStep is searched, the middle one, and in it every second column: neighbouring windows hold nearly
+/// the same dots.
+inline constexpr int kSearchStep = 3;
 
-/// Disparity of the best window of every pixel of every kSearchStep-th row, interpolated from the scores [px]; NaN
-/// without a peak inside the range.
-Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference);
+/// Disparity of the best window at every searched pixel, interpolated from the scores [px]; NaN without a peak inside
+/// the range.
+Image<float> search(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference);
 
-/// Sub-pixel disparity at the centroid of each window, with gain, bias and correlation, from what the search found.
-Estimates refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+/// Sub-pixel disparity at the centroid of each window, with the correlation there, from what the search found.
+Estimates refine(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
                  const Image<float>& coarse);
 
 /// Fills in the slopes and moves every disparity from its centroid to its pixel's centre.
 void carry_to_pixels(Estimates& estimates);
 
 /// Where windows reach over an edge, replaces each estimate by the neighbouring one that predicts the pixel's own dots
-/// best, or by none when none does.
-void settle_edges(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
-                  Estimates& estimates);
+/// best, or by none when none does. `coarse` is what the search found.
+void settle_edges(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
+                  const Image<float>& coarse, Estimates& estimates);
 
-/// A disparity as a place in the reference: column shift in whole infrared pixels, phase, and what is left over.
+/// A disparity as a place in the reference: whole depth pixels, phase, and what is left over. Odd columns of the live
+/// image meet the phase `odd()`.
 struct ReferenceShift {
   int whole;
   int phase;
-  float rest_ir_px;  ///< |rest| ≤ ½ / kPhases
+  float rest_px;  ///< |rest| ≤ ½ / kPhases
+
+  ReferenceShift odd() const {
+    constexpr int kHalf = kPhases / 2;
+    return {whole + (phase + kHalf) / kPhases, (phase + kHalf) % kPhases, rest_px};
+  }
 };
 inline ReferenceShift reference_shift(float disparity) {
   constexpr int kOffset = 1 << 14;  // keeps the rounded number positive; integer conversion is cheaper than floor()
-  const float shift_ir_px = -2.0f * disparity;
-  const int steps = static_cast<int>(shift_ir_px * kPhases + 0.5f + kOffset);
+  const int steps = static_cast<int>(-kPhases * disparity + 0.5f + kOffset);
   return {steps / kPhases - kOffset / kPhases, steps % kPhases,
-          shift_ir_px - static_cast<float>(steps - kOffset) / kPhases};
+          -disparity - static_cast<float>(steps - kOffset) / kPhases};
 }
 
 }  // namespace fathom

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "core/simd.h"
+#include "sim/sensor/local_contrast.h"
 #include "sim/sensor/speckle.h"
 
 namespace fathom {
@@ -27,72 +29,53 @@ double lanczos_slope(double t) {
   return (lanczos(t + kStep) - lanczos(t - kStep)) / (2.0 * kStep);
 }
 
-/// Weights for the pixels x − 3 … x + 4 that give the value (or the slope) at x + phase / kPhases.
+/// Weights for the pixels x − 3 … x + 4 that give the value, or the slope per depth pixel, at the infrared pixel
+/// x + 2 phase / kPhases.
 std::array<float, kTaps> kernel(int phase, double (*law)(double)) {
   std::array<double, kTaps> weights;
   double sum = 0.0;
-  for (int tap = 0; tap < kTaps; ++tap) sum += weights[tap] = law(static_cast<double>(phase) / kPhases - (tap - 3));
+  for (int tap = 0; tap < kTaps; ++tap) sum += weights[tap] = law(2.0 * phase / kPhases - (tap - 3));
   std::array<float, kTaps> result;
   // Constants stay constant under the value's weights and vanish under the slope's.
   for (int tap = 0; tap < kTaps; ++tap)
-    result[tap] = static_cast<float>(law == lanczos ? weights[tap] / sum : weights[tap] - sum / kTaps);
+    result[tap] = static_cast<float>(law == lanczos ? weights[tap] / sum : 2.0 * (weights[tap] - sum / kTaps));
   return result;
 }
 
 FATHOM_SIMD_CLONES
-void convolve_row(const float* __restrict source, const std::array<float, kTaps>& weights, float* __restrict target,
-                  int width) {
-  for (int x = 3; x < width - 4; ++x) {
-    float sum = 0.0f;
-    for (int tap = 0; tap < kTaps; ++tap) sum += weights[tap] * source[x + tap - 3];
-    target[x] = sum;
+void convolve_row(const float* __restrict source, const std::array<float, kTaps>& weights, float* __restrict even,
+                  float* __restrict odd, int pairs) {
+  for (int x = 2; x < pairs - 2; ++x) {
+    float left = 0.0f, right = 0.0f;
+    for (int tap = 0; tap < kTaps; ++tap) {
+      left += weights[tap] * source[2 * x + tap - 3];
+      right += weights[tap] * source[2 * x + tap - 2];
+    }
+    even[x] = left, odd[x] = right;
   }
 }
 
-Image<float> convolved(const Image<float>& image, const std::array<float, kTaps>& weights) {
-  Image<float> result(image.width(), image.height());
+SplitColumns<float> convolved(const Image<float>& image, const std::array<float, kTaps>& weights) {
+  const int pairs = image.width() / 2;
+  SplitColumns<float> result{{pairs + kSlackColumns, image.height()}, {pairs + kSlackColumns, image.height()}};
   parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) convolve_row(image.row(y), weights, result.row(y), image.width());
+    for (int y = begin; y < end; ++y) convolve_row(image.row(y), weights, result.even.row(y), result.odd.row(y), pairs);
   });
   return result;
-}
-
-/// Adds a row to the sums of its columns and of their squares.
-FATHOM_SIMD_CLONES
-void add_rows(const float* __restrict row, float* __restrict sums, float* __restrict squares, int width) {
-  for (int x = 0; x < width; ++x) {
-    sums[x] += row[x];
-    squares[x] += row[x] * row[x];
-  }
-}
-
-FATHOM_SIMD_CLONES
-void slide_window(const float* __restrict padded_columns, float* __restrict sums, int window, int width) {
-  for (int x = 0; x < width; ++x) {
-    float sum = 0.0f;
-    for (int i = 0; i < window; ++i) sum += padded_columns[x + i];
-    sums[x] = sum;
-  }
-}
-
-FATHOM_SIMD_CLONES
-void normalise_row(const float* __restrict row, const float* __restrict sums, const float* __restrict squares,
-                   const float* __restrict one_over_count, float least, float scale, float limit,
-                   std::int16_t* __restrict result, int width) {
-  for (int x = 0; x < width; ++x) {
-    const float mean = sums[x] * one_over_count[x];
-    const float variance = squares[x] * one_over_count[x] - mean * mean;
-    const float deviation = std::sqrt(variance > least * least ? variance : least * least);
-    float value = scale * (row[x] - mean) / deviation;
-    value = value > limit ? limit : value;
-    value = value < -limit ? -limit : value;
-    result[x] = static_cast<std::int16_t>(static_cast<int>(value + 64.5f) - 64);
-  }
 }
 
 FATHOM_SIMD_CLONES
 void mean_of_rows(const float* __restrict a, const float* __restrict b, float* __restrict mean, int width) {
   for (int x = 0; x < width; ++x) mean[x] = 0.5f * (a[x] + b[x]);
+}
+
+FATHOM_SIMD_CLONES
+void split_mean_of_rows(const float* __restrict a, const float* __restrict b, float* __restrict even,
+                        float* __restrict odd, int pairs) {
+  for (int x = 0; x < pairs; ++x) {
+    even[x] = 0.5f * (a[2 * x] + b[2 * x]);
+    odd[x] = 0.5f * (a[2 * x + 1] + b[2 * x + 1]);
+  }
 }
 
 /// Mean of sample(dx, dy) over a grid of `samples_across`² points, dx and dy in 0 … 1 from the pixel's upper left
@@ -154,29 +137,20 @@ Image<float> columns_in_pairs(const Image<float>& image) {
   return result;
 }
 
-Image<std::int16_t> locally_normalised(const Image<float>& image, const MatcherModel& matcher) {
-  const int width = image.width(), columns = matcher.window_columns, rows = matcher.window_rows, half = columns / 2;
-  // Largest amplitude for which columns · rows products fit 16 bits; a dot's centre stands about 2.8 deviations out.
-  const float limit = std::floor(std::sqrt(32767.0f / static_cast<float>(columns * rows)));
-  Image<std::int16_t> result(width, image.height());
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    std::vector<float> column(width + 2 * half), column_square(width + 2 * half), sum(width), square(width),
-        one_over_count(width);
-    for (int y = begin; y < end; ++y) {
-      const int first = std::max(y - rows / 2, 0), last = std::min(y + rows / 2, image.height() - 1);
-      std::fill(column.begin(), column.end(), 0.0f);
-      std::fill(column_square.begin(), column_square.end(), 0.0f);
-      for (int j = first; j <= last; ++j)
-        add_rows(image.row(j), column.data() + half, column_square.data() + half, width);
-      slide_window(column.data(), sum.data(), columns, width);
-      slide_window(column_square.data(), square.data(), columns, width);
-      for (int x = 0; x < width; ++x) {
-        const int inside = std::min(x + half, width - 1) - std::max(x - half, 0) + 1;
-        one_over_count[x] = 1.0f / static_cast<float>(inside * (last - first + 1));
-      }
-      normalise_row(image.row(y), sum.data(), square.data(), one_over_count.data(),
-                    static_cast<float>(matcher.contrast_min), limit / 2.8f, limit, result.row(y), width);
-    }
+SplitColumns<float> split_rows_in_pairs(const Image<float>& image) {
+  const int pairs = image.width() / 2, height = image.height() / 2;
+  SplitColumns<float> result{{pairs + kSlackColumns, height}, {pairs + kSlackColumns, height}};
+  parallel_ranges(height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      split_mean_of_rows(image.row(2 * y), image.row(2 * y + 1), result.even.row(y), result.odd.row(y), pairs);
+  });
+  return result;
+}
+
+Image<float> mean_of_columns(const SplitColumns<float>& split, int width) {
+  Image<float> result(width, split.even.height());
+  parallel_ranges(result.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) mean_of_rows(split.even.row(y), split.odd.row(y), result.row(y), width);
   });
   return result;
 }
@@ -185,13 +159,16 @@ Reference memorise(const SensorModel& sensor, const Image<float>& image, int mar
   Reference reference;
   reference.margin_px = margin_px;
   const Image<float> paired = rows_in_pairs(image);
-  reference.search = locally_normalised(columns_in_pairs(paired), sensor.matcher);
-  for (int phase = 0; phase < kPhases; ++phase) {
-    reference.shifted.push_back(convolved(paired, kernel(phase, lanczos)));
-    reference.gradient.push_back(convolved(paired, kernel(phase, lanczos_slope)));
+  reference.search = locally_normalised(columns_in_pairs(paired), sensor.matcher, 0);
+  constexpr int kOdd = kPhases / 2;  // an odd column lies half a depth pixel to the right
+  for (int phase = 0; phase < kOdd; ++phase) {
+    auto [even, odd] = convolved(paired, kernel(phase, lanczos));
+    reference.value[phase] = std::move(even), reference.value[phase + kOdd] = std::move(odd);
+    auto [even_slope, odd_slope] = convolved(paired, kernel(phase, lanczos_slope));
+    reference.slope[phase] = std::move(even_slope), reference.slope[phase + kOdd] = std::move(odd_slope);
   }
   if (sensor.matcher.method == MatchMethod::device)
-    reference.blocks = block_reference(sensor.matcher, reference.shifted);
+    reference.blocks = block_reference(sensor.matcher, reference.value);
   return reference;
 }
 
@@ -203,10 +180,6 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
                             mix_bits(kReferenceStream ^ sensor.unit.serial)),
               image);
   return memorise(sensor, image, margin);
-}
-
-int refine_first_row(const SensorModel& sensor, int depth_row) {
-  return std::clamp(sensor.ir_first_row() / 2 + depth_row - kRefineRows / 2, 0, sensor.ir_height / 2 - kRefineRows);
 }
 
 }  // namespace fathom

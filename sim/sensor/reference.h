@@ -1,8 +1,8 @@
 // The memorised reference: what the infrared camera sees of a plane at the reference distance, prepared for matching.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <vector>
 
 #include "core/image.h"
 #include "sim/scene/rig.h"
@@ -11,29 +11,31 @@
 
 namespace fathom {
 
-/// Sub-pixel positions at which the reference is held, per infrared pixel.
-inline constexpr int kPhases = 4;
+/// An image's even and odd columns, apart: a step of one depth pixel is a step of one value, so what is computed of
+/// neighbouring pixels fills a vector. Rows of the infrared image are added in pairs: disparity lies along the rows, so
+/// this halves the work and loses nothing but noise.
+template <class T>
+struct SplitColumns {
+  Image<T> even, odd;
+};
 
-/// The refinement's window: 8 × 7 depth pixels.
-inline constexpr int kRefineColumns = 16;  ///< infrared pixels
-inline constexpr int kRefineRows = 7;      ///< row pairs
+/// Columns that are read, but not used, beyond the right end of such an image: vectors are taken whole.
+inline constexpr int kSlackColumns = 16;
 
-/// Rows of the infrared image are added in pairs before refinement: disparity lies along the rows, so this halves the
-/// work and loses nothing but noise.
+/// Sub-pixel positions at which the reference is held, per depth pixel.
+inline constexpr int kPhases = 8;
+
 struct Reference {
-  int margin_px = 0;                   ///< depth pixels by which the reference is wider than the image, on each side
-  Image<std::int16_t> search;          ///< halved and locally normalised, (width + 2 margin) × (ir_height / 2)
-  std::vector<Image<float>> shifted;   ///< [phase] rows in pairs, at x + phase / kPhases infrared pixels
-  std::vector<Image<float>> gradient;  ///< [phase] its derivative along x [1/infrared px]
-  BlockReference blocks;               ///< of the device's method only
+  int margin_px = 0;                  ///< depth pixels by which the reference is wider than the image, on each side
+  SplitColumns<std::int16_t> search;  ///< halved and locally normalised, (width + 2 margin) × (ir_height / 2)
+  std::array<Image<float>, kPhases> value;  ///< rows in pairs, at depth pixel x − margin + phase / kPhases
+  std::array<Image<float>, kPhases> slope;  ///< its derivative along x [1/depth px]
+  BlockReference blocks;                    ///< of the device's method only
 };
 
 /// The ideal image of a plane at sensor.reference, facing the camera, of even brightness; wider than the camera's image
 /// by `margin_px` depth pixels on each side, because a near surface shows dots that leave the image at the reference.
 Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, int margin_px, int samples_across);
-
-/// First row pair of the refinement's window of a depth row; windows stay inside the infrared image.
-int refine_first_row(const SensorModel& sensor, int depth_row);
 
 /// Depth pixels of margin the matcher needs for its search range and window.
 int reference_margin(const MatcherModel& matcher);
@@ -49,9 +51,9 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
 Image<float> rows_in_pairs(const Image<float>& image);
 /// Mean of each pair of columns: half the width.
 Image<float> columns_in_pairs(const Image<float>& image);
-
-/// Deviation from the mean of the matcher's window over its standard deviation (at least `contrast_min`), scaled so
-/// that a window's sum of products fits 16 bits.
-Image<std::int16_t> locally_normalised(const Image<float>& image, const MatcherModel& matcher);
+/// Both halves of rows_in_pairs(), each kSlackColumns wider.
+SplitColumns<float> split_rows_in_pairs(const Image<float>& image);
+/// Mean of each even column and the odd one after it, of the first `width`.
+Image<float> mean_of_columns(const SplitColumns<float>& split, int width);
 
 }  // namespace fathom

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "core/parallel.h"
 #include "core/simd.h"
@@ -13,211 +11,210 @@
 namespace fathom {
 namespace {
 
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kCount = kRefineColumns * kRefineRows;
+constexpr int kHalfColumns = kRefineColumns / 4;  ///< [depth px] half a window
 
-/// What is known of every pixel of a row that is refined, as arrays, so that the compiler makes vectors of the
-/// arithmetic.
-struct RowScratch {
-  std::vector<int> live;           ///< first column of the window in the live image
-  std::vector<int> whole, phase;   ///< the shift at which the reference is compared
-  std::vector<std::uint8_t> open;  ///< whether the window is still to be summed
-  std::vector<float> from, rest;   ///< disparity to start from [px] and its part below the shift [infrared px]
-  Image<float> sums;               ///< a row for each WindowSum
-  std::vector<float> moved, correlation, gain, bias, centre_x, centre_y;
+/// The surfaces that the search found in a tile: the windows of one are all compared with the reference at one shift.
+struct TileSurfaces {
+  static constexpr int kMost = kTileColumns / 2;  ///< one for each searched pixel
+  static_assert(kTileRows == kSearchStep, "a tile holds one searched row");
 
-  explicit RowScratch(int width) : live(width), whole(width), phase(width), open(width), sums(width, kWindowSums) {
-    for (auto* values : {&from, &rest, &moved, &correlation, &gain, &bias, &centre_x, &centre_y}) values->resize(width);
-  }
-  int width() const { return static_cast<int>(live.size()); }
+  int count = 0;
+  std::array<float, kMost> searched;      ///< mean disparity of each [px]
+  std::array<float, kMost> found;         ///< the same, refined; NaN: nothing
+  std::array<int, kTileColumns> of = {};  ///< for each column its surface, counted from 1; 0: none
 };
 
-/// Sets the shift at which each open window is compared with the reference. It keeps that of the one on its left as
-/// long as its own is near enough: windows of the same shift share their sums.
-void place_windows(RowScratch& s) {
-  constexpr float kKept = 0.7f / kPhases;  // [infrared px]
-  ReferenceShift held{};
-  float held_ir_px = std::numeric_limits<float>::quiet_NaN();
-  for (int k = 0; k < s.width(); ++k) {
-    if (!s.open[k]) continue;
-    const float shift_ir_px = -2.0f * s.from[k];
-    if (!(std::fabs(shift_ir_px - held_ir_px) < kKept)) {
-      held = reference_shift(s.from[k]);
-      held_ir_px = shift_ir_px - held.rest_ir_px;
-    }
-    s.whole[k] = held.whole, s.phase[k] = held.phase;
-    s.rest[k] = shift_ir_px - held_ir_px;
+TileSurfaces surfaces_in(const float* searched, int pixels) {
+  constexpr float kTogether = 0.35f;  // [px] more than the search's error and the slope of a desk
+  TileSurfaces surfaces;
+  for (int seed = 0; seed < pixels; ++seed) {
+    if (surfaces.of[2 * seed] != 0 || std::isnan(searched[seed])) continue;
+    float sum = 0.0f, count = 0.0f;
+    for (int k = seed; k < pixels; ++k)
+      if (surfaces.of[2 * k] == 0 && std::fabs(searched[k] - searched[seed]) < 2.0f * kTogether)
+        sum += searched[k], count += 1.0f;
+    const float mean = surfaces.searched[surfaces.count++] = sum / count;
+    for (int k = seed; k < pixels; ++k)
+      if (surfaces.of[2 * k] == 0 && (std::fabs(searched[k] - mean) < kTogether || k == seed))
+        surfaces.of[2 * k] = surfaces.of[2 * k + 1] = surfaces.count;
   }
+  return surfaces;
 }
 
+/// A row of the estimates, as pointers to a tile's first pixel.
+struct EstimatesRow {
+  float *disparity, *correlation, *centre_x, *centre_y;
+};
+
+/// Where a tile's row of windows stands.
+struct RowPlace {
+  float disparity;    ///< [px] that the reference is shifted by
+  float column, row;  ///< of the tile's first sample, from the row's first pixel centre [depth px]
+  float least_energy, least_correlation;
+};
+
 /// The shift t that maximises the correlation of i with r + t g, (a + t b) / √(ii (rr + 2 t rg + t² gg)), with the
-/// correlation, gain and bias there. A window without contrast or maximum gets the correlation −1.
-FATHOM_SIMD_CLONES
-void solve(RowScratch& s, float least_energy) {
-  constexpr float kFarthest = 1.5f;  // [infrared px]; beyond, the derivative says nothing
+/// correlation there, for those columns that are `label`'s. A window without contrast or maximum gives no
+/// match.
+template <int kWidth>
+inline __attribute__((always_inline)) void solve_row_of(const float (&sums)[kWindowSums][kTileColumns],
+                                                        const RowPlace place, const int* __restrict labels, int label,
+                                                        int width, const EstimatesRow& out) {
+  constexpr float kFarthest = 0.75f;  // [px]; beyond, the derivative says nothing
+  constexpr float kPerCount = 1.0f / kCount;
   constexpr float kTiny = 1e-12f;
-  float *moved = s.moved.data(), *correlation = s.correlation.data(), *gain = s.gain.data(), *bias = s.bias.data();
-  float *centre_x = s.centre_x.data(), *centre_y = s.centre_y.data();
-  const float *i = s.sums.row(kI), *r = s.sums.row(kR), *g = s.sums.row(kG);
-  const float *sum_ii = s.sums.row(kII), *sum_ir = s.sums.row(kIR), *sum_ig = s.sums.row(kIG);
-  const float *sum_rr = s.sums.row(kRR), *sum_rg = s.sums.row(kRG), *sum_gg = s.sums.row(kGG);
-  const float *gg_x = s.sums.row(kGGx), *gg_y = s.sums.row(kGGy);
-  const int count = s.width();
+  float *disparity = out.disparity, *correlation = out.correlation;
+  float *centre_x = out.centre_x, *centre_y = out.centre_y;
 #pragma GCC ivdep
-  for (int k = 0; k < count; ++k) {
-    const float mean = i[k] / kCount;
-    const float ii = sum_ii[k] - i[k] * mean;
-    const float a = sum_ir[k] - mean * r[k], b = sum_ig[k] - mean * g[k];
-    const float rr = sum_rr[k] - r[k] * r[k] / kCount;
-    const float rg = sum_rg[k] - r[k] * g[k] / kCount;
-    const float gg = sum_gg[k] - g[k] * g[k] / kCount;
+  for (int k = 0; k < (kWidth > 0 ? kWidth : width); ++k) {
+    const float i = sums[kI][k], r = sums[kR][k], g = sums[kG][k];
+    const float mean = i * kPerCount;
+    const float ii = sums[kII][k] - i * mean;
+    const float a = sums[kIR][k] - mean * r, b = sums[kIG][k] - mean * g;
+    const float rr = sums[kRR][k] - r * r * kPerCount;
+    const float rg = sums[kRG][k] - r * g * kPerCount;
+    const float gg = sums[kGG][k] - g * g * kPerCount;
     const float denominator = a * gg - b * rg;
     const float t = (b * rr - a * rg) / (denominator > kTiny ? denominator : kTiny);
     const float energy = rr + 2.0f * t * rg + t * t * gg;
     const float both = a + t * b;
     const float squared = ii * energy;
-    // No short-circuit: branches would keep the compiler from making vectors of this.
-    const bool good =
-        (denominator > kTiny) & (ii > least_energy) & (t < kFarthest) & (t > -kFarthest) & (energy > kTiny);
-    const float own_gain = both / (energy > kTiny ? energy : kTiny);
     const float own_correlation = both / std::sqrt(squared > kTiny ? squared : kTiny);
-    moved[k] = t;
-    correlation[k] = good ? own_correlation : -1.0f;
-    gain[k] = own_gain;
-    bias[k] = mean - own_gain * (r[k] + t * g[k]) / kCount;
-    const float per_energy = 1.0f / (sum_gg[k] + 1e-9f);
-    centre_x[k] = gg_x[k] * per_energy;
-    centre_y[k] = gg_y[k] * per_energy;
+    // No short-circuit: branches would keep the compiler from making vectors of this.
+    const bool good = (denominator > kTiny) & (ii > place.least_energy) & (t < kFarthest) & (t > -kFarthest) &
+                      (energy > kTiny) & (own_correlation >= place.least_correlation);
+    const float per_energy = 1.0f / (sums[kGG][k] + 1e-9f);
+    const float own_x = place.column + 0.5f * sums[kGGx][k] * per_energy - static_cast<float>(k);
+    const float own_y = place.row + sums[kGGy][k] * per_energy;
+    const float found = good ? place.disparity - t : kNone, found_correlation = good ? own_correlation : 0.0f;
+    const bool own = labels[k] == label;
+    disparity[k] = own ? found : disparity[k];
+    correlation[k] = own ? found_correlation : correlation[k];
+    centre_x[k] = own ? own_x : centre_x[k];
+    centre_y[k] = own ? own_y : centre_y[k];
   }
 }
-
-/// Starts the windows of a row from the search's disparities, or from the row above's where it saw the same surface:
-/// those are nearer the truth. Windows without any stand where their left neighbour does.
-FATHOM_SIMD_CLONES
-void choose_starts(const float* coarse, const float* above, float* from, int count) {
-  constexpr float kSameSurface = 0.3f;  // [px]
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k) from[k] = std::fabs(coarse[k] - above[k]) < kSameSurface ? above[k] : coarse[k];
-}
-
-/// Opens those windows again that moved so far that a second step from nearer by is worth its time: one step is exact
-/// for dots that all moved alike. Returns whether there are any.
-bool reopen(RowScratch& s, float least_correlation) {
-  constexpr float kNearEnough = 1.0f / kPhases;  // [infrared px]
-  bool any = false;
-  for (int k = 0; k < s.width(); ++k) {
-    s.open[k] = std::fabs(s.moved[k]) > kNearEnough && s.correlation[k] >= least_correlation;
-    if (!s.open[k]) continue;
-    s.from[k] += 0.5f * (s.rest[k] - s.moved[k]);
-    any = true;
-  }
-  return any;
-}
-
-/// A row of the estimates, as pointers to its first refined pixel.
-struct EstimatesRow {
-  float *disparity, *correlation, *gain, *bias, *centre_x, *centre_y;
-};
 
 FATHOM_SIMD_CLONES
-void keep_row(const RowScratch& s, const float* coarse, float least_correlation, int first_x, float row_offset,
-              const EstimatesRow& row) {
-  const float *from = s.from.data(), *rest = s.rest.data(), *moved = s.moved.data(),
-              *correlation = s.correlation.data(), *gain = s.gain.data(), *bias = s.bias.data(),
-              *centre_x = s.centre_x.data(), *centre_y = s.centre_y.data();
-  const int *live = s.live.data(), count = s.width();
-#pragma GCC ivdep
-  for (int k = 0; k < count; ++k) {
-    const bool found = (coarse[k] == coarse[k]) & (correlation[k] >= least_correlation);
-    const float disparity = from[k] + 0.5f * (rest[k] - moved[k]);
-    row.disparity[k] = found ? disparity : std::numeric_limits<float>::quiet_NaN();
-    row.correlation[k] = found ? correlation[k] : 0.0f;
-    row.gain[k] = gain[k], row.bias[k] = bias[k];
-    row.centre_x[k] =
-        0.5f * (static_cast<float>(live[k]) + centre_x[k] + 0.5f) - (static_cast<float>(first_x + k) + 0.5f);
-    row.centre_y[k] = row_offset + centre_y[k];
-  }
+void solve_row(const float (&sums)[kWindowSums][kTileColumns], const RowPlace& place, const int* labels, int label,
+               int width, const EstimatesRow& out) {
+  if (width == kTileColumns)
+    solve_row_of<kTileColumns>(sums, place, labels, label, width, out);
+  else
+    solve_row_of<0>(sums, place, labels, label, width, out);
 }
 
-/// Refines one depth row after the other.
-class RowRefiner {
+class Refiner {
  public:
-  RowRefiner(const SensorModel& sensor, const Image<float>& paired, const Reference& reference)
-      : sensor_(sensor),
-        paired_(paired),
-        reference_(reference),
-        // A window needs three quarters of its columns inside the image.
-        border_(sensor.matcher.window_columns / 4),
-        scratch_(sensor.width - 2 * border_) {
-    for (int k = 0; k < scratch_.width(); ++k)
-      scratch_.live[k] = std::clamp(2 * (border_ + k) + 1 - kRefineColumns / 2, 0, paired.width() - kRefineColumns);
-  }
+  Refiner(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
+          const Image<float>& coarse, Estimates& estimates)
+      : sensor_(sensor), paired_(paired), reference_(reference), coarse_(coarse), estimates_(estimates) {}
 
-  /// `above` holds the disparities of the row above; the search's own where there are none.
-  void refine(int y, const float* coarse, const float* above, Estimates& estimates) {
-    RowScratch& s = scratch_;
-    const float contrast = static_cast<float>(sensor_.matcher.contrast_min);
-    const float least_energy = contrast * contrast * kCount;
-    const float least_correlation = static_cast<float>(sensor_.matcher.correlation_min);
-    coarse += border_;
-    choose_starts(coarse, above + border_, s.from.data(), s.width());
-    for (int k = 0; k < s.width(); ++k)
-      if (std::isnan(s.from[k])) s.from[k] = k > 0 ? s.from[k - 1] : 0.0f;
-    std::fill(s.open.begin(), s.open.end(), std::uint8_t{1});
-    sum_open_windows(y);
-    solve(s, least_energy);
-    if (reopen(s, least_correlation)) {
-      sum_open_windows(y);
-      solve(s, least_energy);
-    }
-    const int row_offset = refine_first_row(sensor_, y) - sensor_.ir_first_row() / 2 - y;
-    const auto at = [&](Image<float>& image) { return image.row(y) + border_; };
-    keep_row(s, coarse, least_correlation, border_, static_cast<float>(row_offset),
-             {at(estimates.disparity), at(estimates.correlation), at(estimates.gain), at(estimates.bias),
-              at(estimates.centre_x), at(estimates.centre_y)});
+  /// Refines the rows of windows whose first depth row is y, tile after tile.
+  void refine_rows(int y) {
+    left_ = {};
+    for (int x = kHalfColumns; x < sensor_.width - kHalfColumns; x += kTileColumns) refine_tile(x, y);
+    for (int j = y; j < std::min(y + kTileRows, sensor_.height); ++j) extend_row(j);
   }
 
  private:
-  void sum_open_windows(int y) {
-    RowScratch& s = scratch_;
-    place_windows(s);
-    for (int first = 0, end; first < s.width(); first = end) {
-      end = first + 1;
-      if (!s.open[first]) continue;
-      while (end < s.width() && end - first < kRunWindows && s.open[end] && s.phase[end] == s.phase[first] &&
-             s.whole[end] == s.whole[first] && s.live[end] == s.live[end - 1] + 2)
-        ++end;
-      sum_run(y, first, end);
-    }
+  void refine_tile(int x, int y) {
+    const int width = std::min(kTileColumns, sensor_.width - kHalfColumns - x);
+    TileSurfaces surfaces = surfaces_in(coarse_.row(y / kSearchStep) + x / 2, (width + 1) / 2);
+    for (int k = 0; k < surfaces.count; ++k) surfaces.found[k] = refine_surface(x, y, width, surfaces, k);
+    left_ = surfaces;
   }
 
-  void sum_run(int y, int first, int end) {
-    RowScratch& s = scratch_;
-    const int row = refine_first_row(sensor_, y), live = s.live[first], phase = s.phase[first];
-    const int column = live + 2 * reference_.margin_px + s.whole[first];  // the margin holds every disparity searched
-    const Image<float>&shifted = reference_.shifted[phase], &gradient = reference_.gradient[phase];
-    sum_windows({paired_.row(row) + live, paired_.width()}, {shifted.row(row) + column, shifted.width()},
-                {gradient.row(row) + column, gradient.width()}, end - first, first, s.sums);
+  /// Returns the mean disparity that was found; NaN where nothing was.
+  float refine_surface(int x, int y, int width, const TileSurfaces& surfaces, int surface) {
+    const float disparity = start(surfaces.searched[surface]);
+    const ReferenceShift shift = reference_shift(disparity);
+    const int row = first_sample_row(y), end = std::min(y + kTileRows, sensor_.height), label = surface + 1;
+    sum_windows(live(x, row), shifted(reference_.value, shift, x, row), shifted(reference_.slope, shift, x, row),
+                first_sample_row(end - 1) - row + 1, sums_);
+    const float contrast = static_cast<float>(sensor_.matcher.contrast_min);
+    RowPlace place{disparity + shift.rest_px, 0.25f - kHalfColumns, 0.0f, contrast * contrast * kCount,
+                   static_cast<float>(sensor_.matcher.correlation_min)};
+    float sum = 0.0f, count = 0.0f;
+    for (int j = y; j < end; ++j) {
+      place.row = static_cast<float>(row - sensor_.ir_first_row() / 2 - j);
+      const EstimatesRow out = estimates_row(x, j);
+      solve_row(sums_.of[first_sample_row(j) - row], place, surfaces.of.data(), label, width, out);
+      for (int k = 0; k < width; ++k)
+        if (surfaces.of[k] == label && !std::isnan(out.disparity[k])) sum += out.disparity[k], count += 1.0f;
+    }
+    return count > 0.0f ? sum / count : kNone;
+  }
+
+  /// Where a surface goes on from the tile on the left, what was found there is nearer the truth than the search is.
+  float start(float searched) const {
+    constexpr float kSame = 0.25f;  // [px]
+    for (int k = 0; k < left_.count; ++k)
+      if (std::fabs(left_.searched[k] - searched) < kSame && !std::isnan(left_.found[k])) return left_.found[k];
+    return searched;
+  }
+
+  /// Pixels less than half a window from the image's sides take the estimate of the nearest whole window.
+  void extend_row(int y) {
+    const int border = sensor_.matcher.window_columns / 4, last = sensor_.width - 1;
+    for (int x = 0; x < kHalfColumns; ++x) {
+      copy(kHalfColumns, x, y, x >= border);
+      copy(last - kHalfColumns, last - x, y, x >= border);
+    }
+    for (int x = kHalfColumns; x < border; ++x) estimates_.disparity(x, y) = estimates_.disparity(last - x, y) = kNone;
+  }
+
+  /// First row pair of the windows of a depth row; windows stay inside the infrared image.
+  int first_sample_row(int depth_row) const {
+    return std::clamp(sensor_.ir_first_row() / 2 + depth_row - kRefineRows / 2, 0, sensor_.ir_height / 2 - kRefineRows);
+  }
+
+  TileImage live(int x, int row) const {
+    return {paired_.odd.row(row) + x - kHalfColumns, paired_.even.row(row) + x - kHalfColumns + 1,
+            paired_.even.width()};
+  }
+
+  TileImage shifted(const std::array<Image<float>, kPhases>& phases, const ReferenceShift& even, int x, int row) const {
+    const ReferenceShift odd = even.odd();
+    const int column = x - kHalfColumns + reference_.margin_px;  // the margin holds every disparity searched
+    return {phases[odd.phase].row(row) + column + odd.whole, phases[even.phase].row(row) + column + even.whole + 1,
+            phases[0].width()};
+  }
+
+  EstimatesRow estimates_row(int x, int y) {
+    const auto at = [&](Image<float>& image) { return image.row(y) + x; };
+    return {at(estimates_.disparity), at(estimates_.correlation), at(estimates_.centre_x), at(estimates_.centre_y)};
+  }
+
+  void copy(int from, int to, int y, bool valid) {
+    Estimates& e = estimates_;
+    for (Image<float>* image : {&e.disparity, &e.correlation, &e.centre_x, &e.centre_y})
+      (*image)(to, y) = (*image)(from, y);
+    e.centre_x(to, y) += static_cast<float>(from - to);
+    if (!valid) e.disparity(to, y) = kNone;
   }
 
   const SensorModel& sensor_;
-  const Image<float>& paired_;
+  const SplitColumns<float>& paired_;
   const Reference& reference_;
-  int border_;
-  RowScratch scratch_;
+  const Image<float>& coarse_;
+  Estimates& estimates_;
+  TileSurfaces left_;  ///< of the tile on the left
+  TileSums sums_;
 };
 
 }  // namespace
 
-Estimates refine(const SensorModel& sensor, const Image<float>& paired, const Reference& reference,
+Estimates refine(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
                  const Image<float>& coarse) {
   Estimates estimates(sensor.width, sensor.height);
-  constexpr int kBandRows = 60;  // the same bands for any number of threads
-  const int bands = (sensor.height + kBandRows - 1) / kBandRows;
-  parallel_ranges(bands, [&](int begin, int end) {
-    RowRefiner refiner(sensor, paired, reference);
-    for (int y = begin * kBandRows; y < std::min(end * kBandRows, sensor.height); ++y)
-      refiner.refine(y, coarse.row(y / kSearchStep),
-                     y % kBandRows > 0 ? estimates.disparity.row(y - 1) : coarse.row(y / kSearchStep), estimates);
+  if (sensor.width <= 2 * kHalfColumns || sensor.ir_height < 2 * kRefineRows) return estimates;  // no whole window
+  const int tiles_down = (sensor.height + kTileRows - 1) / kTileRows;
+  parallel_ranges(tiles_down, [&](int begin, int end) {
+    Refiner refiner(sensor, paired, reference, coarse, estimates);
+    for (int tile = begin; tile < end; ++tile) refiner.refine_rows(tile * kTileRows);
   });
   return estimates;
 }

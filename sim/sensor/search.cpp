@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/simd.h"
+#include "sim/sensor/local_contrast.h"
 #include "sim/sensor/match.h"
 
 namespace fathom {
@@ -13,32 +14,56 @@ namespace {
 
 using Row = std::vector<std::int16_t>;
 
-/// column_sums += live · reference, element by element.
+/// A row of the live image and the row of the reference that it meets at one disparity, by column parity.
+struct MeetingRows {
+  const std::int16_t *even, *odd;
+  const std::int16_t *reference_even, *reference_odd;
+};
+
+/// Sums over the rows of a window, of products of live and reference, at one disparity.
+struct ColumnSums {
+  Row even, odd;  ///< by column parity
+  explicit ColumnSums(int pairs) : even(pairs), odd(pairs) {}
+};
+
 FATHOM_SIMD_CLONES
-void add_products(const std::int16_t* __restrict live, const std::int16_t* __restrict reference,
-                  std::int16_t* __restrict column_sums, int count) {
-  for (int x = 0; x < count; ++x) column_sums[x] = static_cast<std::int16_t>(column_sums[x] + live[x] * reference[x]);
+void add_products(const MeetingRows& rows, std::int16_t* __restrict even, std::int16_t* __restrict odd, int pairs) {
+#pragma GCC ivdep
+  for (int x = 0; x < pairs; ++x) {
+    even[x] = static_cast<std::int16_t>(even[x] + rows.even[x] * rows.reference_even[x]);
+    odd[x] = static_cast<std::int16_t>(odd[x] + rows.odd[x] * rows.reference_odd[x]);
+  }
 }
 
-/// A row enters the window and another leaves it.
+using Exchange = std::array<MeetingRows, kSearchStep>;
+
+/// Rows enter the window and as many leave it; `pairs` becomes the sum of each even column and the odd one after it.
 FATHOM_SIMD_CLONES
-void exchange_products(const std::int16_t* __restrict live_in, const std::int16_t* __restrict reference_in,
-                       const std::int16_t* __restrict live_out, const std::int16_t* __restrict reference_out,
-                       std::int16_t* __restrict column_sums, int count) {
-  for (int x = 0; x < count; ++x)
-    column_sums[x] =
-        static_cast<std::int16_t>(column_sums[x] + live_in[x] * reference_in[x] - live_out[x] * reference_out[x]);
+void exchange_products(const Exchange& in, const Exchange& out, std::int16_t* __restrict even,
+                       std::int16_t* __restrict odd, std::int16_t* __restrict both, int pairs) {
+#pragma GCC ivdep
+  for (int x = 0; x < pairs; ++x) {
+    int left = even[x], right = odd[x];
+    for (int j = 0; j < kSearchStep; ++j) {
+      left += in[j].even[x] * in[j].reference_even[x] - out[j].even[x] * out[j].reference_even[x];
+      right += in[j].odd[x] * in[j].reference_odd[x] - out[j].odd[x] * out[j].reference_odd[x];
+    }
+    even[x] = static_cast<std::int16_t>(left);
+    odd[x] = static_cast<std::int16_t>(right);
+    both[x] = static_cast<std::int16_t>(left + right);
+  }
 }
 
-/// score[x] = sum of `width` column sums from x on; keeps the best score and its disparity's index.
-template <int kWidth>
-inline __attribute__((always_inline)) void score_columns(const std::int16_t* __restrict column_sums, int width,
+/// score[x] = single[x] + the sum of `count` pairs from x on; keeps the best score and its disparity's index.
+template <int kPairs>
+inline __attribute__((always_inline)) void score_columns(const std::int16_t* __restrict pairs,
+                                                         const std::int16_t* __restrict single, int count,
                                                          std::int16_t index, std::int16_t* __restrict score,
                                                          std::int16_t* __restrict best,
-                                                         std::int16_t* __restrict best_index, int count) {
-  for (int x = 0; x < count; ++x) {
-    std::int16_t sum = column_sums[x];
-    for (int i = 1; i < (kWidth > 0 ? kWidth : width); ++i) sum = static_cast<std::int16_t>(sum + column_sums[x + i]);
+                                                         std::int16_t* __restrict best_index, int width) {
+  for (int x = 0; x < width; ++x) {
+    std::int16_t sum = single[x];
+    for (int i = 0; i < (kPairs > 0 ? kPairs : count); ++i) sum = static_cast<std::int16_t>(sum + pairs[x + i]);
     score[x] = sum;
     best_index[x] = sum > best[x] ? index : best_index[x];
     best[x] = sum > best[x] ? sum : best[x];
@@ -46,12 +71,12 @@ inline __attribute__((always_inline)) void score_columns(const std::int16_t* __r
 }
 
 FATHOM_SIMD_CLONES
-void score_row(const std::int16_t* column_sums, int width, std::int16_t index, std::int16_t* score, std::int16_t* best,
-               std::int16_t* best_index, int count) {
-  if (width == 9)  // the device's window: the inner loop unrolls
-    score_columns<9>(column_sums, width, index, score, best, best_index, count);
+void score_row(const std::int16_t* pairs, const std::int16_t* single, int count, std::int16_t index,
+               std::int16_t* score, std::int16_t* best, std::int16_t* best_index, int width) {
+  if (count == 4)  // the device's window: the inner loop unrolls
+    score_columns<4>(pairs, single, count, index, score, best, best_index, width);
   else
-    score_columns<0>(column_sums, width, index, score, best, best_index, count);
+    score_columns<0>(pairs, single, count, index, score, best, best_index, width);
 }
 
 /// Logarithms of scores, a table fine enough for the peak's interpolation.
@@ -67,71 +92,68 @@ class ScoreLogarithm {
   std::array<float, kSize> table_;
 };
 
-/// Live image with `half` columns of zeros on each side, so that windows may be cut at the image's edge.
-Image<std::int16_t> padded(const Image<std::int16_t>& image, int half) {
-  Image<std::int16_t> result(image.width() + 2 * half, image.height());
-  for (int y = 0; y < image.height(); ++y) std::copy_n(image.row(y), image.width(), result.row(y) + half);
-  return result;
-}
-
 /// Searches the rows of one band; its scratch is a few hundred kilobytes and stays in the second-level cache.
 class BandSearch {
  public:
-  BandSearch(const SensorModel& sensor, const Image<std::int16_t>& live, const Reference& reference)
+  BandSearch(const SensorModel& sensor, const SplitColumns<std::int16_t>& live, const Reference& reference,
+             const ScoreLogarithm& logarithm)
       : sensor_(sensor),
         matcher_(sensor.matcher),
         live_(live),
         reference_(reference),
         half_(matcher_.window_columns / 2),
-        count_(live.width()),
+        pairs_(live.even.width()),
         range_(matcher_.disparity_max_px - matcher_.disparity_min_px + 1),
-        sums_(range_, Row(count_)),
-        scores_(range_, Row(count_)),
-        zeros_(count_),
-        best_(count_),
-        best_index_(count_) {}
+        sums_(range_, ColumnSums(pairs_)),
+        scores_(range_, Row(pairs_)),
+        zeros_(pairs_),
+        both_(pairs_),
+        best_(pairs_),
+        best_index_(pairs_),
+        logarithm_(logarithm) {}
 
   /// Searches `disparity`'s rows begin … end − 1, which are every kSearchStep-th of the depth image.
   void run(int begin, int end, Image<float>& disparity) {
     const int half_rows = matcher_.window_rows / 2;
-    int centre = sensor_.ir_first_row() / 2 + begin * kSearchStep;
-    for (Row& row : sums_) std::fill(row.begin(), row.end(), std::int16_t{0});
-    for (int j = -half_rows; j <= half_rows; ++j) add_row(centre + j);
-    for (int y = begin; y < end; ++y) {
-      score_rows();
+    int centre = sensor_.ir_first_row() / 2 + (begin - 1) * kSearchStep + kSearchStep / 2;
+    for (ColumnSums& sums : sums_) {
+      std::fill(sums.even.begin(), sums.even.end(), std::int16_t{0});
+      std::fill(sums.odd.begin(), sums.odd.end(), std::int16_t{0});
+    }
+    for (int j = -half_rows; j <= half_rows; ++j)
+      for (int i = 0; i < range_; ++i)
+        add_products(meeting(centre + j, i), sums_[i].even.data(), sums_[i].odd.data(), pairs_);
+    for (int y = begin; y < end; ++y, centre += kSearchStep) {
+      score_rows(centre + half_rows + 1, centre - half_rows, disparity.width());
       for (int x = 0; x < disparity.width(); ++x) disparity(x, y) = peak(x);
-      if (y + 1 == end) break;
-      for (int step = 0; step < kSearchStep; ++step, ++centre)
-        exchange_rows(centre + half_rows + 1, centre - half_rows);
     }
   }
 
  private:
-  bool inside(int row) const { return row >= 0 && row < live_.height(); }
-  const std::int16_t* reference_row(int row, int index) const {
-    // Live column x (with padding) meets reference column x − half − disparity + margin.
-    return reference_.search.row(row) + reference_.margin_px - half_ - (matcher_.disparity_min_px + index);
+  /// A row at a disparity's index; zeros outside the image.
+  MeetingRows meeting(int row, int index) const {
+    if (row < 0 || row >= live_.even.height()) return {zeros_.data(), zeros_.data(), zeros_.data(), zeros_.data()};
+    // Live column 2 x (framed) meets reference column 2 x − frame − disparity + margin.
+    const int shift = reference_.margin_px - (half_ + 1) / 2 * 2 - (matcher_.disparity_min_px + index);
+    const std::int16_t *even = reference_.search.even.row(row), *odd = reference_.search.odd.row(row);
+    const bool crossed = shift % 2 != 0;  // the margin is wider than the search: shift > 0
+    return {live_.even.row(row), live_.odd.row(row), (crossed ? odd : even) + shift / 2,
+            (crossed ? even + 1 : odd) + shift / 2};
   }
 
-  void add_row(int row) {
-    if (!inside(row)) return;
-    for (int i = 0; i < range_; ++i) add_products(live_.row(row), reference_row(row, i), sums_[i].data(), count_);
-  }
-
-  void exchange_rows(int entering, int leaving) {
-    const bool in = inside(entering), out = inside(leaving);
-    for (int i = 0; i < range_; ++i)
-      exchange_products(in ? live_.row(entering) : zeros_.data(), in ? reference_row(entering, i) : zeros_.data(),
-                        out ? live_.row(leaving) : zeros_.data(), out ? reference_row(leaving, i) : zeros_.data(),
-                        sums_[i].data(), count_);
-  }
-
-  void score_rows() {
+  /// Moves the windows down by kSearchStep rows, to those that end before `entering` + kSearchStep, and scores them.
+  void score_rows(int entering, int leaving, int width) {
     std::fill(best_.begin(), best_.end(), std::numeric_limits<std::int16_t>::min());
     std::fill(best_index_.begin(), best_index_.end(), std::int16_t{0});
-    for (int i = 0; i < range_; ++i)
-      score_row(sums_[i].data(), matcher_.window_columns, static_cast<std::int16_t>(i), scores_[i].data(), best_.data(),
-                best_index_.data(), count_ - 2 * half_);
+    const bool even_half = half_ % 2 == 0;  // the window is `half_` pairs and one more column, right or left of them
+    for (int i = 0; i < range_; ++i) {
+      Exchange in, out;
+      for (int j = 0; j < kSearchStep; ++j) in[j] = meeting(entering + j, i), out[j] = meeting(leaving + j, i);
+      ColumnSums& sums = sums_[i];
+      exchange_products(in, out, sums.even.data(), sums.odd.data(), both_.data(), pairs_);
+      score_row(even_half ? both_.data() : both_.data() + 1, even_half ? sums.even.data() + half_ : sums.odd.data(),
+                half_, static_cast<std::int16_t>(i), scores_[i].data(), best_.data(), best_index_.data(), width);
+    }
   }
 
   /// The dots' correlation falls off like a Gaussian, so a parabola through the logarithms of three scores meets its
@@ -148,26 +170,28 @@ class BandSearch {
 
   const SensorModel& sensor_;
   const MatcherModel& matcher_;
-  const Image<std::int16_t>& live_;
+  const SplitColumns<std::int16_t>& live_;
   const Reference& reference_;
-  int half_, count_, range_;
-  std::vector<Row> sums_;    ///< by disparity: products summed over the window's rows
-  std::vector<Row> scores_;  ///< by disparity: summed over the whole window
-  Row zeros_, best_, best_index_;
-  ScoreLogarithm logarithm_;
+  int half_, pairs_, range_;
+  std::vector<ColumnSums> sums_;  ///< by disparity
+  std::vector<Row> scores_;       ///< by disparity: summed over the whole window
+  Row zeros_, both_, best_, best_index_;
+  const ScoreLogarithm& logarithm_;
 };
 
 }  // namespace
 
-Image<float> search(const SensorModel& sensor, const Image<float>& paired, const Reference& reference) {
-  const Image<std::int16_t> live =
-      padded(locally_normalised(columns_in_pairs(paired), sensor.matcher), sensor.matcher.window_columns / 2);
-  Image<float> disparity(sensor.width, (sensor.height + kSearchStep - 1) / kSearchStep);
-  constexpr int kBandRows = 30;
+Image<float> search(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference) {
+  const int frame = (sensor.matcher.window_columns / 2 + 1) / 2 * 2;  // even, and no less than half a window
+  const SplitColumns<std::int16_t> live =
+      locally_normalised(mean_of_columns(paired, sensor.width), sensor.matcher, frame);
+  Image<float> disparity((sensor.width + 1) / 2, (sensor.height + kSearchStep - 1) / kSearchStep);
+  const ScoreLogarithm logarithm;
+  constexpr int kBandRows = 16;
   const int bands = (disparity.height() + kBandRows - 1) / kBandRows;
   parallel_ranges(bands, [&](int begin, int end) {
     for (int band = begin; band < end; ++band) {
-      BandSearch search(sensor, live, reference);
+      BandSearch search(sensor, live, reference, logarithm);
       search.run(band * kBandRows, std::min((band + 1) * kBandRows, disparity.height()), disparity);
     }
   });

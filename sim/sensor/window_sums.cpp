@@ -1,6 +1,5 @@
 #include "sim/sensor/window_sums.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -9,95 +8,77 @@
 namespace fathom {
 namespace {
 
-/// Columns are taken in whole blocks of one register; remainders would cost the most on short runs.
 constexpr int kBlock = 8;
-using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
 
-constexpr int kMostColumns = 2 * (kRunWindows - 1) + kRefineColumns;
-constexpr int kPadded = (kMostColumns / kBlock + 3) * kBlock;
+constexpr int kPairs = kTileColumns + kRefineColumns / 2;  ///< pairs of columns that a tile's windows meet
+static_assert(kPairs == 3 * kBlock && kTileColumns == 2 * kBlock && kRefineColumns == 16);
 
-struct ColumnSums {
-  float of[kWindowSums][kPadded];
-};
+/// Sums of pairs of columns over the rows above, from the tile's first row on.
+using PairSums = float[kTileRows + kRefineRows][kWindowSums][kPairs];
 
-inline __attribute__((always_inline)) void load(const float* from, Block& block) {
+inline __attribute__((always_inline)) void load(const float* from, Float8& block) {
   std::memcpy(&block, from, sizeof(block));
 }
-inline __attribute__((always_inline)) void store(const Block& block, float* to) {
+inline __attribute__((always_inline)) void store(const Float8& block, float* to) {
   std::memcpy(to, &block, sizeof(block));
 }
-
-/// Products of each column of a block, summed over the window's rows; in two rounds, each of which fits the registers.
-inline __attribute__((always_inline)) void sum_columns(const WindowRows& live, const WindowRows& reference,
-                                                       const WindowRows& gradient, int begin, ColumnSums& sums) {
-  const float *i = live.first + begin, *r = reference.first + begin, *g = gradient.first + begin;
-  Block a, b, c;
-  Block sum_i{}, ii{}, ir{}, ig{};
-  for (int row = 0; row < kRefineRows; ++row) {
-    load(i + row * live.stride, a), load(r + row * reference.stride, b), load(g + row * gradient.stride, c);
-    sum_i += a, ii += a * a, ir += a * b, ig += a * c;
-  }
-  store(sum_i, sums.of[kI] + begin), store(ii, sums.of[kII] + begin);
-  store(ir, sums.of[kIR] + begin), store(ig, sums.of[kIG] + begin);
-
-  Block sum_r{}, sum_g{}, rr{}, rg{}, gg{}, gg_y{};
-  for (int row = 0; row < kRefineRows; ++row) {
-    load(r + row * reference.stride, b), load(g + row * gradient.stride, c);
-    const Block cc = c * c;
-    sum_r += b, sum_g += c, rr += b * b, rg += b * c, gg += cc, gg_y += static_cast<float>(row) * cc;
-  }
-  store(sum_r, sums.of[kR] + begin), store(sum_g, sums.of[kG] + begin);
-  store(rr, sums.of[kRR] + begin), store(rg, sums.of[kRG] + begin);
-  store(gg, sums.of[kGG] + begin), store(gg_y, sums.of[kGGy] + begin);
+/// The odd and the even column of each of a block's pairs.
+inline __attribute__((always_inline)) void load_row(const TileImage& image, int row, int begin, Float8& odd,
+                                                    Float8& even) {
+  load(image.odd + row * image.stride + begin, odd), load(image.even + row * image.stride + begin, even);
 }
 
-/// Pairs of columns from a block and the next: the sum of each pair, and its right column alone.
-inline __attribute__((always_inline)) void add_pairs(const float* from, Block& pairs, Block& right) {
-  using Index = int __attribute__((vector_size(sizeof(Block))));
-  Block low, high;
-  load(from, low), load(from + kBlock, high);
-  right = __builtin_shuffle(low, high, Index{1, 3, 5, 7, 9, 11, 13, 15});
-  pairs = __builtin_shuffle(low, high, Index{0, 2, 4, 6, 8, 10, 12, 14}) + right;
-}
-
-/// From the columns' sums to those of pairs of columns; kGGx counts the right one as 1.
-inline __attribute__((always_inline)) void pair_columns(ColumnSums& sums, int begin) {
-  Block pairs, right;
-  for (int sum = 0; sum < kGGx; ++sum) {
-    add_pairs(sums.of[sum] + 2 * begin, pairs, right);
-    store(pairs, sums.of[sum] + begin);
-    if (sum == kGG) store(right, sums.of[kGGx] + begin);
+/// Adds up the products of a block of pairs, row after row; in two rounds, each of which fits the registers.
+inline __attribute__((always_inline)) void sum_pairs(const TileImage& live, const TileImage& reference,
+                                                     const TileImage& gradient, int begin, int rows, PairSums& sums) {
+  Float8 a, b, c, d, e, f;
+  Float8 i{}, ii{}, ir{}, ig{};
+  for (int row = 0;; ++row) {
+    float(&of)[kWindowSums][kPairs] = sums[row];
+    store(i, of[kI] + begin), store(ii, of[kII] + begin), store(ir, of[kIR] + begin), store(ig, of[kIG] + begin);
+    if (row == rows) break;
+    load_row(live, row, begin, a, b), load_row(reference, row, begin, c, d), load_row(gradient, row, begin, e, f);
+    i += a + b, ii += a * a + b * b, ir += a * c + b * d, ig += a * e + b * f;
+  }
+  Float8 column;
+  for (int k = 0; k < kBlock; ++k) column[k] = static_cast<float>(2 * (begin + k));
+  Float8 r{}, g{}, rr{}, rg{}, gg{}, gg_x{}, gg_y{};
+  for (int row = 0;; ++row) {
+    float(&of)[kWindowSums][kPairs] = sums[row];
+    store(r, of[kR] + begin), store(g, of[kG] + begin), store(rr, of[kRR] + begin), store(rg, of[kRG] + begin);
+    store(gg, of[kGG] + begin), store(gg_x, of[kGGx] + begin), store(gg_y, of[kGGy] + begin);
+    if (row == rows) break;
+    load_row(reference, row, begin, c, d), load_row(gradient, row, begin, e, f);
+    const Float8 right = f * f, both = e * e + right;
+    r += c + d, g += e + f, rr += c * c + d * d, rg += c * e + d * f;
+    gg += both, gg_x += column * both + right, gg_y += static_cast<float>(row) * both;
   }
 }
 
-/// From sums over `width` pairs to sums over twice as many, for the block of first pairs from `begin` on.
-inline __attribute__((always_inline)) void double_width(ColumnSums& sums, int width, int begin) {
-  Block left, right, gg;
-  // The right half's columns count 2 width more: Σ (k + 2 width) g² = Σ k g² + 2 width Σ g².
-  load(sums.of[kGGx] + begin, left), load(sums.of[kGGx] + begin + width, right), load(sums.of[kGG] + begin + width, gg);
-  store(left + (right + static_cast<float>(2 * width) * gg), sums.of[kGGx] + begin);
-  for (int sum = 0; sum < kGGx; ++sum) {
-    load(sums.of[sum] + begin, left), load(sums.of[sum] + begin + width, right);
-    store(left + right, sums.of[sum] + begin);
+/// From pairs to windows: the sums over 8 pairs from each of 16 on, by doubling.
+inline __attribute__((always_inline)) void sum_across(const float* above, const float* below, float* windows) {
+  Float8 sum[3], before;
+  for (int k = 0; k < 3; ++k) {
+    load(below + k * kBlock, sum[k]), load(above + k * kBlock, before);
+    sum[k] -= before;
   }
+  for (int k = 0; k < 3; ++k) sum[k] += __builtin_shuffle(sum[k], sum[k < 2 ? k + 1 : k], Int8{1, 2, 3, 4, 5, 6, 7, 8});
+  for (int k = 0; k < 3; ++k) sum[k] += __builtin_shuffle(sum[k], sum[k < 2 ? k + 1 : k], Int8{2, 3, 4, 5, 6, 7, 8, 9});
+  for (int k = 0; k < 2; ++k)
+    store(sum[k] + __builtin_shuffle(sum[k], sum[k + 1], Int8{4, 5, 6, 7, 8, 9, 10, 11}), windows + k * kBlock);
 }
 
 }  // namespace
 
 FATHOM_SIMD_CLONES
-void sum_windows(WindowRows live, WindowRows reference, WindowRows gradient, int windows, int place,
-                 Image<float>& sums) {
-  static_assert((kRefineColumns & (kRefineColumns - 1)) == 0, "the width is reached by doubling");
-  assert(0 < windows && windows <= kRunWindows);
-  ColumnSums columns;
-  const int count = 2 * (windows - 1) + kRefineColumns;
-  for (int begin = 0; begin < count; begin += kBlock)  // the last block stays inside the image
-    sum_columns(live, reference, gradient, std::min(begin, count - kBlock), columns);
-  for (auto& of : columns.of) std::fill_n(of + count, 2 * kBlock, 0.0f);
-  for (int begin = 0; begin < count / 2; begin += kBlock) pair_columns(columns, begin);
-  for (int width = 1; width < kRefineColumns / 2; width *= 2)
-    for (int begin = 0; begin <= count / 2 - 2 * width; begin += kBlock) double_width(columns, width, begin);
-  for (int sum = 0; sum < kWindowSums; ++sum) std::copy_n(columns.of[sum], windows, sums.row(sum) + place);
+void sum_windows(const TileImage& live, const TileImage& reference, const TileImage& gradient, int rows,
+                 TileSums& sums) {
+  assert(0 < rows && rows <= kTileRows);
+  PairSums pairs;
+  for (int begin = 0; begin < kPairs; begin += kBlock)
+    sum_pairs(live, reference, gradient, begin, rows + kRefineRows - 1, pairs);
+  for (int y = 0; y < rows; ++y)
+    for (int k = 0; k < kWindowSums; ++k) sum_across(pairs[y][k], pairs[y + kRefineRows][k], sums.of[y][k]);
 }
 
 }  // namespace fathom

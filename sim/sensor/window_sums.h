@@ -3,29 +3,31 @@
 
 #include <cstddef>
 
-#include "core/image.h"
-#include "sim/sensor/reference.h"
-
 namespace fathom {
 
+/// The refinement's window: 8 × 7 depth pixels, centred on its pixel.
+inline constexpr int kRefineColumns = 16;  ///< infrared pixels
+inline constexpr int kRefineRows = 7;      ///< row pairs
+
+/// Windows are summed in tiles, all of them at the same shift between image and reference.
+inline constexpr int kTileColumns = 16, kTileRows = 3;  ///< windows, one for each depth pixel
+
 /// Sums over one window of the live image i, the reference r and its derivative g along x [1/px]; kGGx and kGGy are
-/// Σ g² weighted by column and by row, both counted from 0.
-enum WindowSum { kI, kII, kIR, kIG, kR, kG, kRR, kRG, kGG, kGGy, kGGx, kWindowSums };
+/// Σ g² weighted by column [infrared px] and by row, both counted from the tile's first.
+enum WindowSum { kI, kII, kIR, kIG, kR, kG, kRR, kRG, kGG, kGGx, kGGy, kWindowSums };
 
-/// Most windows of a run: their column sums fill a third of the first-level cache.
-inline constexpr int kRunWindows = 64;
+struct TileSums {
+  float of[kTileRows][kWindowSums][kTileColumns];
+};
 
-/// An image's rows from the first of a window on.
-struct WindowRows {
-  const float* first;
+/// An image's rows from a tile's first on: each window's columns are odd, even, odd, …, even.
+struct TileImage {
+  const float *odd, *even;
   std::ptrdiff_t stride;  ///< values from row to row
 };
 
-/// Sums over `windows` ≤ kRunWindows windows of kRefineColumns × kRefineRows, each two columns right of the one before,
-/// all of them at the same shift between image and reference. Neighbouring windows share their columns, so the products
-/// of each column are made once. A window's sums do not depend on where it stands in its run. `sums` has a row for each
-/// WindowSum; the first window's go to column `place`.
-void sum_windows(WindowRows live, WindowRows reference, WindowRows gradient, int windows, int place,
-                 Image<float>& sums);
+/// Sums over a tile's windows, `rows` ≤ kTileRows rows of them.
+void sum_windows(const TileImage& live, const TileImage& reference, const TileImage& gradient, int rows,
+                 TileSums& sums);
 
 }  // namespace fathom
