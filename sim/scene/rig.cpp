@@ -52,7 +52,7 @@ void read_pattern(const JsonReader& json, PatternModel& pattern) {
 
 void read_matcher(const JsonReader& json, MatcherModel& matcher) {
   json.allow_only({"method", "window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min",
-                   "contrast_min_dn"});
+                   "contrast_min_dn", "hole_max_px"});
   if (json.has("method")) {
     const std::string choices[] = {"precise", "device"};
     matcher.method = MatchMethod{static_cast<int>(json.at("method").choice(choices, "matching method"))};
@@ -67,6 +67,7 @@ void read_matcher(const JsonReader& json, MatcherModel& matcher) {
     json.fail_at("disparity_max_px", "must be above disparity_min_px");
   matcher.correlation_min = json.number_or("correlation_min", matcher.correlation_min, {0.0, 1.0});
   matcher.contrast_min = json.number_or("contrast_min_dn", matcher.contrast_min, kNonNegative);
+  matcher.hole_max_px = json.integer_or("hole_max_px", matcher.hole_max_px, 0, 64);
 }
 
 Eigen::Vector2i size_from_json(const JsonReader& json) {
@@ -230,7 +231,8 @@ Json json_from_rig(const Rig& rig) {
         {"disparity_min_px", s.matcher.disparity_min_px},
         {"disparity_max_px", s.matcher.disparity_max_px},
         {"correlation_min", s.matcher.correlation_min},
-        {"contrast_min_dn", s.matcher.contrast_min}}},
+        {"contrast_min_dn", s.matcher.contrast_min},
+        {"hole_max_px", s.matcher.hole_max_px}}},
   });
   if (s.pattern.image) json["pattern"]["image"] = s.pattern.image_file;
   return json;

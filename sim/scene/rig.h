@@ -45,6 +45,7 @@ struct MatcherModel {
   int disparity_max_px = 63;
   double correlation_min = 0.55;  ///< least zero-mean normalised cross-correlation of a match
   double contrast_min = 4.0;      ///< least standard deviation of the window [DN]
+  int hole_max_px = 0;            ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
 };
 
 struct SensorModel {

@@ -157,7 +157,7 @@ Image<float> block_match(const SensorModel& sensor, Image<float> halved, const B
       if (top < 0 || top + matcher.window_rows > live.values.height()) continue;
       std::fill(row.begin(), row.end(), Candidate{});
       for (int x = half_columns; x < sensor.width - half_columns; ++x) {
-        const float start = coarse(x, y / kSearchStep);
+        const float start = coarse(x / 2, y / kSearchStep);
         if (std::isnan(start) || live.spread(x - half_columns, top) < least_spread) continue;
         row[x] = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kPhases)));
       }

@@ -56,7 +56,7 @@ struct Candidate {
 };
 
 // What the pixel's window found is believed unless its dots deny it; chance alone correlates 24 samples by 0.2.
-constexpr float kOwnLikeness = 0.0f, kOthersLikeness = 0.3f, kSearchedLikeness = 0.6f;
+constexpr float kOwnLikeness = 0.0f, kOthersLikeness = 0.3f;
 
 /// Says of the pixels of a row what their windows meet. An edge: the disparity over ±kReach is far from straight, or
 /// much more is left unexplained than in a neighbour's window, because of foreign dots. A crease: it bends. `clean`
@@ -151,10 +151,10 @@ class EdgeSettler {
   using Candidates = Few<Candidate, kAround.size() + 1>;
 
   /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
-  /// window. Where the pixel's own found nothing, on a steep wall say, there is still what was searched; far from all
-  /// others that must be likelier.
+  /// window. Where the pixel's own found nothing there is still what was searched, on a steep wall say; far from all
+  /// the others it is chance.
   Candidates candidates_around(int x, int y) const {
-    constexpr float kNear = 4.0f;  // [px]
+    constexpr float kJoined = 4.0f;  // [px]
     Candidates candidates;
     for (const auto& [dx, dy] : kAround) {
       const int i = x + dx, j = y + dy;
@@ -164,12 +164,12 @@ class EdgeSettler {
       const bool own = dx == 0 && dy == 0;
       propose({surface, estimates_.correlation(i, j), own, own ? kOwnLikeness : kOthersLikeness}, candidates);
     }
+    if (estimates_.valid(x, y)) return candidates;
     const float searched = coarse_(x / 2, y / kSearchStep);
-    if (estimates_.valid(x, y) || searched != searched) return candidates;
-    const bool near = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
-      return std::fabs(other.surface.disparity - searched) < kNear;
+    const bool joined = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+      return std::fabs(other.surface.disparity - searched) < kJoined;
     });
-    propose({{searched, 0.0f, 0.0f}, 0.0f, false, near ? kOthersLikeness : kSearchedLikeness}, candidates);
+    if (joined) propose({{searched, 0.0f, 0.0f}, 0.0f, false, kOthersLikeness}, candidates);
     return candidates;
   }
 

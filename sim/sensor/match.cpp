@@ -19,6 +19,7 @@ Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& 
     carry_to_pixels(estimates);
     settle_edges(sensor, paired, reference, coarse, estimates);
   }
+  fill_holes(sensor.matcher.hole_max_px, estimates.disparity);
 
   const float at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));
   Match result{std::move(estimates.disparity), std::move(estimates.correlation)};

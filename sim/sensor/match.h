@@ -5,9 +5,10 @@
 //   refine: fractions of an infrared pixel, by the shift that maximises the correlation with the reference and its
 //     derivative, in closed form, on images of full width; tile by tile, so that windows share their sums;
 //   carry: that shift belongs to the centroid of the window's gradient energy, the local slope carries it to the pixel;
-//   settle: near edges, the surface whose prediction explains the few dots around the pixel itself.
+//   settle: near edges, the surface whose prediction explains the few dots around the pixel itself;
+//   fill: narrow gaps within one surface, when the matcher is asked to.
 //
-// The device's own way is less: the same search, then block_match().
+// The device's own way is less: the same search, block_match(), the same filling.
 #pragma once
 
 #include <cmath>
@@ -65,6 +66,9 @@ void carry_to_pixels(Estimates& estimates);
 /// best, or by none when none does. `coarse` is what the search found.
 void settle_edges(const SensorModel& sensor, const SplitColumns<float>& paired, const Reference& reference,
                   const Image<float>& coarse, Estimates& estimates);
+
+/// Fills gaps of at most `most_px` in each row between pixels of one surface, along the straight line between them.
+void fill_holes(int most_px, Image<float>& disparity);
 
 /// A disparity as a place in the reference: whole depth pixels, phase, and what is left over. Odd columns of the live
 /// image meet the phase `odd()`.

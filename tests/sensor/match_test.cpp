@@ -72,6 +72,34 @@ TEST(Match, DoesNotDependOnGainOrOffset) {
   EXPECT_LT(std::sqrt(squares / both), 1e-3);  // rounding of float sums of 112 products, a tenth of the error itself
 }
 
+TEST(Match, ReachesADeskAtTheDevicesNearEnd) {
+  for (const double height_mm : {450.0, 500.0, 600.0}) {
+    const Bench bench(height_mm);
+    const Match found = match(bench.sensor(), bench.ir, bench.reference);
+    const double expected = disparity_of_depth(bench.sensor(), metres_from_mm(height_mm));
+    double right = 0.0;
+    for (const float disparity : found.disparity_px.pixels()) right += std::fabs(disparity - expected) < 0.125;
+    // All but two columns on each side, 1 − 4/640; one step of the device's law is 1/8 px.
+    EXPECT_GT(right / static_cast<double>(found.disparity_px.size()), 0.993) << height_mm;
+  }
+}
+
+TEST(Holes, AreFilledWithinOneSurfaceAndStayBetweenTwo) {
+  constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
+  Image<float> disparity(12, 1);
+  const float row[12] = {kHole, 1.0f, kHole, kHole, 1.75f, 2.0f, kHole, 9.0f, kHole, kHole, kHole, 9.0f};
+  std::copy_n(row, 12, disparity.row(0));
+  Image<float> kept = disparity;
+  fill_holes(0, kept);
+  EXPECT_TRUE(std::isnan(kept(2, 0)));
+  fill_holes(2, disparity);
+  EXPECT_TRUE(std::isnan(disparity(0, 0)));  // nothing on its left
+  EXPECT_FLOAT_EQ(disparity(2, 0), 1.25f);
+  EXPECT_FLOAT_EQ(disparity(3, 0), 1.5f);
+  EXPECT_TRUE(std::isnan(disparity(6, 0)));  // between two surfaces
+  EXPECT_TRUE(std::isnan(disparity(8, 0)));  // too wide
+}
+
 TEST(Match, WithoutContrastThereIsNoMatch) {
   const Bench bench(650.0);
   const Match found = match(bench.sensor(), Image<float>(1280, 1024, 200.0f), bench.reference);
