@@ -25,6 +25,7 @@ struct CaptureOptions {
   std::string mode = "photometric", light = "direct";
   int spp = kDefaultSamplesPerPixel;
   int frames = 1;
+  bool device_outputs = false;
 };
 
 /// What a person wants to know at once.
@@ -68,6 +69,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
     make_directory(folder);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
     write_frame(folder, frame, camera.truth(), setup.rig.sensor.noise.bits);
+    if (options.device_outputs) write_device_outputs(folder, setup.rig.sensor, frame);
     const auto& depths = frame.depth.pixels();
     without_depth += std::none_of(depths.begin(), depths.end(), [](float depth) { return depth > 0.0f; });
     if (i == 0) rows = summary(frame, camera.truth());
@@ -109,6 +111,8 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")
       ->check(CLI::Range(1, kMostFrames))
       ->capture_default_str();
+  app.add_flag("--device-outputs", options->device_outputs,
+               "Also what the device sends: depth in 100 µm, raw shifts, and depth registered to the colour camera");
   return [options, &common] {
     require_output(common);
     run(*options, common);

@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "sim/scene/rig.h"
+#include "sim/sensor/device_outputs.h"
 
 namespace fathom {
 
 inline constexpr int kConstShift = 200;
 inline constexpr int kParamCoeff = 4;
 inline constexpr int kShiftScale = 10;  ///< mm in the centimetres of ZPD, ZPPS and LDDIS
-inline constexpr int kMaxShift = 2047;  ///< stands for "nothing measured"
-/// x is (code + ½) / 4, so the two shifts that 0.375 and ½ are together.
-inline constexpr int kShiftOfCodeZero = kParamCoeff * kConstShift + 2;
+inline constexpr int kMaxShift = kNoShift;
+static_assert(kShiftOfCodeZero == kParamCoeff * kConstShift + 2);
 
 /// Depth in whole multiples of `unit` [m] for every shift 0 … kMaxShift; 0 where there is none between near and far.
 std::vector<std::uint16_t> shift_to_depth(const SensorModel& sensor, double unit);

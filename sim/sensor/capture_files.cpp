@@ -11,6 +11,7 @@
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/sensor/depth.h"
+#include "sim/sensor/device_outputs.h"
 #include "sim/sensor/preview.h"
 
 namespace fathom {
@@ -39,7 +40,7 @@ ExrChannel channel(const char* name, const Image<TruePixel>& truth, Value value)
 void remove_capture(const std::filesystem::path& folder) {
   remove_leftovers(folder);
   for (const char* name : {"run.json", "ir.exr", "ir.png", "disparity.exr", "depth.exr", "depth.png", "cloud.pcd",
-                           "preview.png", "truth.exr"})
+                           "preview.png", "truth.exr", "depth_100um.png", "shift.png", "depth_registered.png"})
     std::filesystem::remove(folder / name);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -65,6 +66,13 @@ void write_frame(const std::filesystem::path& folder, const Frame& frame, const 
   write_png(folder / "depth.png", depth_in_units(frame.depth, kMetresPerMm));
   write_pcd(folder / "cloud.pcd", frame.cloud);
   write_png(folder / "preview.png", preview(frame, truth));
+}
+
+void write_device_outputs(const std::filesystem::path& folder, const SensorModel& sensor, const Frame& frame) {
+  constexpr double kTenth = 0.1 * kMetresPerMm;
+  write_png(folder / "depth_100um.png", depth_in_units(depth_image(sensor, frame.disparity_px, kTenth), kTenth));
+  write_png(folder / "shift.png", shift_image(sensor, frame.disparity_px));
+  write_png(folder / "depth_registered.png", depth_in_units(registered_to_colour(sensor, frame.depth), kMetresPerMm));
 }
 
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth) {

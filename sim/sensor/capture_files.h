@@ -21,6 +21,9 @@ std::filesystem::path frame_folder(const std::filesystem::path& folder, int fram
 /// preview.png, a picture for people. `ir_bits` is the full scale of ir.png; 0 = 10.
 void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth, int ir_bits);
 
+/// What the device itself would send of a frame: depth_100um.png, shift.png and depth_registered.png.
+void write_device_outputs(const std::filesystem::path& folder, const SensorModel& sensor, const Frame& frame);
+
 /// truth.exr: position.X/Y/Z, apparent.Z, object, path.
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth);
 
