@@ -11,6 +11,12 @@ Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json optional_mm(const std::optional<double>& metres) { return metres ? Json(mm_from_metres(*metres)) : Json(); }
 
+/// Of the mean height inside.
+std::optional<double> sigma_of(const DetectedCup& cup) {
+  if (!cup.interior) return std::nullopt;
+  return cup.surface_sigma_m ? cup.surface_sigma_m : cup.interior->standard_error_m();
+}
+
 Json plane_json(const PlaneFit& desk) {
   return {{"normal", vector_json(desk.plane.normal)},
           {"offset_m", desk.plane.offset},
@@ -25,18 +31,21 @@ Json circle_json(const Candidate& candidate, const std::optional<TemplateMatch>&
   return {{"radius_mm", seen ? Json(mm_from_metres(candidate.circle->radius_m)) : Json()},
           {"rms_mm", seen ? Json(mm_from_metres(candidate.circle->rms_m)) : Json()},
           {"band_points", candidate.band_points},
-          {"score", match ? Json(mm_from_metres(match->score_m)) : Json()},
           {"icp_iterations", match ? Json(match->iterations) : Json()}};
 }
 
 Json cup_json(const DetectedCup& cup) {
   Json json = {{"center_camera_m", vector_json(cup.center_in_camera)}};
   json.update(circle_json(cup.candidate, cup.match));
+  json["radius_sigma_mm"] = optional_mm(cup.radius_sigma_m);
+  json["score"] = mm_from_metres(cup.score_m);
   json["liquid"] = name_of(cup.liquid);
+  json["p_liquid"] = cup.p_liquid ? Json(*cup.p_liquid) : Json();
   json["surface_mm"] = cup.interior ? Json(mm_from_metres(cup.interior->mean_m)) : Json();
-  json["sigma_mm"] = cup.interior ? Json(mm_from_metres(cup.interior->standard_error_m())) : Json();
+  json["sigma_mm"] = optional_mm(sigma_of(cup));
   json["sd_mm"] = cup.interior ? Json(mm_from_metres(cup.interior->sd_m)) : Json();
   json["points"] = cup.interior ? cup.interior->points : 0;
+  json["bottom_mm"] = optional_mm(cup.bottom_m);
   json["kind"] = name_of(cup.kind);
   json["fill_mm"] = optional_mm(cup.fill_m);
   json["fill_sigma_mm"] = optional_mm(cup.fill_sigma_m);
@@ -50,11 +59,12 @@ void add_cup_rows(const std::string& name, const DetectedCup& cup, std::vector<R
                            {name + "_center_y", center.y(), "m"},
                            {name + "_center_z", center.z(), "m"},
                            {name + "_radius", mm_from_metres(cup.candidate.circle->radius_m), "mm"},
-                           {name + "_score", mm_from_metres(cup.match.score_m), "mm"},
+                           {name + "_score", mm_from_metres(cup.score_m), "mm"},
                            {name + "_liquid", std::string(name_of(cup.liquid))}});
+  if (cup.p_liquid) rows.push_back({name + "_p_liquid", *cup.p_liquid});
   if (cup.interior)
     rows.insert(rows.end(), {{name + "_surface", mm_from_metres(cup.interior->mean_m), "mm"},
-                             {name + "_sigma", mm_from_metres(cup.interior->standard_error_m()), "mm"},
+                             {name + "_sigma", mm_from_metres(*sigma_of(cup)), "mm"},
                              {name + "_points", static_cast<double>(cup.interior->points)}});
   rows.push_back({name + "_kind", std::string(name_of(cup.kind))});
   if (cup.fill_m) rows.push_back({name + "_fill", mm_from_metres(*cup.fill_m), "mm"});
@@ -71,6 +81,9 @@ Json detection_json(const Detection& detection) {
   json["candidates"] = Json::array();
   for (const RejectedSegment& segment : detection.rejected) {
     json["candidates"].push_back(circle_json(segment.candidate, segment.match));
+    json["candidates"].back()["score"] = segment.match ? Json(mm_from_metres(segment.match->score_m)) : Json();
+    json["candidates"].back()["surface_mm"] =
+        segment.interior ? Json(mm_from_metres(segment.interior->mean_m)) : Json();
     json["candidates"].back()["reason"] = segment.candidate.rejected;
   }
   if (!detection.desk) json["why"] = detection.why;

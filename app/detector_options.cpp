@@ -3,20 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include "app/number_option.h"
+#include "app/robust_options.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/units.h"
 
 namespace fathom {
 namespace {
-
-void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m) {
-  if (!json.has(key)) return;
-  const Eigen::Vector2d range = json.at(key).vector2();
-  if (range[0] < 0.0 || range[1] <= range[0]) json.fail_at(key, "must be two rising lengths [low, high]");
-  low_m = metres_from_mm(range[0]);
-  high_m = metres_from_mm(range[1]);
-}
 
 PaperConfig read_paper_config(const JsonReader& json) {
   constexpr int kMany = 1'000'000;
@@ -45,6 +38,14 @@ PaperConfig read_paper_config(const JsonReader& json) {
 
 }  // namespace
 
+void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m) {
+  if (!json.has(key)) return;
+  const Eigen::Vector2d range = json.at(key).vector2();
+  if (range[0] < 0.0 || range[1] <= range[0]) json.fail_at(key, "must be two rising lengths [low, high]");
+  low_m = metres_from_mm(range[0]);
+  high_m = metres_from_mm(range[1]);
+}
+
 std::optional<DeskPrior> DeskOptions::prior() const {
   if (!given) return std::nullopt;
   return DeskPrior{metres_from_mm(height_mm), radians_from_deg(pitch_deg)};
@@ -68,12 +69,18 @@ DetectorSettings detector_settings(const std::filesystem::path& config) {
   if (!config.empty()) {
     const Json json = read_json(config);
     const JsonReader reader(json, config.string());
-    reader.allow_only({"plane_threshold_mm", "planes_max", "plane_share_min", "plane_iterations_max",
-                       "prior_angle_max_deg", "prior_height_max_mm", "height_max_mm", "cluster_distance_mm",
-                       "cluster_points_min", "width_mm", "top_min_mm", "band_mm", "circle_rms_max_mm", "radius_mm",
-                       "icp_score_max_mm", "icp_iterations_max", "interior_margin_mm", "interior_points_min",
-                       "templates"});
+    reader.allow_only({"plane_threshold_mm",  "planes_max",
+                       "plane_share_min",     "plane_iterations_max",
+                       "prior_angle_max_deg", "prior_height_max_mm",
+                       "height_max_mm",       "cluster_distance_mm",
+                       "cluster_points_min",  "width_mm",
+                       "top_min_mm",          "band_mm",
+                       "circle_rms_max_mm",   "radius_mm",
+                       "icp_score_max_mm",    "icp_iterations_max",
+                       "interior_margin_mm",  "interior_points_min",
+                       "templates",           "robust"});
     settings.paper = read_paper_config(reader);
+    if (reader.has("robust")) settings.robust = read_robust_config(reader.at("robust"));
     for (const JsonReader& item : reader.items_or_none("templates"))
       settings.templates.push_back(load_template(config.parent_path() / item.text()));
   }

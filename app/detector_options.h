@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/json.h"
 #include "detector/detector.h"
 
 namespace CLI {
@@ -22,6 +23,9 @@ struct DeskOptions {
 };
 
 void add_desk_options(CLI::App& app, DeskOptions& options);
+
+/// Two rising lengths [low, high] in mm, if the key is there.
+void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m);
 
 /// Reads the keys of config.json over the defaults; the templates are those it names (beside the file), else those that
 /// come with the program. An empty path gives the defaults. Throws Error on anything unknown or out of range.

@@ -20,8 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kTemplateSpacingMetres = 0.003f;       // about twice a pixel's footprint at 1 m: finer says nothing new
-constexpr double kThresholdAboveBottomMetres = 0.002;  // the paper's 9 mm over a bottom at 7 mm
+constexpr float kTemplateSpacingMetres = 0.003f;  // about twice a pixel's footprint at 1 m: finer says nothing new
 
 Points thinned(const Points& points) {
   const QuietPcl quiet;

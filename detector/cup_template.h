@@ -11,6 +11,9 @@
 
 namespace fathom {
 
+/// A bottom that reads higher than the empty cup's by this is raised: the paper's 9 mm over a bottom at 7 mm.
+inline constexpr double kThresholdAboveBottomMetres = 0.002;
+
 struct CupTemplate {
   std::string name;
   Points points;  ///< [m] origin on the desk below the cup's axis, z up, y away from the camera that saw it

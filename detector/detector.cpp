@@ -2,11 +2,14 @@
 
 #include "core/error.h"
 #include "detector/paper.h"
+#include "detector/robust.h"
 
 namespace fathom {
 namespace {
 
 constexpr std::array kMethods{
+    Method{"robust", "round walls that lines of sight find open, what is level inside as a test of hypotheses",
+           detect_robust},
     Method{"paper", "circle in the band, ICP to templates, mean height inside against a threshold", detect_paper},
 };
 

@@ -12,6 +12,7 @@
 #include "detector/icp.h"
 #include "detector/paper_config.h"
 #include "detector/plane.h"
+#include "detector/robust_config.h"
 
 namespace fathom {
 
@@ -24,9 +25,14 @@ std::string_view name_of(LiquidKind kind);  ///< "transparent", "opaque", "unkno
 struct DetectedCup {
   Candidate candidate;               ///< the segment and its circle; desk frame
   Eigen::Vector3d center_in_camera;  ///< [m] the circle's centre 45 mm above the desk
-  TemplateMatch match;
+  double score_m = 0.0;              ///< how far points lie from the template, or else from the fitted wall
+  std::optional<TemplateMatch> match;
+  std::optional<double> radius_sigma_m;
   Liquid liquid = Liquid::kUnknown;
+  std::optional<double> p_liquid;  ///< probability that there is a liquid, where the method knows one
   std::optional<InteriorHeight> interior;
+  std::optional<double> surface_sigma_m;  ///< of its mean height, with what neighbours' errors share
+  std::optional<double> bottom_m;         ///< where the empty cup's bottom is taken to be, above the desk
   LiquidKind kind = LiquidKind::kUnknown;
   std::optional<double> fill_m;
   std::optional<double> fill_sigma_m;
@@ -34,8 +40,9 @@ struct DetectedCup {
 };
 
 struct RejectedSegment {
-  Candidate candidate;                 ///< with the reason
-  std::optional<TemplateMatch> match;  ///< when it came so far
+  Candidate candidate;                       ///< with the reason
+  std::optional<TemplateMatch> match;        ///< when it came so far
+  std::optional<InteriorHeight> interior{};  ///< of an open vessel that is no cup
 };
 
 struct Detection {
@@ -50,6 +57,7 @@ struct DetectorSettings {
   std::optional<DeskPrior> prior;
   std::vector<CupTemplate> templates;
   PaperConfig paper;
+  RobustConfig robust{};
 };
 
 struct Method {

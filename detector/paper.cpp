@@ -84,6 +84,7 @@ Detection detect_paper(const Cloud& cloud, const DetectorSettings& settings) {
     const CupTemplate& known = settings.templates[match->index];
     DetectedCup cup;
     cup.match = *match;
+    cup.score_m = match->score_m;
     cup.center_in_camera = center_in_camera(view, *candidate.circle);
     cup.interior = interior_height(view.points, *candidate.circle, config.interior);
     cup.liquid = decide_liquid(cup.interior, known.liquid_threshold_m);

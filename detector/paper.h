@@ -14,10 +14,6 @@ struct DeskView {
   Points points;  ///< [m] desk frame, all measured points
 };
 
-struct NoDesk {
-  std::string why;
-};
-
 std::variant<DeskView, NoDesk> view_of_desk(const Cloud& cloud, const std::optional<DeskPrior>& prior,
                                             const PlaneSearch& search);
 

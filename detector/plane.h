@@ -41,6 +41,10 @@ struct PlaneFit {
   double rms_m = 0.0;  ///< of the inliers' distances
 };
 
+struct NoDesk {
+  std::string why;
+};
+
 struct PlaneSearch {
   double threshold_m = 0.010;  ///< the paper's outlier rejection
   int planes_max = 6;  ///< RANSAC is repeated on what is left over, so often at most (the paper gives no number) …

@@ -53,7 +53,7 @@ TEST(PaperMethod, FindsTheCupWhereItStands) {
   const Eigen::Vector3d truth =
       desk_from_camera(plane_from(scene.sensor)).inverse() * Eigen::Vector3d(0.0, 0.40, 0.045);
   EXPECT_LT((cup.center_in_camera - truth).norm(), 0.002);  // half of the wall's 3 mm, and the pixels
-  EXPECT_LT(cup.match.score_m, 0.002);                      // the template's spacing is 3 mm
+  EXPECT_LT(cup.score_m, 0.002);                            // the template's spacing is 3 mm
 }
 
 TEST(PaperMethod, TheHeightInsideIsWhatStandsThere) {
@@ -131,7 +131,7 @@ void expect_same(const Detection& a, const Detection& b, double tolerance_m) {
   EXPECT_EQ(a.cups[0].liquid, b.cups[0].liquid);
   EXPECT_NEAR(a.cups[0].interior->mean_m, b.cups[0].interior->mean_m, tolerance_m);
   EXPECT_NEAR(a.cups[0].candidate.circle->radius_m, b.cups[0].candidate.circle->radius_m, tolerance_m);
-  EXPECT_NEAR(a.cups[0].match.score_m, b.cups[0].match.score_m, tolerance_m);
+  EXPECT_NEAR(a.cups[0].score_m, b.cups[0].score_m, tolerance_m);
 }
 
 // RANSAC draws other samples, so the 10 mm slice of noisy desk points changes a little: far below the noise of 1 mm.
@@ -190,7 +190,7 @@ TEST(Methods, AnUnknownNameListsTheChoices) {
     method_named("papre");
     FAIL();
   } catch (const Error& problem) {
-    EXPECT_STREQ(problem.what(), "unknown method 'papre', choose from paper");
+    EXPECT_STREQ(problem.what(), "unknown method 'papre', choose from robust, paper");
   }
 }
 

@@ -1,0 +1,86 @@
+#include "detector/fill.h"
+
+#include <Eigen/Dense>
+#include <cassert>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+/// Normal density of readings whose bottoms are the same, up to a factor that all hypotheses share.
+class ReadingLikelihood {
+ public:
+  ReadingLikelihood(const std::vector<SurfaceReading>& readings, const Bottom& bottom)
+      : off_(static_cast<Eigen::Index>(readings.size())) {
+    const auto count = off_.size();
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(count, count, bottom.sigma_m * bottom.sigma_m);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      covariance(i, i) += readings[i].sigma_m * readings[i].sigma_m;
+      off_(i) = readings[i].height_m - bottom.height_m;
+    }
+    inverse_ = covariance.inverse();
+  }
+  /// `rises` [m]: of the bottom that each view sees.
+  double operator()(const Eigen::VectorXd& rises) const {
+    const Eigen::VectorXd rest = off_ - rises;
+    return std::exp(-0.5 * rest.dot(inverse_ * rest));
+  }
+
+ private:
+  Eigen::VectorXd off_;
+  Eigen::MatrixXd inverse_;
+};
+
+struct Posterior {
+  double evidence;  ///< mean likelihood over all fills
+  FillDecision::Level level;
+};
+
+template <class Rises>
+Posterior over_fills(const ReadingLikelihood& likelihood, double low_m, double high_m, Rises rises) {
+  constexpr int kSteps = 400;  // 0.2 mm in a cup of 80 mm: a third of the error of a height
+  double sum = 0.0, first = 0.0, second = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double fill = low_m + (high_m - low_m) * (i + 0.5) / kSteps, weight = likelihood(rises(fill));
+    sum += weight;
+    first += weight * fill;
+    second += weight * fill * fill;
+  }
+  if (!(sum > 0.0)) return {0.0, {0.0, 0.0}};
+  const double mean = first / sum;
+  return {sum / kSteps, {mean, std::sqrt(std::max(0.0, second / sum - mean * mean))}};
+}
+
+}  // namespace
+
+double apparent_rise(double fill_m, double incidence_rad, double index) {
+  const double cosine = std::cos(incidence_rad);
+  return fill_m * (1.0 - cosine / std::sqrt(index * index - 1.0 + cosine * cosine));
+}
+
+FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bottom& bottom, double fill_max_m,
+                         const OpaqueSigns& signs, const FillSettings& settings) {
+  assert(!readings.empty());
+  const auto count = static_cast<Eigen::Index>(readings.size());
+  const ReadingLikelihood likelihood(readings, bottom);
+  const auto raised = [&](double fill) {
+    Eigen::VectorXd rises(count);
+    for (Eigen::Index i = 0; i < count; ++i) rises(i) = apparent_rise(fill, readings[i].incidence_rad, settings.index);
+    return rises;
+  };
+  const auto covered = [&](double fill) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(count, fill); };
+  const double high = std::max(fill_max_m, 2.0 * settings.fill_min_m);
+  const Posterior transparent = over_fills(likelihood, settings.fill_min_m, high, raised);
+  const Posterior opaque = over_fills(likelihood, settings.fill_min_m, high, covered);
+
+  const double dry = (1.0 - settings.liquid_prior) * likelihood(Eigen::VectorXd::Zero(count));
+  const double clear_liquid = 0.5 * settings.liquid_prior * transparent.evidence;
+  const double opaque_liquid = 0.5 * settings.liquid_prior * opaque.evidence * signs.ratio;
+  const double liquid = clear_liquid + opaque_liquid;
+  // All of them vanish where a height is far from everything, as deep below the bottom: then nothing is known.
+  constexpr double kTiny = 1e-300;
+  return {(liquid + kTiny * 0.5) / (liquid + dry + kTiny), (opaque_liquid + kTiny * 0.5) / (liquid + kTiny),
+          transparent.level, opaque.level};
+}
+
+}  // namespace fathom

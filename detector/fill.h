@@ -1,0 +1,59 @@
+// Whether what is seen inside a cup is its bottom, its bottom raised by a clear liquid, or the surface of an opaque
+// one, and how deep the liquid is: a test between hypotheses, with probabilities.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+/// The height of what is seen inside in one view.
+struct SurfaceReading {
+  double height_m;
+  double sigma_m;        ///< of the mean, with errors that neighbours share
+  double incidence_rad;  ///< of the line of sight, from the vertical
+};
+
+/// Where the cup's own bottom is.
+struct Bottom {
+  double height_m;
+  double sigma_m;
+};
+
+/// What else tells an opaque filling from a bottom, as a ratio of likelihoods; above 1 for an opaque one.
+struct OpaqueSigns {
+  double ratio = 1.0;
+  std::string words;  ///< what was seen; empty when nothing speaks
+};
+
+struct FillSettings {
+  double index = 1.33;        ///< of liquids one drinks, at 830 nm: water 1.328, juices and milk tea 1.336 to 1.344
+  double fill_min_m = 0.003;  ///< less is a rest in a cup, not a filling
+  double liquid_prior = 0.5;  ///< probability of a liquid before anything is seen
+  /// Probability from which on a liquid, or its kind, is named; up to its complement there is none, between: unknown.
+  double sure = 0.8;
+};
+
+enum class Content { kBottom, kTransparent, kOpaque };
+
+struct FillDecision {
+  double p_liquid;
+  double p_opaque;  ///< if it is a liquid
+  struct Level {
+    double fill_m;
+    double sigma_m;
+  };
+  Level transparent, opaque;  ///< how deep, if it is that kind
+};
+
+/// Height by which a bottom under `fill_m` of a liquid seems raised: fill · (1 − cosθ / √(n² − 1 + cos²θ)), the paper's
+/// Eq. 7.
+double apparent_rise(double fill_m, double incidence_rad, double index);
+
+/// `fill_max_m`: from the bottom to the rim. All fills between the least and that are taken as equally likely, and so
+/// are both kinds. Needs at least one reading.
+FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bottom& bottom, double fill_max_m,
+                         const OpaqueSigns& signs, const FillSettings& settings);
+
+}  // namespace fathom

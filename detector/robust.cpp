@@ -1,0 +1,180 @@
+#include "detector/robust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "detector/noise.h"
+
+namespace fathom {
+namespace {
+
+/// The measured points in the desk's frame; points that nothing was measured for stay what they are.
+Points in_desk_frame(const Points& points, const Eigen::Isometry3d& desk_from_camera) {
+  const Eigen::Matrix3f rotation = desk_from_camera.linear().cast<float>();
+  const Eigen::Vector3f offset = desk_from_camera.translation().cast<float>();
+  Points result(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) result[i] = rotation * points[i] + offset;
+  return result;
+}
+
+Candidate candidate_from(const Points& segment, const RoundWall& wall, double tolerance_m) {
+  Candidate candidate;
+  for (const Eigen::Vector3f& point : segment)
+    if (wall.distance_of(point) < wall.radius_at(point.z()) + tolerance_m) candidate.points.push_back(point);
+  candidate.width_m = 2.0 * wall.radius_at(wall.top_m);
+  candidate.top_m = wall.top_m;
+  candidate.band_points = wall.points;
+  candidate.circle = Circle{wall.center, wall.radius_m, wall.rms_m};
+  return candidate;
+}
+
+std::string mm(double metres) { return fmt::format("{:.1f} mm", mm_from_metres(metres)); }
+
+/// Why this open or closed round thing is no cup; empty when it is one.
+std::string reason_against(const RoundWall& wall, const VesselRays& rays, const CupLimits& limits) {
+  if (rays.lid_share() > limits.lid_share_max)
+    return fmt::format("closed at the top: {:.0f} % of the lines of sight into it end at its rim",
+                       100.0 * rays.lid_share());
+  if (wall.top_m < limits.height_min_m || wall.top_m > limits.height_max_m)
+    return fmt::format("height {} is outside {:g} to {:g} mm", mm(wall.top_m), mm_from_metres(limits.height_min_m),
+                       mm_from_metres(limits.height_max_m));
+  if (std::abs(wall.lean) > limits.lean_max)
+    return fmt::format("wall leans {:.0f} deg as a bowl's", deg_from_radians(std::atan(wall.lean)));
+  if (wall.radius_m < limits.radius_min_m || wall.radius_m > limits.radius_max_m)
+    return fmt::format("radius {} is outside {:g} to {:g} mm", mm(wall.radius_m), mm_from_metres(limits.radius_min_m),
+                       mm_from_metres(limits.radius_max_m));
+  if (wall.radius_sigma_m > limits.radius_sigma_max_m)
+    return fmt::format("radius {} is uncertain by {}: {:.0f} % of a circle is seen", mm(wall.radius_m),
+                       mm(wall.radius_sigma_m), 100.0 * wall.arc_share);
+  if (rays.beyond_share() > limits.beyond_share_max)
+    return fmt::format("no wall: {:.0f} % of the lines of sight to it end behind it", 100.0 * rays.beyond_share());
+  if (static_cast<int>(rays.inside.size()) < limits.inside_min)
+    return fmt::format("nothing shows that it is open: {} points inside", rays.inside.size());
+  return "";
+}
+
+struct KnownCup {
+  std::optional<std::size_t> index;  ///< of the template
+  Bottom bottom;
+  std::string words;
+};
+
+/// The bottom of the template that has this radius and height, else where bottoms usually are.
+KnownCup known_cup(const RoundWall& wall, const std::vector<CupTemplate>& templates, const RobustConfig& config) {
+  KnownCup known{std::nullopt, {config.bottom.height_m, config.bottom.sigma_m}, "no template, a usual bottom"};
+  double nearest = config.template_radius_m;
+  for (std::size_t i = 0; i < templates.size(); ++i) {
+    const CupTemplate& cup = templates[i];
+    const double off = std::abs(cup.radius_m - wall.radius_m);
+    if (off > nearest || std::abs(cup.height_m - wall.top_m) > config.template_height_m) continue;
+    const Circle inside{Eigen::Vector2d::Zero(), cup.radius_m, 0.0};
+    const auto seen = interior_height(cup.points, inside, InteriorSettings{});
+    const double bottom = seen ? seen->mean_m : cup.liquid_threshold_m - kThresholdAboveBottomMetres;
+    known = {i, {bottom, config.template_bottom_sigma_m}, "matches " + cup.name};
+    nearest = off;
+  }
+  return known;
+}
+
+double height_sigma_m(const Surface& surface) {
+  const double independent = surface.points / kPointsPerIndependent;
+  return std::hypot(surface.sd_m / std::sqrt(std::max(1.0, independent)), mean_error_m(surface.range_m));
+}
+
+Liquid liquid_from(double probability, double sure) {
+  if (probability >= sure) return Liquid::kYes;
+  return probability <= 1.0 - sure ? Liquid::kNo : Liquid::kUnknown;
+}
+
+LiquidKind kind_from(double p_opaque, double sure) {
+  if (p_opaque >= sure) return LiquidKind::kOpaque;
+  return p_opaque <= 1.0 - sure ? LiquidKind::kTransparent : LiquidKind::kUnknown;
+}
+
+std::string level_words(const FillDecision::Level& level) {
+  return fmt::format("{:.0f} +- {:.0f} mm", mm_from_metres(level.fill_m), mm_from_metres(level.sigma_m));
+}
+
+/// What stands level inside, and what that says about a liquid.
+void judge_content(DetectedCup& cup, const Surface& surface, const KnownCup& known, const RobustConfig& config) {
+  const double sigma = height_sigma_m(surface);
+  cup.interior = InteriorHeight{surface.height_m, surface.sd_m, surface.points};
+  cup.surface_sigma_m = sigma;
+  const double fill_max = cup.candidate.top_m - config.rays.lid_m - known.bottom.height_m;
+  const FillDecision decision =
+      decide_fill({{surface.height_m, sigma, surface.incidence_rad}}, known.bottom, fill_max, {}, config.fill);
+  cup.p_liquid = decision.p_liquid;
+  cup.liquid = liquid_from(decision.p_liquid, config.fill.sure);
+  cup.why = fmt::format("{} at {}; level inside at {} +- {}, P(liquid) {:.3f}", known.words, mm(known.bottom.height_m),
+                        mm(surface.height_m), mm(sigma), decision.p_liquid);
+  if (cup.liquid != Liquid::kYes) return;
+  cup.kind = kind_from(decision.p_opaque, config.fill.sure);
+  if (cup.kind == LiquidKind::kUnknown) {
+    cup.why +=
+        fmt::format("; {} if clear, {} if opaque", level_words(decision.transparent), level_words(decision.opaque));
+    return;
+  }
+  const FillDecision::Level& level = cup.kind == LiquidKind::kOpaque ? decision.opaque : decision.transparent;
+  cup.fill_m = level.fill_m;
+  cup.fill_sigma_m = level.sigma_m;
+}
+
+}  // namespace
+
+Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
+  const RobustConfig& config = settings.robust;
+  Detection result;
+  const auto found = find_desk(cloud.points, settings.prior, config.desk);
+  if (const NoDesk* none = std::get_if<NoDesk>(&found)) {
+    result.why = none->why;
+    return result;
+  }
+  result.desk = std::get<PlaneFit>(found);
+  const Eigen::Isometry3d to_desk = desk_from_camera(result.desk->plane);
+  const double camera_height = result.desk->plane.offset;
+  const Points points = in_desk_frame(cloud.points, to_desk);
+
+  for (Points& segment : grid_segments(points, config.segments)) {
+    const std::vector<RoundWall> walls = find_round_walls(segment, config.wall);
+    result.segments += std::max<int>(1, static_cast<int>(walls.size()));
+    if (walls.empty()) {
+      Candidate none;
+      none.rejected = "no round upright wall";
+      none.points = std::move(segment);
+      result.rejected.push_back({std::move(none), std::nullopt, std::nullopt});
+      continue;
+    }
+    for (const RoundWall& wall : walls) {
+      Candidate candidate = candidate_from(segment, wall, config.wall.tolerance_m);
+      const VesselRays rays = trace_vessel(points, camera_height, wall, config.rays);
+      const auto surface = find_surface(rays.inside, wall, camera_height, config.surface);
+      candidate.rejected = reason_against(wall, rays, config.cup);
+      if (!candidate.rejected.empty()) {
+        RejectedSegment rejected{std::move(candidate), std::nullopt, std::nullopt};
+        const bool open = rays.lid_share() <= config.cup.lid_share_max;
+        if (surface && open) rejected.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
+        result.rejected.push_back(std::move(rejected));
+        continue;
+      }
+      DetectedCup cup;
+      cup.candidate = std::move(candidate);
+      cup.center_in_camera = to_desk.inverse() * Eigen::Vector3d(wall.center.x(), wall.center.y(), kWallHeight);
+      cup.score_m = wall.rms_m;
+      cup.radius_sigma_m = wall.radius_sigma_m;
+      const KnownCup known = known_cup(wall, settings.templates, config);
+      if (known.index) cup.match = TemplateMatch{*known.index, wall.rms_m, 0};
+      cup.bottom_m = known.bottom.height_m;
+      if (surface)
+        judge_content(cup, *surface, known, config);
+      else
+        cup.why = fmt::format("{} at {}; nothing level is seen inside", known.words, mm(known.bottom.height_m));
+      result.cups.push_back(std::move(cup));
+    }
+  }
+  return result;
+}
+
+}  // namespace fathom

@@ -1,0 +1,42 @@
+// What is seen level inside a vessel: its bottom, its raised bottom or a liquid's surface.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "detector/pinhole.h"
+#include "detector/round_wall.h"
+#include "detector/vessel_rays.h"
+
+namespace fathom {
+
+struct SurfaceSettings {
+  double margin_m = 0.010;  ///< from the wall, as the paper's: half of the window that is matched as one, 6 mm at 0.8 m
+  double level_m = 0.004;   ///< points so near to the commonest height belong to the surface: twice the noise at 1 m
+  double share_min = 0.5;   ///< of the points inside that belong to it; a wall's points spread over all heights
+  int points_min = 40;  ///< half of a window of 9 × 9 pixels that is matched as one: fewer are the wall's neighbours
+};
+
+/// A level patch of what is seen inside. Desk frame.
+struct Surface {
+  double height_m;  ///< mean above the desk
+  double sd_m;      ///< of the points
+  double tilt_rad;  ///< of the plane through them
+  double tilt_sigma_rad;
+  double incidence_rad;  ///< of the camera's line of sight to its middle, from the vertical
+  double range_m;        ///< of its middle from the camera
+  int points;
+  double level_share;  ///< of all points inside
+};
+
+/// Nothing when nothing level is seen.
+std::optional<Surface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
+                                    const SurfaceSettings& settings);
+
+/// Of the pixels that look at the surface, free of the rim and the margin, the share that measured it. Nothing when
+/// there are fewer than `points_min` such pixels.
+std::optional<double> matched_share(const Cloud& cloud, const Pinhole& pinhole,
+                                    const Eigen::Isometry3d& desk_from_camera, const RoundWall& wall,
+                                    const Surface& surface, const SurfaceSettings& settings);
+
+}  // namespace fathom
