@@ -58,7 +58,8 @@ RobustConfig read_robust_config(const JsonReader& json) {
   config.bottom.sigma_m = json.metres_or("bottom_sigma_mm", config.bottom.sigma_m, kPositive);
   config.fill.index = json.number_or("index", config.fill.index, {1.0, 2.0, true});
   config.fill.liquid_prior = json.number_or("liquid_prior", config.fill.liquid_prior, kShare);
-  config.fill.sure = json.number_or("sure", config.fill.sure, {0.5, 1.0});
+  config.fill.liquid_sure = json.number_or("liquid_sure", config.fill.liquid_sure, {0.5, 1.0});
+  config.fill.kind_sure = json.number_or("kind_sure", config.fill.kind_sure, {0.5, 1.0});
   return config;
 }
 

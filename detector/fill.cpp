@@ -1,7 +1,6 @@
 #include "detector/fill.h"
 
 #include <Eigen/Dense>
-#include <cassert>
 #include <cmath>
 
 namespace fathom {
@@ -59,8 +58,7 @@ double apparent_rise(double fill_m, double incidence_rad, double index) {
 }
 
 FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bottom& bottom, double fill_max_m,
-                         const OpaqueSigns& signs, const FillSettings& settings) {
-  assert(!readings.empty());
+                         const ContentSigns& signs, const FillSettings& settings) {
   const auto count = static_cast<Eigen::Index>(readings.size());
   const ReadingLikelihood likelihood(readings, bottom);
   const auto raised = [&](double fill) {
@@ -74,8 +72,8 @@ FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bott
   const Posterior opaque = over_fills(likelihood, settings.fill_min_m, high, covered);
 
   const double dry = (1.0 - settings.liquid_prior) * likelihood(Eigen::VectorXd::Zero(count));
-  const double clear_liquid = 0.5 * settings.liquid_prior * transparent.evidence;
-  const double opaque_liquid = 0.5 * settings.liquid_prior * opaque.evidence * signs.ratio;
+  const double clear_liquid = 0.5 * settings.liquid_prior * transparent.evidence * signs.clear;
+  const double opaque_liquid = 0.5 * settings.liquid_prior * opaque.evidence * signs.opaque;
   const double liquid = clear_liquid + opaque_liquid;
   // All of them vanish where a height is far from everything, as deep below the bottom: then nothing is known.
   constexpr double kTiny = 1e-300;

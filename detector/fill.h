@@ -21,21 +21,22 @@ struct Bottom {
   double sigma_m;
 };
 
-/// What else tells an opaque filling from a bottom, as a ratio of likelihoods; above 1 for an opaque one.
-struct OpaqueSigns {
-  double ratio = 1.0;
-  std::string words;  ///< what was seen; empty when nothing speaks
+/// What else tells the kinds of content apart: likelihoods relative to that of a dry bottom.
+struct ContentSigns {
+  double clear = 1.0;
+  double opaque = 1.0;
+  std::string words;  ///< what was seen; empty when nothing was
 };
 
 struct FillSettings {
   double index = 1.33;        ///< of liquids one drinks, at 830 nm: water 1.328, juices and milk tea 1.336 to 1.344
   double fill_min_m = 0.003;  ///< less is a rest in a cup, not a filling
   double liquid_prior = 0.5;  ///< probability of a liquid before anything is seen
-  /// Probability from which on a liquid, or its kind, is named; up to its complement there is none, between: unknown.
-  double sure = 0.8;
+  /// Probability from which on there is a liquid; up to its complement there is none, between: unknown. An empty cup
+  /// passes it when its height reads 2.5 standard deviations too high, once in 200.
+  double liquid_sure = 0.6;
+  double kind_sure = 0.8;  ///< the same of its kind: where nothing else speaks, a clear one is three times as likely
 };
-
-enum class Content { kBottom, kTransparent, kOpaque };
 
 struct FillDecision {
   double p_liquid;
@@ -52,8 +53,8 @@ struct FillDecision {
 double apparent_rise(double fill_m, double incidence_rad, double index);
 
 /// `fill_max_m`: from the bottom to the rim. All fills between the least and that are taken as equally likely, and so
-/// are both kinds. Needs at least one reading.
+/// are both kinds. Without readings the signs alone decide, and the levels say nothing.
 FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bottom& bottom, double fill_max_m,
-                         const OpaqueSigns& signs, const FillSettings& settings);
+                         const ContentSigns& signs, const FillSettings& settings);
 
 }  // namespace fathom

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "detector/content_signs.h"
 #include "detector/noise.h"
+#include "detector/pinhole.h"
 
 namespace fathom {
 namespace {
@@ -18,6 +20,19 @@ Points in_desk_frame(const Points& points, const Eigen::Isometry3d& desk_from_ca
   Points result(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) result[i] = rotation * points[i] + offset;
   return result;
+}
+
+double range_of(const Points& segment, double camera_height_m) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& point : segment) sum += point;
+  const Eigen::Vector3d mean = (sum / static_cast<float>(segment.size())).cast<double>();
+  return (mean - Eigen::Vector3d(0.0, 0.0, camera_height_m)).norm();
+}
+
+/// Far away the noise asks for more tolerance: 1.5 standard deviations, from 1 m on.
+WallSearch search_at(double range_m, WallSearch search) {
+  search.tolerance_m = std::max(search.tolerance_m, 1.5 * depth_noise_m(range_m));
+  return search;
 }
 
 Candidate candidate_from(const Points& segment, const RoundWall& wall, double tolerance_m) {
@@ -34,7 +49,7 @@ Candidate candidate_from(const Points& segment, const RoundWall& wall, double to
 std::string mm(double metres) { return fmt::format("{:.1f} mm", mm_from_metres(metres)); }
 
 /// Why this open or closed round thing is no cup; empty when it is one.
-std::string reason_against(const RoundWall& wall, const VesselRays& rays, const CupLimits& limits) {
+std::string reason_against(const RoundWall& wall, const VesselRays& rays, double tolerance_m, const CupLimits& limits) {
   if (rays.lid_share() > limits.lid_share_max)
     return fmt::format("closed at the top: {:.0f} % of the lines of sight into it end at its rim",
                        100.0 * rays.lid_share());
@@ -49,6 +64,8 @@ std::string reason_against(const RoundWall& wall, const VesselRays& rays, const 
   if (wall.radius_sigma_m > limits.radius_sigma_max_m)
     return fmt::format("radius {} is uncertain by {}: {:.0f} % of a circle is seen", mm(wall.radius_m),
                        mm(wall.radius_sigma_m), 100.0 * wall.arc_share);
+  if (wall.rms_m > limits.evenness_max * tolerance_m)
+    return fmt::format("no wall: points lie anywhere within {} of it", mm(tolerance_m));
   if (rays.beyond_share() > limits.beyond_share_max)
     return fmt::format("no wall: {:.0f} % of the lines of sight to it end behind it", 100.0 * rays.beyond_share());
   if (static_cast<int>(rays.inside.size()) < limits.inside_min)
@@ -98,20 +115,32 @@ std::string level_words(const FillDecision::Level& level) {
   return fmt::format("{:.0f} +- {:.0f} mm", mm_from_metres(level.fill_m), mm_from_metres(level.sigma_m));
 }
 
-/// What stands level inside, and what that says about a liquid.
-void judge_content(DetectedCup& cup, const Surface& surface, const KnownCup& known, const RobustConfig& config) {
-  const double sigma = height_sigma_m(surface);
-  cup.interior = InteriorHeight{surface.height_m, surface.sd_m, surface.points};
-  cup.surface_sigma_m = sigma;
+/// What is seen inside, and what that says about a liquid.
+void judge_content(DetectedCup& cup, const std::optional<Surface>& surface, const ContentSigns& signs,
+                   const KnownCup& known, const RobustConfig& config) {
+  cup.bottom_m = known.bottom.height_m;
+  cup.why = fmt::format("{} at {}", known.words, mm(known.bottom.height_m));
+  std::vector<SurfaceReading> readings;
+  if (surface) {
+    const double sigma = height_sigma_m(*surface);
+    readings.push_back({surface->height_m, sigma, surface->incidence_rad});
+    cup.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
+    cup.surface_sigma_m = sigma;
+    cup.why += fmt::format("; level inside at {} +- {}", mm(surface->height_m), mm(sigma));
+  } else {
+    cup.why += "; nothing level is measured inside";
+  }
+  if (!signs.words.empty()) cup.why += "; " + signs.words;
+  if (!surface && signs.opaque == 1.0) return;
+
   const double fill_max = cup.candidate.top_m - config.rays.lid_m - known.bottom.height_m;
-  const FillDecision decision =
-      decide_fill({{surface.height_m, sigma, surface.incidence_rad}}, known.bottom, fill_max, {}, config.fill);
+  const FillDecision decision = decide_fill(readings, known.bottom, fill_max, signs, config.fill);
   cup.p_liquid = decision.p_liquid;
-  cup.liquid = liquid_from(decision.p_liquid, config.fill.sure);
-  cup.why = fmt::format("{} at {}; level inside at {} +- {}, P(liquid) {:.3f}", known.words, mm(known.bottom.height_m),
-                        mm(surface.height_m), mm(sigma), decision.p_liquid);
+  cup.liquid = liquid_from(decision.p_liquid, config.fill.liquid_sure);
+  cup.why += fmt::format("; P(liquid) {:.3f}", decision.p_liquid);
   if (cup.liquid != Liquid::kYes) return;
-  cup.kind = kind_from(decision.p_opaque, config.fill.sure);
+  cup.kind = kind_from(decision.p_opaque, config.fill.kind_sure);
+  if (!surface) return;
   if (cup.kind == LiquidKind::kUnknown) {
     cup.why +=
         fmt::format("; {} if clear, {} if opaque", level_words(decision.transparent), level_words(decision.opaque));
@@ -136,9 +165,11 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
   const Eigen::Isometry3d to_desk = desk_from_camera(result.desk->plane);
   const double camera_height = result.desk->plane.offset;
   const Points points = in_desk_frame(cloud.points, to_desk);
+  const std::optional<Pinhole> pinhole = pinhole_of(cloud);
 
   for (Points& segment : grid_segments(points, config.segments)) {
-    const std::vector<RoundWall> walls = find_round_walls(segment, config.wall);
+    const WallSearch search = search_at(range_of(segment, camera_height), config.wall);
+    const std::vector<RoundWall> walls = find_round_walls(segment, search);
     result.segments += std::max<int>(1, static_cast<int>(walls.size()));
     if (walls.empty()) {
       Candidate none;
@@ -148,10 +179,10 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
       continue;
     }
     for (const RoundWall& wall : walls) {
-      Candidate candidate = candidate_from(segment, wall, config.wall.tolerance_m);
+      Candidate candidate = candidate_from(segment, wall, search.tolerance_m);
       const VesselRays rays = trace_vessel(points, camera_height, wall, config.rays);
       const auto surface = find_surface(rays.inside, wall, camera_height, config.surface);
-      candidate.rejected = reason_against(wall, rays, config.cup);
+      candidate.rejected = reason_against(wall, rays, search.tolerance_m, config.cup);
       if (!candidate.rejected.empty()) {
         RejectedSegment rejected{std::move(candidate), std::nullopt, std::nullopt};
         const bool open = rays.lid_share() <= config.cup.lid_share_max;
@@ -166,11 +197,11 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
       cup.radius_sigma_m = wall.radius_sigma_m;
       const KnownCup known = known_cup(wall, settings.templates, config);
       if (known.index) cup.match = TemplateMatch{*known.index, wall.rms_m, 0};
-      cup.bottom_m = known.bottom.height_m;
-      if (surface)
-        judge_content(cup, *surface, known, config);
-      else
-        cup.why = fmt::format("{} at {}; nothing level is seen inside", known.words, mm(known.bottom.height_m));
+      ContentSigns signs;
+      if (pinhole)
+        signs = content_signs(cloud, *pinhole, to_desk, wall, surface ? std::optional(surface->height_m) : std::nullopt,
+                              config.signs);
+      judge_content(cup, surface, signs, known, config);
       result.cups.push_back(std::move(cup));
     }
   }

@@ -1,6 +1,7 @@
 // Every parameter of the robust method, with the reason for its default.
 #pragma once
 
+#include "detector/content_signs.h"
 #include "detector/desk.h"
 #include "detector/fill.h"
 #include "detector/round_wall.h"
@@ -18,8 +19,9 @@ struct CupLimits {
   double height_max_m = 0.170;        ///< a half-litre tumbler; bottles and vases are taller
   double lean_max = 0.25;             ///< 14°: cups to stack lean up to 10°, bowls from 18°
   double radius_sigma_max_m = 0.003;  ///< arcs that leave more open do not tell a cup from something wide
-  double lid_share_max = 0.15;        ///< of the lines of sight into the opening: mugs show none, closed things all
-  double beyond_share_max = 0.20;     ///< of the lines of sight to the wall: opaque cups let none through
+  double lid_share_max = 0.10;        ///< of the lines of sight into the opening: mugs show 0 to 3 %, closed things all
+  double beyond_share_max = 0.10;     ///< of the lines of sight to the wall: opaque cups let 0 to 4 % through
+  double evenness_max = 0.53;         ///< rms over tolerance: 0.58 of points that lie anywhere, mugs 0.3 to 0.45
   int inside_min = 20;                ///< points; fewer do not show that it is open
 };
 
@@ -36,6 +38,7 @@ struct RobustConfig {
   VesselRaysSettings rays;
   CupLimits cup;
   SurfaceSettings surface;
+  ContentSignSettings signs;
   UsualBottom bottom;
   double template_radius_m = 0.004;  ///< a cup is a template's if its radius, between two walls 3 mm apart, …
   double template_height_m = 0.006;  ///< … and its height differ by less: the rim is rounded and its pixels mixed

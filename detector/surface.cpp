@@ -74,38 +74,4 @@ std::optional<Surface> find_surface(const Points& inside, const RoundWall& wall,
                  share};
 }
 
-std::optional<double> matched_share(const Cloud& cloud, const Pinhole& pinhole,
-                                    const Eigen::Isometry3d& desk_from_camera, const RoundWall& wall,
-                                    const Surface& surface, const SurfaceSettings& settings) {
-  const Eigen::Vector3d camera = desk_from_camera.translation();
-  // The pixels around the vessel: its axis at the surface's height, as far as its radius at the surface's range.
-  const Eigen::Vector3d middle =
-      desk_from_camera.inverse() * Eigen::Vector3d(wall.center.x(), wall.center.y(), surface.height_m);
-  if (!(middle.z() > 0.0)) return std::nullopt;
-  const double reach_px = pinhole.focal_x_px * wall.radius_at(surface.height_m) / middle.z() + 1.0;
-  const double column = pinhole.focal_x_px * middle.x() / middle.z() + pinhole.center_x_px;
-  const double row = pinhole.focal_y_px * middle.y() / middle.z() + pinhole.center_y_px;
-  const auto within = [](double value, int size) { return std::clamp(static_cast<int>(value), 0, size); };
-
-  const double bottom_radius = wall.radius_at(surface.height_m) - settings.margin_m;
-  const double rim_radius = wall.radius_at(wall.top_m) - settings.margin_m;
-  int looking = 0, matched = 0;
-  for (int y = within(row - reach_px, cloud.height); y < within(row + reach_px + 1.0, cloud.height); ++y)
-    for (int x = within(column - reach_px, cloud.width); x < within(column + reach_px + 1.0, cloud.width); ++x) {
-      const Eigen::Vector3d sight = desk_from_camera.linear() * pinhole.sight(x, y);
-      if (!(sight.z() < 0.0)) continue;
-      const auto at_height = [&](double z) -> Eigen::Vector2d {
-        return (camera + sight * ((z - camera.z()) / sight.z())).head<2>() - wall.center;
-      };
-      if (at_height(surface.height_m).norm() > bottom_radius || at_height(wall.top_m).norm() > rim_radius) continue;
-      ++looking;
-      const Eigen::Vector3f& point = cloud.points[static_cast<std::size_t>(y) * cloud.width + x];
-      if (!point.allFinite()) continue;
-      const double height = (desk_from_camera * point.cast<double>()).z();
-      matched += std::abs(height - surface.height_m) <= settings.level_m;
-    }
-  if (looking < settings.points_min) return std::nullopt;
-  return static_cast<double>(matched) / looking;
-}
-
 }  // namespace fathom

@@ -1,10 +1,8 @@
 // What is seen level inside a vessel: its bottom, its raised bottom or a liquid's surface.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <optional>
 
-#include "detector/pinhole.h"
 #include "detector/round_wall.h"
 #include "detector/vessel_rays.h"
 
@@ -32,11 +30,5 @@ struct Surface {
 /// Nothing when nothing level is seen.
 std::optional<Surface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
                                     const SurfaceSettings& settings);
-
-/// Of the pixels that look at the surface, free of the rim and the margin, the share that measured it. Nothing when
-/// there are fewer than `points_min` such pixels.
-std::optional<double> matched_share(const Cloud& cloud, const Pinhole& pinhole,
-                                    const Eigen::Isometry3d& desk_from_camera, const RoundWall& wall,
-                                    const Surface& surface, const SurfaceSettings& settings);
 
 }  // namespace fathom

@@ -1,4 +1,4 @@
-// The printed method on measured desk scenes. The clouds are not part of the project: absent, these tests are skipped.
+// The methods on measured desk scenes. The clouds are not part of the project: absent, these tests are skipped.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +11,8 @@
 #include "core/units.h"
 #include "detector/paper.h"
 #include "detector/read_cloud.h"
+#include "detector/robust.h"
+#include "tests/detector/opencv_depth.h"
 #include "tests/detector/synthetic.h"
 
 namespace fathom {
@@ -117,6 +119,77 @@ TEST_F(RealClouds, ScenesWithoutCupsGiveNone) {
   const auto found = view_of_desk(cloud, std::nullopt, {});
   ASSERT_TRUE(std::holds_alternative<DeskView>(found));
   for (const Candidate& candidate : cup_candidates(std::get<DeskView>(found), {})) EXPECT_NE(candidate.rejected, "");
+}
+
+Detection robust(const Cloud& cloud) { return detect_robust(cloud, {}); }
+
+/// Distance along the desk from below the camera.
+double distance_of(const Candidate& candidate) { return candidate.circle->center.norm(); }
+
+/// Labels may name a mug's parts one by one; a container is known by its distance.
+template <class Found>
+const Found* at_distance(const std::vector<Found>& found, double distance_m) {
+  for (const Found& one : found)
+    if (one.candidate.circle && std::abs(distance_of(one.candidate) - distance_m) < 0.010) return &one;
+  return nullptr;
+}
+
+TEST_F(RealClouds, RobustFindsEveryUprightMugAndNothingElse) {
+  const Table table = containers();
+  std::map<std::string, std::size_t> upright;
+  for (const char* name : {"33", "34", "35", "36", "37", "38", "39", "40", "44"}) upright[std::string("learn") + name];
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    upright[table.text(row, "scene")] += table.text(row, "object") == "mug_upright";
+  for (const auto& [name, mugs] : upright) {
+    const Detection result = robust(scene(name));
+    EXPECT_EQ(result.cups.size(), mugs) << name;  // no can, carton, inverted mug, pot or bowl among them
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      if (table.text(row, "scene") != name || table.text(row, "object") != "mug_upright") continue;
+      const DetectedCup* cup = at_distance(result.cups, table.number(row, "horiz_dist_m"));
+      ASSERT_TRUE(cup) << name << " labels " << table.text(row, "labels");
+      EXPECT_NEAR(cup->candidate.circle->radius_m, 0.0365, 0.001) << name;  // one shape of mug; asked for
+      EXPECT_FALSE(cup->interior) << name;  // the near wall hides the floor of mugs 97 to 105 mm high
+      EXPECT_EQ(cup->liquid, Liquid::kUnknown) << name;
+    }
+  }
+}
+
+TEST_F(RealClouds, TheFloorOfTheOpenPotIsMeasured) {
+  const Table table = containers();
+  int pots = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "object") != "pot_open") continue;
+    ++pots;
+    const Detection result = robust(scene(table.text(row, "scene")));
+    const RejectedSegment* pot = at_distance(result.rejected, table.number(row, "horiz_dist_m"));
+    ASSERT_TRUE(pot && pot->interior) << table.text(row, "scene");
+    EXPECT_NEAR(pot->interior->mean_m, 0.0042, 0.001);  // asked for; by eye 3.8 to 4.9 mm
+  }
+  EXPECT_EQ(pots, 3);
+}
+
+TEST_F(RealClouds, APotThatMayBeACupHoldsNoLiquid) {
+  DetectorSettings settings;
+  settings.robust.cup.radius_max_m = 0.090;
+  for (const char* name : {"learn36", "learn37", "learn38"}) {
+    const Detection result = detect_robust(scene(name), settings);
+    ASSERT_EQ(result.cups.size(), 1u) << name;
+    EXPECT_EQ(result.cups[0].liquid, Liquid::kNo) << name << result.cups[0].why;
+  }
+}
+
+TEST_F(RealClouds, RobustFindsTheMugSeenByStereoAndNoneWhereThereIsNone) {
+  const fs::path tutorials = real_data() / "tutorials";
+  EXPECT_EQ(robust(read_cloud(tutorials / "table_scene_mug_stereo_textured.pcd")).cups.size(), 1u);
+  EXPECT_TRUE(robust(read_cloud(tutorials / "milk_cartoon_all_small_clorox.pcd")).cups.empty());
+  EXPECT_TRUE(robust(read_cloud(tutorials / "milk.pcd")).cups.empty());
+}
+
+TEST_F(RealClouds, RobustFindsTheOpaqueTumblerAmongClearOnes) {
+  const Detection result = robust(read_opencv_depth(real_data() / "lysenkov" / "depth.xml.gz", 525.0));
+  ASSERT_EQ(result.cups.size(), 1u);  // clear walls let the light through: neither a wall nor an inside is seen
+  EXPECT_EQ(result.cups[0].liquid, Liquid::kUnknown);
+  EXPECT_LT(result.cups[0].candidate.circle->center.x(), 0.0);  // the tumbler stands on the left
 }
 
 }  // namespace

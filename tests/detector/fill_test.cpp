@@ -1,0 +1,88 @@
+// Whether a liquid is there and how deep: a test between hypotheses keeps its false alarms and tells what it cannot.
+#include "detector/fill.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rng.h"
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+constexpr Bottom kBottom{0.007, 0.0004};
+constexpr double kSigma = 0.0006, kFillMax = 0.068, kIncidence = 0.58;
+
+FillDecision decide(double height_m, const ContentSigns& signs = {}) {
+  return decide_fill({{height_m, kSigma, kIncidence}}, kBottom, kFillMax, signs, {});
+}
+
+TEST(Fill, ARaisedBottomRisesAsEquation7Says) {
+  // Straight down: w (1 − 1/n); nothing without refraction; more from the side.
+  EXPECT_NEAR(apparent_rise(0.030, 0.0, 1.33), 0.030 * (1.0 - 1.0 / 1.33), 1e-12);
+  EXPECT_NEAR(apparent_rise(0.030, 0.7, 1.0), 0.0, 1e-12);
+  EXPECT_GT(apparent_rise(0.030, 0.7, 1.33), apparent_rise(0.030, 0.5, 1.33));
+}
+
+TEST(Fill, ProbabilityRisesWithTheHeight) {
+  double before = 0.0;
+  for (double height = 0.0070; height < 0.0110; height += 0.0002) {
+    const double p = decide(height).p_liquid;
+    EXPECT_GE(p, before) << height;
+    before = p;
+  }
+  EXPECT_LT(decide(0.007).p_liquid, 0.05);
+  EXPECT_GT(before, 0.99);
+}
+
+TEST(Fill, FalseAlarmsOfEmptyCupsAreRareAndShallowFillingsAreSeen) {
+  const double sure = FillSettings{}.liquid_sure;
+  Rng rng(1);
+  constexpr int kTrials = 2000;
+  int alarms = 0, seen = 0;
+  for (int i = 0; i < kTrials; ++i) {
+    const double error = std::hypot(kSigma, kBottom.sigma_m) * rng.normal();
+    alarms += decide(0.007 + error).p_liquid >= sure;
+    seen += decide(0.007 + error + apparent_rise(0.010, kIncidence, 1.33)).p_liquid >= sure;
+  }
+  EXPECT_LE(alarms, 0.01 * kTrials);  // one in 200 is meant, 3 σ of 10 are 19
+  EXPECT_GE(seen, 0.95 * kTrials);    // 10 mm of water rise by 4.3 of them
+}
+
+TEST(Fill, AWiderErrorOfTheBottomAsksForMore) {
+  const std::vector<SurfaceReading> reading{{0.0095, kSigma, kIncidence}};
+  EXPECT_GT(decide_fill(reading, {0.007, 0.0004}, kFillMax, {}, {}).p_liquid, 0.9);
+  EXPECT_LT(decide_fill(reading, {0.006, 0.0020}, kFillMax, {}, {}).p_liquid, 0.7);
+}
+
+TEST(Fill, LevelsOfBothKindsAreTheirOwnInverse) {
+  const double fill = 0.030;
+  const FillDecision clear = decide(kBottom.height_m + apparent_rise(fill, kIncidence, 1.33));
+  EXPECT_NEAR(clear.transparent.fill_m, fill, 0.0005);
+  EXPECT_NEAR(clear.transparent.sigma_m, std::hypot(kSigma, 0.0004) / apparent_rise(1.0, kIncidence, 1.33), 2e-4);
+  const FillDecision opaque = decide(kBottom.height_m + fill);
+  EXPECT_NEAR(opaque.opaque.fill_m, fill, 0.0005);
+  EXPECT_GT(opaque.p_opaque, 0.99);  // no clear filling of this cup raises its bottom by 30 mm
+}
+
+TEST(Fill, SeveralViewsTellAClearLiquidFromAnOpaqueOne) {
+  const auto p_opaque = [](double rise_near, double rise_far) {
+    return decide_fill({{0.007 + rise_near, 0.0004, 0.10}, {0.007 + rise_far, 0.0004, 0.90}}, kBottom, kFillMax, {}, {})
+        .p_opaque;
+  };
+  EXPECT_LT(p_opaque(apparent_rise(0.04, 0.10, 1.33), apparent_rise(0.04, 0.90, 1.33)), 0.01);
+  EXPECT_GT(p_opaque(0.012, 0.012), 0.9);
+}
+
+TEST(Fill, SignsDecideWhereNoHeightIsSeen) {
+  const auto p = [](double opaque) { return decide_fill({}, kBottom, kFillMax, {1.0, opaque, "washed out"}, {}); };
+  EXPECT_NEAR(p(1.0).p_liquid, 0.5, 1e-12);
+  EXPECT_GT(p(20.0).p_liquid, 0.9);
+  EXPECT_GT(p(20.0).p_opaque, 0.9);
+}
+
+TEST(Fill, AHeightBelowTheBottomIsNoLiquid) { EXPECT_LT(decide(0.005).p_liquid, 0.05); }
+
+}  // namespace
+}  // namespace fathom
