@@ -11,6 +11,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
@@ -33,6 +34,9 @@ inline constexpr std::array kCommands{
             "  fathom detect shot1.pcd shot2.ply --config detector.json -o out/detected\n"
             "  fathom detect --live --frames 10",
             define_detect},
+    Command{"evaluate", "Detection rates over a folder of clouds whose containers are labelled",
+            "  fathom evaluate ../shared/data/mOSD\n  fathom evaluate ../shared/data/mOSD --method paper -o out/paper",
+            define_evaluate},
     Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",

@@ -11,7 +11,6 @@
 #include "app/detector_options.h"
 #include "app/live_cloud.h"
 #include "app/results.h"
-#include "core/error.h"
 #include "core/progress.h"
 #include "detector/read_cloud.h"
 
@@ -66,12 +65,6 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
 
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<DetectOptions>();
-  std::vector<std::string> names;
-  std::string help = "One of";
-  for (const Method& method : methods()) {
-    names.emplace_back(method.name);
-    help += fmt::format(" {} ({})", method.name, method.summary);
-  }
   CLI::Option* clouds =
       app.add_option("clouds", options->clouds, "PCD or PLY clouds, metres, camera frame")->type_name("CLOUD");
   CLI::Option* live =
@@ -84,10 +77,7 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) 
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str()
       ->needs(live);
-  app.add_option("--method", options->method, help)->capture_default_str()->check([names](const std::string& name) {
-    const bool known = std::find(names.begin(), names.end(), name) != names.end();
-    return known ? std::string() : unknown_name("method", name, names);
-  });
+  add_method_option(app, options->method);
   add_desk_options(app, options->desk);
   app.add_option("--config", options->config, "Parameters of the method and its templates")->type_name("JSON");
   return [options, &common] {

@@ -1,9 +1,13 @@
 #include "app/detector_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/number_option.h"
 #include "app/robust_options.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/units.h"
@@ -62,6 +66,19 @@ void add_desk_options(CLI::App& app, DeskOptions& options) {
           ->each([&options](const std::string&) { options.given = true; });
   height->needs(pitch);
   pitch->needs(height);
+}
+
+void add_method_option(CLI::App& app, std::string& method) {
+  std::vector<std::string> names;
+  std::string help = "One of";
+  for (const Method& one : methods()) {
+    names.emplace_back(one.name);
+    help += fmt::format(" {} ({})", one.name, one.summary);
+  }
+  app.add_option("--method", method, help)->capture_default_str()->check([names](const std::string& name) {
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    return known ? std::string() : unknown_name("method", name, names);
+  });
 }
 
 DetectorSettings detector_settings(const std::filesystem::path& config) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "core/json.h"
 #include "detector/detector.h"
@@ -23,6 +24,9 @@ struct DeskOptions {
 };
 
 void add_desk_options(CLI::App& app, DeskOptions& options);
+
+/// --method, one of the table's.
+void add_method_option(CLI::App& app, std::string& method);
 
 /// Two rising lengths [low, high] in mm, if the key is there.
 void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m);
