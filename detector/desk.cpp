@@ -2,124 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "core/rng.h"
+#include "detector/plane_ransac.h"
 
 namespace fathom {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // equal clouds give equal desks
-
-/// Plane in single precision: heights are wanted of very many points.
-struct FastPlane {
-  explicit FastPlane(const Plane& plane)
-      : normal(plane.normal.cast<float>()), offset(static_cast<float>(plane.offset)) {}
-  float height_of(const Eigen::Vector3f& point) const { return normal.dot(point) + offset; }
-
-  Eigen::Vector3f normal;
-  float offset;
-};
-
-/// One point out of each of equal parts of the cloud: spread over the image, but not in its rows.
-Points draw_points(const Points& points, int count) {
-  const std::size_t step = std::max<std::size_t>(1, points.size() / static_cast<std::size_t>(count));
-  Points drawn;
-  drawn.reserve(points.size() / step + 1);
-  Rng rng(kSeed);
-  for (std::size_t begin = 0; begin < points.size(); begin += step) {
-    const std::size_t width = std::min(step, points.size() - begin);
-    const Eigen::Vector3f& point = points[begin + rng.below(static_cast<std::uint32_t>(width))];
-    if (point.allFinite()) drawn.push_back(point);
-  }
-  return drawn;
-}
-
-std::optional<Plane> plane_through(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d across = (b - a).cross(c - a);
-  const double twice_area = across.norm();
-  constexpr double kSmallest = 1e-5;  // m²: triangles of a few millimetres say nothing about a desk
-  if (!(twice_area > kSmallest)) return std::nullopt;
-  const Eigen::Vector3d normal = across / twice_area;
-  const double offset = -normal.dot(a);
-  return offset >= 0.0 ? Plane{normal, offset} : Plane{-normal, -offset};
-}
-
-/// Σ over points, for a least-squares plane.
-class Moments {
- public:
-  explicit Moments(const Eigen::Vector3d& origin) : origin_(origin) {}
-
-  void add(const Eigen::Vector3f& point) {
-    const Eigen::Vector3d p = point.cast<double>() - origin_;
-    sum_ += p;
-    squares_ += p * p.transpose();
-    ++count_;
-  }
-  int count() const { return count_; }
-  PlaneFit fit() const {
-    const Eigen::Vector3d mean = sum_ / count_;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares_ / count_ - mean * mean.transpose());
-    Eigen::Vector3d normal = axes.eigenvectors().col(0);
-    double offset = -normal.dot(origin_ + mean);
-    if (offset < 0.0) normal = -normal, offset = -offset;
-    return {{normal, offset}, count_, std::sqrt(std::max(0.0, axes.eigenvalues()(0)))};
-  }
-
- private:
-  Eigen::Vector3d origin_, sum_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
-  int count_ = 0;
-};
-
-PlaneFit refined(const Points& points, const Plane& plane, double threshold_m) {
-  Moments moments(-plane.offset * plane.normal);
-  const FastPlane fast(plane);
-  const float threshold = static_cast<float>(threshold_m);
-  for (const Eigen::Vector3f& point : points)
-    if (std::abs(fast.height_of(point)) <= threshold) moments.add(point);
-  return moments.count() < 3 ? PlaneFit{plane, moments.count(), 0.0} : moments.fit();
-}
-
-int count_inliers(const Points& points, const Plane& plane, double threshold_m) {
-  const FastPlane fast(plane);
-  const float threshold = static_cast<float>(threshold_m);
-  int count = 0;
-  for (const Eigen::Vector3f& point : points) count += std::abs(fast.height_of(point)) <= threshold;
-  return count;
-}
-
 bool agrees(const Plane& plane, const Plane& prior, const DeskSearch& search) {
   return plane.normal.dot(prior.normal) >= std::cos(search.prior_angle_max_rad) &&
          std::abs(plane.offset - prior.offset) <= search.prior_height_max_m;
-}
-
-/// The plane with the most points within the threshold among those that agree with the prior, if there is one.
-std::optional<PlaneFit> largest_plane(const Points& points, const std::optional<Plane>& prior, const DeskSearch& search,
-                                      int round) {
-  Rng rng(kSeed, round);
-  const auto any = [&]() -> Eigen::Vector3d {
-    return points[rng.below(static_cast<std::uint32_t>(points.size()))].cast<double>();
-  };
-  std::optional<Plane> best;
-  int most = 0;
-  double needed = search.iterations_max;
-  for (int i = 0; i < std::min<double>(needed, search.iterations_max); ++i) {
-    const Eigen::Vector3d a = any(), b = any(), c = any();
-    const std::optional<Plane> plane = plane_through(a, b, c);
-    if (!plane || (prior && !agrees(*plane, *prior, search))) continue;
-    const int inliers = count_inliers(points, *plane, search.threshold_m);
-    if (inliers <= most) continue;
-    most = inliers;
-    best = plane;
-    const double share = static_cast<double>(inliers) / static_cast<double>(points.size());
-    needed = std::log(0.01) / std::log1p(-std::min(0.999, share * share * share));  // 99 % (Fischler & Bolles 1981)
-  }
-  if (!best) return std::nullopt;
-  const PlaneFit wide = refined(points, *best, search.threshold_m);
-  return refined(points, wide.plane, search.threshold_m);
 }
 
 bool below_a_camera_that_looks_ahead_or_down(const Plane& plane) {
@@ -130,19 +23,16 @@ bool below_a_camera_that_looks_ahead_or_down(const Plane& plane) {
 std::optional<Plane> desk_among(const Points& drawn, const std::optional<DeskPrior>& prior, const DeskSearch& search) {
   std::optional<Plane> expected;
   if (prior) expected = plane_from(*prior);
+  const auto may_be = [&](const Plane& plane) { return !expected || agrees(plane, *expected, search); };
   const double fewest = std::max(3.0, search.share_min * static_cast<double>(drawn.size()));
   Points left = drawn;
   std::optional<Plane> any;
   for (int round = 0; round < search.planes_max && static_cast<double>(left.size()) >= fewest; ++round) {
-    const std::optional<PlaneFit> fit = largest_plane(left, expected, search, round);
-    if (!fit || fit->inliers < fewest) break;
-    if (expected ? agrees(fit->plane, *expected, search) : below_a_camera_that_looks_ahead_or_down(fit->plane))
-      return fit->plane;
-    if (!any) any = fit->plane;
-    const FastPlane fast(fit->plane);
-    std::erase_if(left, [&](const Eigen::Vector3f& point) {
-      return std::abs(fast.height_of(point)) <= static_cast<float>(search.threshold_m);
-    });
+    const auto plane = largest_plane(left, search.threshold_m, search.iterations_max, round, may_be);
+    if (!plane || count_inliers(left, *plane, search.threshold_m) < fewest) break;
+    if (expected ? agrees(*plane, *expected, search) : below_a_camera_that_looks_ahead_or_down(*plane)) return plane;
+    if (!any) any = plane;
+    erase_inliers(left, *plane, search.threshold_m);
   }
   return expected ? std::nullopt : any;
 }
@@ -160,7 +50,7 @@ std::variant<PlaneFit, NoDesk> find_desk(const Points& points, const std::option
                       : fmt::format("no desk: no plane of {:g} % of the points lies {}", 100.0 * search.share_min,
                                     prior ? "where the sensor's height and pitch put it" : "in the cloud")};
   }
-  PlaneFit fit = refined(points, refined(drawn, *desk, search.refine_m).plane, search.refine_m);
+  PlaneFit fit = fit_plane(points, fit_plane(drawn, *desk, search.refine_m).plane, search.refine_m);
   if (fit.inliers < 3) return NoDesk{"no desk: too few points agree on a plane"};
   fit.inliers = count_inliers(points, fit.plane, search.threshold_m);
   return fit;

@@ -49,6 +49,7 @@ struct PlaneSearch {
   double threshold_m = 0.010;  ///< the paper's outlier rejection
   int planes_max = 6;  ///< RANSAC is repeated on what is left over, so often at most (the paper gives no number) …
   double share_min = 0.03;  ///< … and while a plane holds at least this share of the measured points
+  int draw = 8192;          ///< points that RANSAC looks at: a plane of 3 % has 245 of them; the fit takes all
   int iterations_max = 1000;
   double prior_angle_max_rad = 0.35;  ///< planes tilted more than this (20°) against the prior are no desk
   double prior_height_max_m = 0.15;   ///< nor are planes that put the camera higher or lower by more than this

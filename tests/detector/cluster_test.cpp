@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl/search/kdtree.h>
+#include <pcl/segmentation/extract_clusters.h>
+
 #include <algorithm>
+
+#include "core/rng.h"
 
 namespace fathom {
 namespace {
@@ -51,6 +56,32 @@ TEST(Clusters, DoNotDependOnTheOrderOfThePoints) {
   const auto before = sizes(euclidean_clusters(points, 0.040, 1));
   std::reverse(points.begin(), points.end());
   EXPECT_EQ(sizes(euclidean_clusters(points, 0.040, 1)), before);
+}
+
+TEST(Clusters, AreThoseOfThePointCloudLibrary) {
+  Rng rng(1);
+  Points points;
+  for (int i = 0; i < 4000; ++i) {  // as dense as makes clusters of all sizes
+    const auto coordinate = [&] { return static_cast<float>(0.9 * rng.uniform() - 0.4); };
+    points.emplace_back(coordinate(), coordinate(), coordinate());
+  }
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (const Eigen::Vector3f& p : points) cloud->push_back({p.x(), p.y(), p.z()});
+  const auto tree = std::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
+  tree->setInputCloud(cloud);
+  pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setClusterTolerance(0.040);
+  extraction.setSearchMethod(tree);
+  extraction.setInputCloud(cloud);
+  std::vector<pcl::PointIndices> groups;
+  extraction.extract(groups);
+  std::vector<std::size_t> expected, sizes;
+  for (const pcl::PointIndices& group : groups) expected.push_back(group.indices.size());
+  for (const Points& group : euclidean_clusters(points, 0.040, 1)) sizes.push_back(group.size());
+  std::sort(expected.rbegin(), expected.rend());
+  EXPECT_EQ(sizes, expected);
+  EXPECT_GT(sizes.size(), 100u);
+  EXPECT_GT(sizes.front(), 20u);
 }
 
 }  // namespace
