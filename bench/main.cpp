@@ -24,7 +24,8 @@ constexpr std::array<Group, 7> kGroups{{
     {"light", fathom::register_light, "render_ir() with all light in clear, turbid and glass scenes, with its noise"},
     {"convergence", fathom::register_convergence, "the error of render_ir() with all light, sample by sample"},
     {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
-    {"detect", fathom::register_detect, "the paper's method on a captured cloud, stage by stage"},
+    {"detect", fathom::register_detect,
+     "the methods beside a pipeline of PCL's tutorials, one thread; FATHOM_REAL_DATA adds measured clouds"},
     {"others", fathom::register_others, "dots under water as POV-Ray and Blender's Cycles show them, beside ours"},
 }};
 

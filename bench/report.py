@@ -13,6 +13,7 @@ from runs import UNIT_RAYS, Runs, aligned
 
 MATCHERS = {"bm": ("StereoBM", 1.5), "sgbm": ("StereoSGBM", 0.5)}  # goals of the time ratio
 LIGHT_SCENES = {"paper_water": 4.0, "meniscus_water": 8.0, "paper_milk_tea": 40.0, "glass_water": None}  # goals in U
+DETECT_GOALS = {"robust": 0.125, "paper": 0.25}
 MATCH_CASES = ["water_clean", "water_noisy", "plane_clean", "plane_noisy"]
 
 
@@ -89,10 +90,9 @@ def report_matching(table):
 
 
 def report_detection(table):
-    for stage in ("desk", "segments", "icp", "inside", "whole"):
-        name = f"detect/{stage}"
-        if name in table.runs:
-            table.add(f"detector, {stage}: time", f"{table.runs.value(name, 'cpu_time'):.2f} ms")
+    for name in sorted(name for name in table.runs.repetitions if name.startswith("detect/") and not name.endswith("/pcl")):
+        _, cloud, method = name.split("/")
+        table.add_time(f"{cloud}: {method} / PCL pipeline", name, f"detect/{cloud}/pcl", DETECT_GOALS.get(method))
 
 
 def report_memory(table, folder):

@@ -3,13 +3,15 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Fathom)
 get_property(modules GLOBAL PROPERTY FATHOM_MODULES)
 
-# Fathom::sim stands for every module below sim/.
-add_library(fathom_sim INTERFACE)
-add_library(Fathom::sim ALIAS fathom_sim)
-set_target_properties(fathom_sim PROPERTIES EXPORT_NAME sim)
-
-install(TARGETS fathom)
-install(TARGETS ${modules} fathom_sim fathom_settings fathom_pcl EXPORT FathomTargets)
+if(FATHOM_SIMULATOR)
+  # Fathom::sim stands for every module below sim/.
+  add_library(fathom_sim INTERFACE)
+  add_library(Fathom::sim ALIAS fathom_sim)
+  set_target_properties(fathom_sim PROPERTIES EXPORT_NAME sim)
+  install(TARGETS fathom)
+  install(TARGETS fathom_sim EXPORT FathomTargets)
+endif()
+install(TARGETS ${modules} fathom_settings fathom_pcl EXPORT FathomTargets)
 foreach(module IN LISTS modules)
   get_target_property(folder ${module} SOURCE_DIR)
   cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})

@@ -22,6 +22,10 @@ namespace fs = std::filesystem;
 
 constexpr float kTemplateSpacingMetres = 0.003f;  // about twice a pixel's footprint at 1 m: finer says nothing new
 
+double rounded_mm(double metres) { return std::round(mm_from_metres(metres) * 100.0) / 100.0; }
+
+}  // namespace
+
 Points thinned(const Points& points) {
   const QuietPcl quiet;
   pcl::VoxelGrid<pcl::PointXYZ> grid;
@@ -31,10 +35,6 @@ Points thinned(const Points& points) {
   grid.filter(result);
   return points_from(result);
 }
-
-double rounded_mm(double metres) { return std::round(mm_from_metres(metres) * 100.0) / 100.0; }
-
-}  // namespace
 
 Points in_template_frame(const Points& in_desk, const Circle& circle) {
   const double distance = circle.center.norm();

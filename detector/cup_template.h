@@ -22,6 +22,9 @@ struct CupTemplate {
   double radius_m;
 };
 
+/// As templates are: the mean of the points in each cube of 3 mm.
+Points thinned(const Points& points);
+
 /// Points of the desk frame in the frame of a template: `circle`'s centre becomes the origin, its direction from the
 /// camera's foot point the y axis.
 Points in_template_frame(const Points& in_desk, const Circle& circle);

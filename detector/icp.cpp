@@ -1,52 +1,61 @@
 #include "detector/icp.h"
 
-#include <pcl/registration/icp.h>
-#include <pcl/search/kdtree.h>
-
+#include <Eigen/Geometry>
 #include <cassert>
 #include <cmath>
 
-#include "detector/pcl_points.h"
-#include "detector/quiet_pcl.h"
+#include "detector/nearest.h"
 
 namespace fathom {
 namespace {
 
-struct CountingIcp : pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> {
-  int iterations() const { return nr_iterations_; }
+struct Alignment {
+  double mean_distance_m;
+  int iterations;
 };
 
-double mean_distance(const PclCloud& from, const PclCloud::ConstPtr& to) {
-  pcl::search::KdTree<pcl::PointXYZ> tree;
-  tree.setInputCloud(to);
-  pcl::Indices nearest(1);
-  std::vector<float> squared(1);
-  double sum = 0.0;
-  for (const pcl::PointXYZ& point : from) {
-    tree.nearestKSearch(point, 1, nearest, squared);
-    sum += std::sqrt(static_cast<double>(squared[0]));
+/// Besl & McKay (1992): each point's nearest is its counterpart, the rigid motion onto these is the best in the least
+/// squares, until the counterparts stay.
+Alignment align(Points points, const NearestPoints& target, int iterations_max) {
+  std::vector<int> counterparts(points.size(), 0);
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::Matrix3Xd from(3, count), to(3, count);
+  const auto look_up = [&] {
+    bool changed = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int nearest = target.nearest(points[i], counterparts[i]);
+      changed |= nearest != counterparts[i];
+      counterparts[i] = nearest;
+    }
+    return changed;
+  };
+  int iterations = 0;
+  while (look_up() && iterations < iterations_max) {
+    ++iterations;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      from.col(i) = points[i].cast<double>();
+      to.col(i) = target.point(counterparts[i]).cast<double>();
+    }
+    const Eigen::Matrix4d motion = Eigen::umeyama(from, to, false);
+    for (Eigen::Index i = 0; i < count; ++i)
+      points[i] = (motion.topLeftCorner<3, 3>() * from.col(i) + motion.topRightCorner<3, 1>()).cast<float>();
   }
-  return sum / static_cast<double>(from.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) sum += (points[i] - target.point(counterparts[i])).norm();
+  return {sum / static_cast<double>(points.size()), iterations};
 }
 
 }  // namespace
 
 std::optional<TemplateMatch> match_templates(const Candidate& candidate, const std::vector<CupTemplate>& templates,
                                              const IcpSettings& settings) {
-  assert(candidate.circle);
-  const QuietPcl quiet;
-  const PclCloud::ConstPtr segment = pcl_cloud(in_template_frame(candidate.points, *candidate.circle));
+  assert(candidate.circle && !candidate.points.empty());
+  const Points segment = thinned(in_template_frame(candidate.points, *candidate.circle));
   std::optional<TemplateMatch> best;
   for (std::size_t i = 0; i < templates.size(); ++i) {
-    const PclCloud::ConstPtr target = pcl_cloud(templates[i].points);
-    CountingIcp icp;
-    icp.setInputSource(segment);
-    icp.setInputTarget(target);
-    icp.setMaximumIterations(settings.iterations_max);
-    PclCloud aligned;
-    icp.align(aligned);
-    const double score = mean_distance(aligned, target);
-    if (!best || score < best->score_m) best = TemplateMatch{i, score, icp.iterations()};
+    const Alignment aligned = align(segment, NearestPoints(templates[i].points), settings.iterations_max);
+    if (!best || aligned.mean_distance_m < best->score_m)
+      best = TemplateMatch{i, aligned.mean_distance_m, aligned.iterations};
   }
   return best;
 }

@@ -15,7 +15,8 @@ struct IcpSettings {
 
 struct TemplateMatch {
   std::size_t index;  ///< of the template
-  double score_m;     ///< mean distance of the segment's points from their nearest points of the template
+  double score_m;  ///< mean distance of the segment's points, thinned as the template's, from their nearest points of
+                   ///< the template
   int iterations;
 };
 

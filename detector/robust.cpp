@@ -96,7 +96,7 @@ KnownCup known_cup(const RoundWall& wall, const std::vector<CupTemplate>& templa
   return known;
 }
 
-double height_sigma_m(const Surface& surface) {
+double height_sigma_m(const LevelSurface& surface) {
   const double independent = surface.points / kPointsPerIndependent;
   return std::hypot(surface.sd_m / std::sqrt(std::max(1.0, independent)), mean_error_m(surface.range_m));
 }
@@ -116,7 +116,7 @@ std::string level_words(const FillDecision::Level& level) {
 }
 
 /// What is seen inside, and what that says about a liquid.
-void judge_content(DetectedCup& cup, const std::optional<Surface>& surface, const ContentSigns& signs,
+void judge_content(DetectedCup& cup, const std::optional<LevelSurface>& surface, const ContentSigns& signs,
                    const KnownCup& known, const RobustConfig& config) {
   cup.bottom_m = known.bottom.height_m;
   cup.why = fmt::format("{} at {}", known.words, mm(known.bottom.height_m));

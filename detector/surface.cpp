@@ -40,8 +40,8 @@ Slope slope_of(const Points& points, const Eigen::Vector3d& mean, double sd_m) {
 
 }  // namespace
 
-std::optional<Surface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
-                                    const SurfaceSettings& settings) {
+std::optional<LevelSurface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
+                                         const SurfaceSettings& settings) {
   Points points;
   std::vector<float> heights;
   for (const Eigen::Vector3f& point : inside) {
@@ -64,14 +64,14 @@ std::optional<Surface> find_surface(const Points& inside, const RoundWall& wall,
   const double sd = std::sqrt(squares / static_cast<double>(points.size() - 1));
   const Slope slope = slope_of(points, mean, sd);
   const double below = camera_height_m - mean.z(), along = mean.head<2>().norm();
-  return Surface{mean.z(),
-                 sd,
-                 std::atan(slope.gradient.norm()),
-                 slope.sigma.norm(),
-                 std::atan2(along, below),
-                 std::hypot(along, below),
-                 static_cast<int>(points.size()),
-                 share};
+  return LevelSurface{mean.z(),
+                      sd,
+                      std::atan(slope.gradient.norm()),
+                      slope.sigma.norm(),
+                      std::atan2(along, below),
+                      std::hypot(along, below),
+                      static_cast<int>(points.size()),
+                      share};
 }
 
 }  // namespace fathom

@@ -16,7 +16,7 @@ struct SurfaceSettings {
 };
 
 /// A level patch of what is seen inside. Desk frame.
-struct Surface {
+struct LevelSurface {
   double height_m;  ///< mean above the desk
   double sd_m;      ///< of the points
   double tilt_rad;  ///< of the plane through them
@@ -28,7 +28,7 @@ struct Surface {
 };
 
 /// Nothing when nothing level is seen.
-std::optional<Surface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
-                                    const SurfaceSettings& settings);
+std::optional<LevelSurface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
+                                         const SurfaceSettings& settings);
 
 }  // namespace fathom

@@ -13,6 +13,7 @@ endif()
 if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
   add_test(NAME find_package COMMAND ${CMAKE_COMMAND}
     -D build=${PROJECT_BINARY_DIR} -D consumer=${CMAKE_CURRENT_SOURCE_DIR}/find_package
-    -D scratch=${CMAKE_CURRENT_BINARY_DIR}/find_package -D generator=${CMAKE_GENERATOR}
+    -D scratch=${CMAKE_CURRENT_BINARY_DIR}/find_package -D generator=${CMAKE_GENERATOR} -D examples=${PROJECT_SOURCE_DIR}/examples
+    -D simulator=${FATHOM_SIMULATOR}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
 endif()
