@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "detector/cloud.h"
+#include "detector/content.h"
 #include "detector/icp.h"
 #include "detector/paper_config.h"
 #include "detector/plane.h"
@@ -36,7 +37,8 @@ struct DetectedCup {
   LiquidKind kind = LiquidKind::kUnknown;
   std::optional<double> fill_m;
   std::optional<double> fill_sigma_m;
-  std::string why;  ///< the decision in words
+  std::string why;                        ///< the decision in words
+  std::optional<CupEvidence> evidence{};  ///< what the robust method's decision rests on
 };
 
 struct RejectedSegment {

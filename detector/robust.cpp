@@ -101,54 +101,25 @@ double height_sigma_m(const LevelSurface& surface) {
   return std::hypot(surface.sd_m / std::sqrt(std::max(1.0, independent)), mean_error_m(surface.range_m));
 }
 
-Liquid liquid_from(double probability, double sure) {
-  if (probability >= sure) return Liquid::kYes;
-  return probability <= 1.0 - sure ? Liquid::kNo : Liquid::kUnknown;
+/// A liquid's surface is level; the raised bottom below a clear one leans by less than a degree.
+std::string solid_words(const LevelSurface& surface, const SurfaceSettings& settings) {
+  const bool leans = surface.tilt_rad > settings.tilt_max_rad && surface.tilt_rad > 3.0 * surface.tilt_sigma_rad;
+  if (leans)
+    return fmt::format("its surface leans {:.0f} +- {:.0f} deg", deg_from_radians(surface.tilt_rad),
+                       deg_from_radians(surface.tilt_sigma_rad));
+  const double flat = settings.roughness_max * depth_noise_m(surface.range_m);
+  if (surface.sd_m > flat) return fmt::format("its surface is uneven by {}", mm(surface.sd_m));
+  return "";
 }
 
-LiquidKind kind_from(double p_opaque, double sure) {
-  if (p_opaque >= sure) return LiquidKind::kOpaque;
-  return p_opaque <= 1.0 - sure ? LiquidKind::kTransparent : LiquidKind::kUnknown;
-}
-
-std::string level_words(const FillDecision::Level& level) {
-  return fmt::format("{:.0f} +- {:.0f} mm", mm_from_metres(level.fill_m), mm_from_metres(level.sigma_m));
-}
-
-/// What is seen inside, and what that says about a liquid.
-void judge_content(DetectedCup& cup, const std::optional<LevelSurface>& surface, const ContentSigns& signs,
-                   const KnownCup& known, const RobustConfig& config) {
-  cup.bottom_m = known.bottom.height_m;
-  cup.why = fmt::format("{} at {}", known.words, mm(known.bottom.height_m));
-  std::vector<SurfaceReading> readings;
-  if (surface) {
-    const double sigma = height_sigma_m(*surface);
-    readings.push_back({surface->height_m, sigma, surface->incidence_rad});
-    cup.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
-    cup.surface_sigma_m = sigma;
-    cup.why += fmt::format("; level inside at {} +- {}", mm(surface->height_m), mm(sigma));
-  } else {
-    cup.why += "; nothing level is measured inside";
-  }
-  if (!signs.words.empty()) cup.why += "; " + signs.words;
-  if (!surface && signs.opaque == 1.0) return;
-
-  const double fill_max = cup.candidate.top_m - config.rays.lid_m - known.bottom.height_m;
-  const FillDecision decision = decide_fill(readings, known.bottom, fill_max, signs, config.fill);
-  cup.p_liquid = decision.p_liquid;
-  cup.liquid = liquid_from(decision.p_liquid, config.fill.liquid_sure);
-  cup.why += fmt::format("; P(liquid) {:.3f}", decision.p_liquid);
-  if (cup.liquid != Liquid::kYes) return;
-  cup.kind = kind_from(decision.p_opaque, config.fill.kind_sure);
-  if (!surface) return;
-  if (cup.kind == LiquidKind::kUnknown) {
-    cup.why +=
-        fmt::format("; {} if clear, {} if opaque", level_words(decision.transparent), level_words(decision.opaque));
-    return;
-  }
-  const FillDecision::Level& level = cup.kind == LiquidKind::kOpaque ? decision.opaque : decision.transparent;
-  cup.fill_m = level.fill_m;
-  cup.fill_sigma_m = level.sigma_m;
+CupEvidence evidence_of(const RoundWall& wall, const std::optional<LevelSurface>& surface, ContentSigns signs,
+                        const KnownCup& known, const RobustConfig& config) {
+  CupEvidence evidence{
+      known.bottom, wall.top_m - config.rays.lid_m - known.bottom.height_m, {}, std::move(signs), known.words, ""};
+  if (!surface) return evidence;
+  evidence.readings.push_back({surface->height_m, height_sigma_m(*surface), surface->incidence_rad});
+  evidence.solid_words = solid_words(*surface, config.surface);
+  return evidence;
 }
 
 }  // namespace
@@ -201,7 +172,12 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
       if (pinhole)
         signs = content_signs(cloud, *pinhole, to_desk, wall, surface ? std::optional(surface->height_m) : std::nullopt,
                               config.signs);
-      judge_content(cup, surface, signs, known, config);
+      if (surface) {
+        cup.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
+        cup.surface_sigma_m = height_sigma_m(*surface);
+      }
+      cup.evidence = evidence_of(wall, surface, std::move(signs), known, config);
+      decide_content(cup, *cup.evidence, config.fill);
       result.cups.push_back(std::move(cup));
     }
   }

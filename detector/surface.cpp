@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "detector/noise.h"
@@ -20,22 +21,35 @@ double commonest(std::vector<float>& heights) {
   return 0.5 * (static_cast<double>(heights[best]) + heights[best + half]);
 }
 
-struct Slope {
+struct Patch {
+  Eigen::Vector3d mean;
   Eigen::Vector2d gradient;
-  Eigen::Vector2d sigma;
+  double sd;                       ///< of the points about the plane
+  Eigen::Vector2d gradient_sigma;  ///< when neighbours err alike
+  double height_at(const Eigen::Vector3f& point) const {
+    return mean.z() + gradient.dot(point.head<2>().cast<double>() - mean.head<2>());
+  }
 };
 
-/// Of the plane through the points, with its error when neighbours err alike.
-Slope slope_of(const Points& points, const Eigen::Vector3d& mean, double sd_m) {
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Identity() * 1e-12;
+Patch plane_through(const Points& points) {
+  Patch plane{Eigen::Vector3d::Zero(), {}, 0.0, {}};
+  for (const Eigen::Vector3f& point : points) plane.mean += point.cast<double>();
+  plane.mean /= static_cast<double>(points.size());
+  constexpr double kTiny = 1e-12;  // m²: a patch without extent has no gradient to speak of
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Identity() * kTiny;
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (const Eigen::Vector3f& point : points) {
-    const Eigen::Vector3d off = point.cast<double>() - mean;
+    const Eigen::Vector3d off = point.cast<double>() - plane.mean;
     scatter += off.head<2>() * off.head<2>().transpose();
     moment += off.head<2>() * off.z();
   }
   const Eigen::Matrix2d inverse = scatter.inverse();
-  return {inverse * moment, (inverse.diagonal() * kPointsPerIndependent).cwiseSqrt() * sd_m};
+  plane.gradient = inverse * moment;
+  double squares = 0.0;
+  for (const Eigen::Vector3f& point : points) squares += std::pow(point.z() - plane.height_at(point), 2);
+  plane.sd = std::sqrt(squares / static_cast<double>(points.size() - 1));
+  plane.gradient_sigma = (inverse.diagonal() * kPointsPerIndependent).cwiseSqrt() * plane.sd;
+  return plane;
 }
 
 }  // namespace
@@ -49,28 +63,31 @@ std::optional<LevelSurface> find_surface(const Points& inside, const RoundWall& 
     points.push_back(point);
     heights.push_back(point.z());
   }
-  const auto all = points.size();
-  if (static_cast<int>(all) < settings.points_min) return std::nullopt;
-  const double level = commonest(heights);
-  std::erase_if(points, [&](const Eigen::Vector3f& p) { return std::abs(p.z() - level) > settings.level_m; });
-  const double share = static_cast<double>(points.size()) / static_cast<double>(all);
-  if (static_cast<int>(points.size()) < settings.points_min || share < settings.share_min) return std::nullopt;
+  if (static_cast<int>(points.size()) < settings.points_min) return std::nullopt;
+  Patch plane{{0.0, 0.0, commonest(heights)}, {0.0, 0.0}, 0.0, {}};
+  Points level;
+  constexpr int kRounds = 4;  // a plane that leans takes in more of its points each time
+  for (int round = 0; round < kRounds; ++round) {
+    level.clear();
+    std::copy_if(points.begin(), points.end(), std::back_inserter(level), [&](const Eigen::Vector3f& point) {
+      return std::abs(point.z() - plane.height_at(point)) <= settings.level_m;
+    });
+    if (static_cast<int>(level.size()) < settings.points_min) return std::nullopt;
+    plane = plane_through(level);
+  }
+  const double share = static_cast<double>(level.size()) / static_cast<double>(points.size());
+  const double tilt = std::atan(plane.gradient.norm()), tilt_sigma = std::atan(plane.gradient_sigma.norm());
+  // Steep because it is a wall; a patch too small to tell counts as level.
+  if (share < settings.share_min || tilt - tilt_sigma > settings.slope_max_rad) return std::nullopt;
 
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& point : points) mean += point.cast<double>();
-  mean /= static_cast<double>(points.size());
-  double squares = 0.0;
-  for (const Eigen::Vector3f& point : points) squares += std::pow(point.z() - mean.z(), 2);
-  const double sd = std::sqrt(squares / static_cast<double>(points.size() - 1));
-  const Slope slope = slope_of(points, mean, sd);
-  const double below = camera_height_m - mean.z(), along = mean.head<2>().norm();
-  return LevelSurface{mean.z(),
-                      sd,
-                      std::atan(slope.gradient.norm()),
-                      slope.sigma.norm(),
+  const double below = camera_height_m - plane.mean.z(), along = plane.mean.head<2>().norm();
+  return LevelSurface{plane.mean.z(),
+                      plane.sd,
+                      tilt,
+                      tilt_sigma,
                       std::atan2(along, below),
                       std::hypot(along, below),
-                      static_cast<int>(points.size()),
+                      static_cast<int>(level.size()),
                       share};
 }
 
