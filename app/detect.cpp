@@ -10,9 +10,12 @@
 #include "app/detection_report.h"
 #include "app/detector_options.h"
 #include "app/live_cloud.h"
+#include "app/poses.h"
 #include "app/results.h"
 #include "core/progress.h"
+#include "detector/fuse.h"
 #include "detector/read_cloud.h"
+#include "detector/robust.h"
 
 namespace fathom {
 namespace {
@@ -24,12 +27,29 @@ struct DetectOptions {
   std::string method{methods().front().name};
   DeskOptions desk;
   std::filesystem::path config;
+  std::filesystem::path poses;
 };
+
+/// All clouds as views of one desk.
+void run_fused(const DetectOptions& options, const DetectorSettings& settings, const CommonOptions& common) {
+  const std::vector<Pose> poses = read_poses(options.poses, options.clouds.size());
+  std::vector<PosedDetection> views;
+  Progress progress("detect", poses.size(), common.quiet || poses.size() == 1);
+  for (std::size_t i = 0; i < poses.size(); ++i, progress.step())
+    views.push_back({detect_robust(read_cloud(options.clouds[i]), settings), poses[i]});
+  const Detection detection = fuse_views(views, settings);
+  if (common.json)
+    print_results(common, "detection", ".json", detection_json(detection).dump(2) + "\n");
+  else
+    print_results(common, "detection", ".txt",
+                  format_rows(detection_rows(options.clouds.front().string(), detection), false));
+}
 
 void run_detect(const DetectOptions& options, const CommonOptions& common) {
   const Method& method = method_named(options.method);
   DetectorSettings settings = detector_settings(options.config);
   settings.prior = options.desk.prior();
+  if (!options.poses.empty()) return run_fused(options, settings, common);
 
   std::optional<LiveCamera> camera;
   if (options.live) camera.emplace(*options.live);
@@ -80,7 +100,13 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) 
   add_method_option(app, options->method);
   add_desk_options(app, options->desk);
   app.add_option("--config", options->config, "Parameters of the method and its templates")->type_name("JSON");
+  app.add_option("--poses", options->poses,
+                 "Takes the clouds as views of one desk: {\"world_from_camera\": [3 rows of 4 for each cloud]}, metres")
+      ->type_name("JSON")
+      ->excludes(live);
   return [options, &common] {
+    if (!options->poses.empty() && (options->clouds.empty() || options->method != "robust"))
+      throw UsageError("--poses needs clouds and the method robust");
     if (options->clouds.empty() && !options->live) throw UsageError("needs a CLOUD or --live");
     run_detect(*options, common);
   };

@@ -30,7 +30,8 @@ RobustConfig read_robust_config(const JsonReader& json) {
                    "bottom_sigma_mm",
                    "index",
                    "liquid_prior",
-                   "sure"});
+                   "liquid_sure",
+                   "kind_sure"});
   constexpr Range kShare{0.0, 1.0};
   constexpr int kMany = 1'000'000;
   RobustConfig config;

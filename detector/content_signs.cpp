@@ -121,10 +121,6 @@ class View {
   int left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
 };
 
-double log_normal(double value, double median, double spread) {
-  return std::exp(-0.5 * std::pow(std::log(value / median) / spread, 2)) / spread;
-}
-
 }  // namespace
 
 ContentSigns content_signs(const Cloud& cloud, const Pinhole& pinhole, const Eigen::Isometry3d& desk_from_camera,
@@ -139,7 +135,7 @@ ContentSigns content_signs(const Cloud& cloud, const Pinhole& pinhole, const Eig
            inside.contrast() < settings.contrast_max * desk.contrast();
   };
   const auto opaque = [&](const Brightness& inside) -> ContentSigns {
-    return {1.0, settings.ratio_max,
+    return {settings.ratio, std::nullopt,
             fmt::format("dots inside have {:.0f} % of the desk's contrast, {:.0f} % are matched",
                         100.0 * inside.contrast() / desk.contrast(), 100.0 * inside.matched())};
   };
@@ -150,10 +146,7 @@ ContentSigns content_signs(const Cloud& cloud, const Pinhole& pinhole, const Eig
     const Brightness above = view.albedo_of_wall(*level_m + settings.margin_m, settings.margin_m);
     if (surface.pixels < settings.pixels_min || above.pixels < settings.pixels_min) return {};
     const double ratio = surface.mean() / above.mean();
-    const double clear = log_normal(ratio, settings.clear_brightness, settings.clear_spread) /
-                         log_normal(ratio, settings.other_brightness, settings.other_spread);
-    return {std::clamp(clear, 1.0 / settings.ratio_max, settings.ratio_max), 1.0,
-            fmt::format("brightness inside is {:.2f} of the wall's", ratio)};
+    return {1.0, ratio, fmt::format("brightness inside is {:.2f} of the wall's", ratio)};
   }
   for (double level = settings.level_step_m; level < wall.top_m; level += settings.level_step_m) {
     const Brightness inside = view.inside(level, settings.margin_m);

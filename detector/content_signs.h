@@ -19,14 +19,8 @@ struct ContentSignSettings {
   double contrast_max = 0.5;
   double brightness_min = 0.3;  ///< relative to the desk's; darker places are in the projector's shadow
   double matched_max = 0.5;     ///< share of the pixels that measured something; 1 on bottoms, 0 to 0.34 on juices
-  double ratio_max = 20.0;      ///< of likelihoods: one in twenty is something that nobody thought of
-  /// Brightness inside over that of the wall above it, both as albedos: under water 0.96² / n² · exp(−2 · 0.003/mm ·
-  /// fill) of the dry bottom's, which makes 0.38 to 0.51 of the wall's in simulated cups with 10 to 30 mm …
-  double clear_brightness = 0.46;
-  double other_brightness = 0.90;  ///< … where a dry bottom has 0.79 to 0.91 and an opaque filling about as much
-  double clear_spread = 0.22;      ///< standard deviations of their logarithms: bottoms and walls are alike, …
-  double other_spread = 0.35;      ///< … drinks and cups are not
-  double level_step_m = 0.005;     ///< levels that are tried where no surface was measured
+  double ratio = 20.0;          ///< of likelihoods, when dots are washed out: one in twenty is something else
+  double level_step_m = 0.005;  ///< levels that are tried where no surface was measured
 };
 
 /// `level_m`: height of the surface that was measured, or nothing. Sharp dots speak for nothing, as thick milk shows

@@ -1,6 +1,7 @@
 #include "detector/fill.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -35,12 +36,13 @@ struct Posterior {
   FillDecision::Level level;
 };
 
-template <class Rises>
-Posterior over_fills(const ReadingLikelihood& likelihood, double low_m, double high_m, Rises rises) {
+/// `weight_of(fill)`: likelihood of the fill.
+template <class Weight>
+Posterior over_fills(double low_m, double high_m, Weight weight_of) {
   constexpr int kSteps = 400;  // 0.2 mm in a cup of 80 mm: a third of the error of a height
   double sum = 0.0, first = 0.0, second = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    const double fill = low_m + (high_m - low_m) * (i + 0.5) / kSteps, weight = likelihood(rises(fill));
+    const double fill = low_m + (high_m - low_m) * (i + 0.5) / kSteps, weight = weight_of(fill);
     sum += weight;
     first += weight * fill;
     second += weight * fill * fill;
@@ -48,6 +50,19 @@ Posterior over_fills(const ReadingLikelihood& likelihood, double low_m, double h
   if (!(sum > 0.0)) return {0.0, {0.0, 0.0}};
   const double mean = first / sum;
   return {sum / kSteps, {mean, std::sqrt(std::max(0.0, second / sum - mean * mean))}};
+}
+
+double log_normal(double value, double median, double spread) {
+  return std::exp(-0.5 * std::pow(std::log(value / median) / spread, 2)) / spread;
+}
+
+/// Likelihood of the brightness under a clear liquid relative to all else.
+double clear_ratio(const ContentSigns& signs, double fill_m, const FillSettings& settings) {
+  if (!signs.brightness || !(*signs.brightness > 0.0)) return 1.0;
+  const double expected = settings.clear_brightness * std::exp(-2.0 * settings.clear_absorption_per_m * fill_m);
+  const double ratio = log_normal(*signs.brightness, expected, settings.clear_spread) /
+                       log_normal(*signs.brightness, settings.other_brightness, settings.other_spread);
+  return std::clamp(ratio, 1.0 / settings.brightness_ratio_max, settings.brightness_ratio_max);
 }
 
 }  // namespace
@@ -68,11 +83,14 @@ FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bott
   };
   const auto covered = [&](double fill) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(count, fill); };
   const double high = std::max(fill_max_m, 2.0 * settings.fill_min_m);
-  const Posterior transparent = over_fills(likelihood, settings.fill_min_m, high, raised);
-  const Posterior opaque = over_fills(likelihood, settings.fill_min_m, high, covered);
+  const Posterior transparent = over_fills(settings.fill_min_m, high, [&](double fill) {
+    return likelihood(raised(fill)) * clear_ratio(signs, fill, settings);
+  });
+  const Posterior opaque =
+      over_fills(settings.fill_min_m, high, [&](double fill) { return likelihood(covered(fill)); });
 
   const double dry = (1.0 - settings.liquid_prior) * likelihood(Eigen::VectorXd::Zero(count));
-  const double clear_liquid = 0.5 * settings.liquid_prior * transparent.evidence * signs.clear;
+  const double clear_liquid = 0.5 * settings.liquid_prior * transparent.evidence;
   const double opaque_liquid = 0.5 * settings.liquid_prior * opaque.evidence * signs.opaque;
   const double liquid = clear_liquid + opaque_liquid;
   // All of them vanish where a height is far from everything, as deep below the bottom: then nothing is known.

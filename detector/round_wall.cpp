@@ -163,7 +163,7 @@ std::optional<ConeFit> fit_cone(const Points& points, Cone cone, double toleranc
   ConeFit fit{};
   constexpr int kSteps = 6;  // each halves the tolerance's share of outliers; the fit itself needs three
   for (int step = 0; step < kSteps; ++step) {
-    // A slab's circle knows no lean: the first step lets in what a lean of 10° puts 20 mm above and below.
+    // A slab's circle knows no lean: the first step lets in what a lean of 10° puts 30 mm above and below.
     const double within = step == 0 ? 2.0 * tolerance_m : tolerance_m;
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
@@ -217,15 +217,37 @@ double rim_height(const Points& on_wall, const Eigen::Vector2d& center) {
   return *upper;
 }
 
-std::optional<RoundWall> wall_from(const Hypothesis& hypothesis, const Points& points, const WallSearch& search) {
+/// The height at which the most points lie inside the circle, if many do: a filling, whose edge a leaning cone would
+/// take for its wall.
+std::optional<double> filling_height(const Points& points, const FlatCircle& circle, const WallSearch& search) {
+  constexpr double kStep = 0.002;
+  constexpr int kFewest = 40;  // of a level surface, within two steps
+  std::vector<int> counts(static_cast<std::size_t>((search.high_m - search.low_m) / kStep) + 2, 0);
+  const double within = circle.radius - 3.0 * search.tolerance_m;
+  for (const Eigen::Vector3f& point : points) {
+    if (!(point.z() > search.low_m && point.z() < search.high_m)) continue;
+    if ((point.head<2>() - circle.center).norm() < within)
+      ++counts[static_cast<std::size_t>((point.z() - search.low_m) / kStep)];
+  }
+  const auto most = std::max_element(counts.begin(), counts.end());
+  if (*most < kFewest) return std::nullopt;
+  return search.low_m + (static_cast<double>(most - counts.begin()) + 0.5) * kStep;
+}
+
+std::optional<RoundWall> wall_from(const Hypothesis& hypothesis, const Points& points, const WallSearch& search,
+                                   Top top) {
+  constexpr double kFillingMetres = 0.008;  // its noise, and the window in which wall and filling are matched as one
+  std::optional<double> filling;
+  if (top == Top::kOpen) filling = filling_height(points, hypothesis.circle, search);
   Points near;  // the slab's neighbours first: a lean is not known yet
   const auto between = [&](double low, double high) {
     near.clear();
     for (const Eigen::Vector3f& point : points)
-      if (point.z() >= low && point.z() <= high) near.push_back(point);
+      if (point.z() >= low && point.z() <= high && !(filling && std::abs(point.z() - *filling) < kFillingMetres))
+        near.push_back(point);
   };
   const Cone start{hypothesis.circle.center.cast<double>(), hypothesis.circle.radius, 0.0};
-  between(hypothesis.height - 0.02, hypothesis.height + 0.02);
+  between(hypothesis.height - 0.03, hypothesis.height + 0.03);
   std::optional<ConeFit> fit = fit_cone(near, start, search.tolerance_m);
   if (!fit) return std::nullopt;
   between(search.low_m, search.high_m);
@@ -278,7 +300,7 @@ std::vector<RoundWall> find_round_walls(const Points& segment, const WallSearch&
     for (int round = 0; round < rounds; ++round) {
       const auto hypothesis = best_circle(slabs_of(left, search), search, top, round);
       if (!hypothesis || hypothesis->score < search.arc_min * kDirections) break;
-      const auto wall = wall_from(*hypothesis, left, search);
+      const auto wall = wall_from(*hypothesis, left, search, top);
       if (!wall || wall->arc_share < search.arc_min) break;
       if (!is_part_of_one(*wall)) walls.push_back(*wall);
       std::erase_if(left, [&](const Eigen::Vector3f& point) {

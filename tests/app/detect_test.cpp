@@ -135,6 +135,44 @@ TEST_F(DetectCommand, AGapInTheRulesOfUseIsBadUsage) {
   EXPECT_EQ(none.err.rfind("error: --liquid-threshold-mm: must be a number above 0, got '0'\n", 0), 0u) << none.err;
 }
 
+TEST_F(DetectCommand, ViewsWithPosesAreOneDetection) {
+  const std::string pose = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]", poses = (folder / "poses.json").string();
+  write_text(poses, R"({"world_from_camera": [)" + pose + ", " + pose + "]}");
+  const ProgramRun run = run_fathom("detect " + empty + " " + empty + " --json --poses " + poses);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_EQ(Json::parse(run.out).at("cups").size(), 1u);
+  EXPECT_EQ(run_fathom("detect " + empty + " --poses " + poses).err,
+            "error: " + poses + ": /world_from_camera: has 2 poses for 1 clouds\n");
+  write_text(poses, R"({"world_from_camera": [[[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]]})");
+  EXPECT_EQ(run_fathom("detect " + empty + " --poses " + poses).err,
+            "error: " + poses +
+                ": /world_from_camera/0: is no rotation: its rows must be orthogonal, of length 1 and "
+                "right-handed\n");
+  EXPECT_EQ(run_fathom("detect " + empty + " --method paper --poses " + poses).exit_code, 2);
+}
+
+TEST_F(DetectCommand, EveryKeyOfTheConfigurationReachesTheRobustMethod) {
+  const auto answer = [&](const std::string& robust) {
+    write_text(config, R"({"templates": ["paper_cup.json"], "robust": )" + robust + "}");
+    return run_fathom("detect " + filled + " --json --config " + config).out;
+  };
+  const std::string defaults = answer("{}");
+  EXPECT_EQ(answer(R"({"plane_threshold_mm": 10, "plane_share_min": 0.03, "prior_height_max_mm": 150, "reach_mm": 2000,
+    "segment_points_min": 60, "wall_tolerance_mm": 3, "hypotheses": 300, "radius_mm": [20, 60], "height_mm": [40, 170],
+    "radius_sigma_max_mm": 3, "lid_mm": 12, "lid_share_max": 0.1, "beyond_share_max": 0.1, "inside_points_min": 20,
+    "interior_margin_mm": 10, "interior_points_min": 40, "bottom_mm": 6, "bottom_sigma_mm": 2, "index": 1.33,
+    "liquid_prior": 0.5, "liquid_sure": 0.6, "kind_sure": 0.8})"),
+            defaults);
+  for (const auto& [change, reason] : std::initializer_list<std::pair<const char*, const char*>>{
+           {R"({"radius_mm": [20, 30]})", "radius"},
+           {R"({"height_mm": [90, 95]})", "height"},
+           {R"({"lid_mm": 80})", "closed"},
+           {R"({"inside_points_min": 100000})", "nothing shows"}}) {
+    const std::string out = answer(change);
+    EXPECT_EQ(Json::parse(out).at("candidates").at(0).at("reason").get<std::string>().find(reason), 0u) << out;
+  }
+}
+
 TEST_F(DetectCommand, MistakesAreOneLineThatNamesTheFile) {
   const auto error = [&](const std::string& arguments) {
     const ProgramRun run = run_fathom(arguments);

@@ -76,10 +76,19 @@ TEST(Fill, SeveralViewsTellAClearLiquidFromAnOpaqueOne) {
 }
 
 TEST(Fill, SignsDecideWhereNoHeightIsSeen) {
-  const auto p = [](double opaque) { return decide_fill({}, kBottom, kFillMax, {1.0, opaque, "washed out"}, {}); };
+  const auto p = [](double opaque) {
+    return decide_fill({}, kBottom, kFillMax, {opaque, std::nullopt, "washed out"}, {});
+  };
   EXPECT_NEAR(p(1.0).p_liquid, 0.5, 1e-12);
   EXPECT_GT(p(20.0).p_liquid, 0.9);
   EXPECT_GT(p(20.0).p_opaque, 0.9);
+}
+
+TEST(Fill, ADimBottomSpeaksForAClearLiquidAndABrightOneAgainst) {
+  const double rise = apparent_rise(0.030, kIncidence, 1.33);
+  const auto p_opaque = [&](double brightness) { return decide(0.007 + rise, {1.0, brightness, "seen"}).p_opaque; };
+  EXPECT_LT(p_opaque(0.42), 0.1);
+  EXPECT_GT(p_opaque(0.90), 0.7);
 }
 
 TEST(Fill, AHeightBelowTheBottomIsNoLiquid) { EXPECT_LT(decide(0.005).p_liquid, 0.05); }
