@@ -40,6 +40,16 @@ PaperConfig read_paper_config(const JsonReader& json) {
   return config;
 }
 
+RegistrationConfig read_registration_config(const JsonReader& json) {
+  json.allow_only({"normal_radius_mm", "feature_radius_mm", "iterations", "score_max_mm"});
+  RegistrationConfig config;
+  config.normal_radius_m = json.metres_or("normal_radius_mm", config.normal_radius_m, kPositive);
+  config.feature_radius_m = json.metres_or("feature_radius_mm", config.feature_radius_m, kPositive);
+  config.iterations = json.integer_or("iterations", config.iterations, 1, 1'000'000);
+  config.score_max_m = json.metres_or("score_max_mm", config.score_max_m, kPositive);
+  return config;
+}
+
 }  // namespace
 
 void read_mm_range(const JsonReader& json, std::string_view key, double& low_m, double& high_m) {
@@ -97,6 +107,7 @@ DetectorSettings detector_settings(const std::filesystem::path& config) {
                        "interior_margin_mm",  "interior_points_min",
                        "templates",           "robust"});
     settings.paper = read_paper_config(reader);
+    if (reader.has("registration")) settings.registration = read_registration_config(reader.at("registration"));
     if (reader.has("robust")) settings.robust = read_robust_config(reader.at("robust"));
     for (const JsonReader& item : reader.items_or_none("templates"))
       settings.templates.push_back(load_template(config.parent_path() / item.text()));

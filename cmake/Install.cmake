@@ -1,5 +1,6 @@
 # `cmake --install` and find_package(Fathom): the program, the modules with their headers, the scenes.
 include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Fathom)
 get_property(modules GLOBAL PROPERTY FATHOM_MODULES)
 

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "detector/paper.h"
+#include "detector/registration.h"
 #include "detector/robust.h"
 
 namespace fathom {
@@ -11,6 +12,8 @@ constexpr std::array kMethods{
     Method{"robust", "round walls that lines of sight find open, what is level inside as a test of hypotheses",
            detect_robust},
     Method{"paper", "circle in the band, ICP to templates, mean height inside against a threshold", detect_paper},
+    Method{"sac-ia", "FPFH descriptors and SAC-IA, the paper's baseline; slow", detect_sac_ia},
+    Method{"prerejective", "FPFH descriptors and prerejective RANSAC; slow", detect_prerejective},
 };
 
 }  // namespace

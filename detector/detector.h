@@ -13,6 +13,7 @@
 #include "detector/icp.h"
 #include "detector/paper_config.h"
 #include "detector/plane.h"
+#include "detector/registration_config.h"
 #include "detector/robust_config.h"
 
 namespace fathom {
@@ -60,6 +61,7 @@ struct DetectorSettings {
   std::vector<CupTemplate> templates;
   PaperConfig paper;
   RobustConfig robust{};
+  RegistrationConfig registration{};
 };
 
 struct Method {

@@ -8,8 +8,6 @@
 namespace fathom {
 namespace {
 
-constexpr double kCenterHeightMetres = 0.045;  // where the middle of the paper's band lies
-
 Points between_heights(const Points& points, double low_m, double high_m) {
   Points result;
   for (const Eigen::Vector3f& point : points)

@@ -7,6 +7,9 @@
 
 namespace fathom {
 
+/// A cup's centre is told at this height above the desk: the middle of the paper's band.
+inline constexpr double kCenterHeightMetres = 0.045;
+
 /// A scene with its desk found: what is left to do happens in the desk's frame.
 struct DeskView {
   PlaneFit desk;

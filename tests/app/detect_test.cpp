@@ -120,7 +120,8 @@ TEST_F(DetectCommand, TheTemplateThatComesWithTheProgramIsThePaperCup) {
 TEST_F(DetectCommand, AGapInTheRulesOfUseIsBadUsage) {
   const ProgramRun method = run_fathom("detect " + empty + " --method papre");
   EXPECT_EQ(method.exit_code, 2);
-  EXPECT_NE((method.out + method.err).find("unknown method 'papre', choose from robust, paper"), std::string::npos)
+  EXPECT_NE((method.out + method.err).find("unknown method 'papre', choose from robust, paper, sac-ia, prerejective"),
+            std::string::npos)
       << method.err;
   EXPECT_EQ(run_fathom("detect").exit_code, 2);
   EXPECT_EQ(run_fathom("detect " + empty + " --height-mm 650").exit_code, 2);

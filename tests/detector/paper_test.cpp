@@ -191,7 +191,7 @@ TEST(Methods, AnUnknownNameListsTheChoices) {
     method_named("papre");
     FAIL();
   } catch (const Error& problem) {
-    EXPECT_STREQ(problem.what(), "unknown method 'papre', choose from robust, paper");
+    EXPECT_STREQ(problem.what(), "unknown method 'papre', choose from robust, paper, sac-ia, prerejective");
   }
 }
 

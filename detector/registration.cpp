@@ -1,0 +1,173 @@
+#include "detector/registration.h"
+
+#include <fmt/format.h>
+#include <pcl/features/fpfh.h>
+#include <pcl/features/normal_3d.h>
+#include <pcl/registration/ia_ransac.h>
+#include <pcl/registration/sample_consensus_prerejective.h>
+#include <pcl/search/kdtree.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/units.h"
+#include "detector/nearest.h"
+#include "detector/paper.h"
+#include "detector/pcl_points.h"
+#include "detector/quiet_pcl.h"
+
+namespace fathom {
+namespace {
+
+using Descriptors = pcl::PointCloud<pcl::FPFHSignature33>;
+
+struct Described {
+  PclCloud::Ptr points;
+  Descriptors::Ptr descriptors;
+};
+
+Described describe(const Points& points, const RegistrationConfig& config) {
+  const PclCloud::Ptr all = pcl_cloud(points);
+  const auto tree = std::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
+  const auto normals = std::make_shared<pcl::PointCloud<pcl::Normal>>();
+  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setInputCloud(all);
+  estimation.setSearchMethod(tree);
+  estimation.setRadiusSearch(config.normal_radius_m);
+  estimation.compute(*normals);
+
+  Described result{std::make_shared<PclCloud>(), std::make_shared<Descriptors>()};
+  const auto kept = std::make_shared<pcl::PointCloud<pcl::Normal>>();
+  for (std::size_t i = 0; i < all->size(); ++i) {
+    if (!std::isfinite((*normals)[i].normal_x)) continue;  // too few neighbours
+    result.points->push_back((*all)[i]);
+    kept->push_back((*normals)[i]);
+  }
+  if (result.points->empty()) return result;
+  pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> fpfh;
+  fpfh.setInputCloud(result.points);
+  fpfh.setInputNormals(kept);
+  fpfh.setSearchMethod(tree);
+  fpfh.setRadiusSearch(config.feature_radius_m);
+  fpfh.compute(*result.descriptors);
+  return result;
+}
+
+/// Pose of the template in the segment's frame, whatever it is worth.
+using Register = Eigen::Matrix4f (*)(const Described& known, const Described& segment, const RegistrationConfig&);
+
+Eigen::Matrix4f register_sac_ia(const Described& known, const Described& segment, const RegistrationConfig& config) {
+  std::srand(1);  // PCL draws by it
+  pcl::SampleConsensusInitialAlignment<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> sac;
+  sac.setInputSource(known.points);
+  sac.setSourceFeatures(known.descriptors);
+  sac.setInputTarget(segment.points);
+  sac.setTargetFeatures(segment.descriptors);
+  sac.setMinSampleDistance(0.02f);
+  sac.setMaxCorrespondenceDistance(config.score_max_m);
+  sac.setMaximumIterations(config.iterations);
+  PclCloud aligned;
+  sac.align(aligned);
+  return sac.getFinalTransformation();
+}
+
+Eigen::Matrix4f register_prerejective(const Described& known, const Described& segment,
+                                      const RegistrationConfig& config) {
+  std::srand(1);
+  pcl::SampleConsensusPrerejective<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> sac;
+  sac.setInputSource(known.points);
+  sac.setSourceFeatures(known.descriptors);
+  sac.setInputTarget(segment.points);
+  sac.setTargetFeatures(segment.descriptors);
+  sac.setNumberOfSamples(3);
+  sac.setCorrespondenceRandomness(5);
+  sac.setSimilarityThreshold(0.9f);
+  sac.setMaxCorrespondenceDistance(config.score_max_m);
+  sac.setInlierFraction(0.25f);
+  sac.setMaximumIterations(10 * config.iterations);  // most are dropped before they cost anything
+  PclCloud aligned;
+  sac.align(aligned);
+  return sac.hasConverged() ? sac.getFinalTransformation() : Eigen::Matrix4f(Eigen::Matrix4f::Zero());
+}
+
+struct Placed {
+  std::size_t index;  ///< of the template
+  double score_m;     ///< mean distance of the segment's points from the template
+  Eigen::Isometry3d desk_from_template;
+};
+
+std::optional<Placed> place_templates(const Points& segment, const std::vector<CupTemplate>& templates,
+                                      const RegistrationConfig& config, Register align) {
+  const QuietPcl quiet;
+  const Points thin = thinned(segment);
+  const Described seen = describe(thin, config);
+  constexpr std::size_t kFewest = 20;  // points that descriptors can be told apart by
+  if (seen.points->size() < kFewest) return std::nullopt;
+  std::optional<Placed> best;
+  for (std::size_t i = 0; i < templates.size(); ++i) {
+    const Eigen::Matrix4f pose = align(describe(templates[i].points, config), seen, config);
+    if (pose.isZero()) continue;
+    Eigen::Isometry3d placed;
+    placed.matrix() = pose.cast<double>();
+    const Eigen::Isometry3f back = placed.inverse().cast<float>();
+    const NearestPoints target(templates[i].points);
+    double sum = 0.0;
+    for (const Eigen::Vector3f& point : thin) {
+      const Eigen::Vector3f in_template = back * point;
+      sum += (target.point(target.nearest(in_template)) - in_template).norm();
+    }
+    const double score = sum / static_cast<double>(thin.size());
+    if (!best || score < best->score_m) best = Placed{i, score, placed};
+  }
+  return best;
+}
+
+Detection detect_by(const Cloud& cloud, const DetectorSettings& settings, Register align) {
+  const RegistrationConfig& config = settings.registration;
+  Detection result;
+  const auto found = view_of_desk(cloud, settings.prior, settings.paper.plane);
+  if (const NoDesk* none = std::get_if<NoDesk>(&found)) {
+    result.why = none->why;
+    return result;
+  }
+  const DeskView& view = std::get<DeskView>(found);
+  result.desk = view.desk;
+  for (Candidate& candidate : cup_candidates(view, settings.paper)) {
+    ++result.segments;
+    const auto placed = place_templates(candidate.points, settings.templates, config, align);
+    if (!placed || placed->score_m > config.score_max_m) {
+      candidate.rejected =
+          placed ? fmt::format("mean distance {:.1f} mm from {} is above {:g} mm", mm_from_metres(placed->score_m),
+                               settings.templates[placed->index].name, mm_from_metres(config.score_max_m))
+                 : "no template can be aligned";
+      result.rejected.push_back({std::move(candidate), std::nullopt});
+      continue;
+    }
+    const CupTemplate& known = settings.templates[placed->index];
+    DetectedCup cup;
+    cup.match = TemplateMatch{placed->index, placed->score_m, config.iterations};
+    cup.score_m = placed->score_m;
+    const Eigen::Vector3d foot = placed->desk_from_template.translation();
+    candidate.circle = Circle{foot.head<2>(), known.radius_m, 0.0};
+    candidate.rejected.clear();
+    cup.center_in_camera = view.desk_from_camera.inverse() * Eigen::Vector3d(foot.x(), foot.y(), kCenterHeightMetres);
+    cup.interior = interior_height(view.points, *candidate.circle, settings.paper.interior);
+    cup.liquid = decide_liquid(cup.interior, known.liquid_threshold_m);
+    cup.why = fmt::format("aligned to {}", known.name);
+    cup.candidate = std::move(candidate);
+    result.cups.push_back(std::move(cup));
+  }
+  return result;
+}
+
+}  // namespace
+
+Detection detect_sac_ia(const Cloud& cloud, const DetectorSettings& settings) {
+  return detect_by(cloud, settings, register_sac_ia);
+}
+
+Detection detect_prerejective(const Cloud& cloud, const DetectorSettings& settings) {
+  return detect_by(cloud, settings, register_prerejective);
+}
+
+}  // namespace fathom

@@ -1,0 +1,13 @@
+// Parameters of the global registration that the paper compares with.
+#pragma once
+
+namespace fathom {
+
+struct RegistrationConfig {
+  double normal_radius_m = 0.010;   ///< neighbours of a normal: three times the thinned points' spacing
+  double feature_radius_m = 0.025;  ///< neighbours of a descriptor: as wide as a cup's radius
+  int iterations = 1000;            ///< samples of correspondences that are tried
+  double score_max_m = 0.010;       ///< mean distance from the template; as the paper's method's
+};
+
+}  // namespace fathom
