@@ -105,7 +105,8 @@ DetectorSettings detector_settings(const std::filesystem::path& config) {
                        "circle_rms_max_mm",   "radius_mm",
                        "icp_score_max_mm",    "icp_iterations_max",
                        "interior_margin_mm",  "interior_points_min",
-                       "templates",           "robust"});
+                       "templates",           "robust",
+                       "registration"});
     settings.paper = read_paper_config(reader);
     if (reader.has("registration")) settings.registration = read_registration_config(reader.at("registration"));
     if (reader.has("robust")) settings.robust = read_robust_config(reader.at("robust"));

@@ -185,6 +185,16 @@ TEST(PaperMethod, CloudsWithoutADeskSaySo) {
             "no desk: none of 1 planes lies where the sensor's height and pitch put it");
 }
 
+TEST(Methods, EachAnswersAnEmptyCloudAndADeskWithoutAnything) {
+  for (const Method& method : methods()) {
+    const DetectorSettings settings{std::nullopt, {paper_cup()}, {}};
+    EXPECT_EQ(method.detect({}, settings).why, "no desk: the cloud has 0 measured points") << method.name;
+    const Detection bare = method.detect(cast(Scene{}), settings);
+    EXPECT_TRUE(bare.desk) << method.name;
+    EXPECT_TRUE(bare.cups.empty()) << method.name;
+  }
+}
+
 TEST(Methods, AnUnknownNameListsTheChoices) {
   EXPECT_EQ(method_named("paper").name, "paper");
   try {
