@@ -55,8 +55,8 @@ void add_cloud(const std::string& name, Cloud cloud, const std::shared_ptr<const
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
   };
-  for (const Method& method : methods())
-    add(method.name, [shared, settings, detect = method.detect] { return detect(*shared, *settings); });
+  for (const char* method : {"robust", "paper"})  // registration takes seconds
+    add(method, [shared, settings, detect = method_named(method).detect] { return detect(*shared, *settings); });
   add("pcl", [shared, settings] { return pcl_pipeline(*shared, settings->templates); });
 }
 
