@@ -52,9 +52,9 @@ std::string library_text(const std::string& library, bool as_json) {
 
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common) {
   const auto library = std::make_shared<std::string>();
-  app.add_option("library", *library, "media, walls, cups, sensors or effects")
+  app.add_option("library", *library, "media, walls, cups, solids, sensors or effects")
       ->required()
-      ->check(CLI::IsMember({"media", "walls", "cups", "sensors", "effects"}));
+      ->check(CLI::IsMember({"media", "walls", "cups", "solids", "sensors", "effects"}));
   return [library, &common] {
     const bool effects = *library == "effects";
     print_results(common, *library, ".txt", effects ? effects_text(common.json) : library_text(*library, common.json));

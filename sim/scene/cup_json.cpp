@@ -19,7 +19,7 @@ namespace {
 /// Reads and places a glTF cup: turned, then put down with its lowest point on the desk, or at the height that a third
 /// number of the position gives.
 MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
-  const JsonReader shape = json.at("shape"), position = json.at("position_mm");
+  const JsonReader shape = json.at("shape");
   const std::filesystem::path file = std::filesystem::path(json.file()).parent_path() / shape.text();
   MeshCup cup{file.filename().string(), read_gltf(file), nullptr};
   const Pose turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * rotation_from_json(json));
@@ -33,13 +33,8 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   if (!(size_mm >= kSmallestMm && size_mm <= kCupLengthMm.high))
     shape.fail(fmt::format("{} is {:g} mm large, must be from {} to {} mm; lengths in glTF are metres", cup.name,
                            size_mm, kSmallestMm, kCupLengthMm.high));
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  if (position.value().is_array() && position.value().size() == 3)
-    place = position.vector3(kCupPlaceMm) * kMetresPerMm;
-  else
-    place.head<2>() = position.vector2(kCupPlaceMm) * kMetresPerMm;
-  for (GltfPart& part : cup.parts)
-    part.transform(Pose(Eigen::Translation3d(place - box.min().z() * Eigen::Vector3d::UnitZ())));
+  const Pose place(put_down(json, box.min().z()));
+  for (GltfPart& part : cup.parts) part.transform(place);
   return cup;
 }
 

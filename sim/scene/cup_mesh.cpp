@@ -4,34 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/scene/revolve.h"
+
 namespace fathom {
-namespace {
-
-Eigen::Vector3d on_circle(double radius, double height, int facet) {
-  const double angle = 2.0 * std::numbers::pi * facet / kFacetsAround;
-  return {radius * std::cos(angle), radius * std::sin(angle), height};
-}
-
-/// Revolves a profile; with `outward` the faces look away from the axis (or down), otherwise towards it (or up).
-Mesh revolve(const std::vector<Eigen::Vector2d>& profile, bool outward) {
-  Mesh mesh;
-  for (const Eigen::Vector2d& point : profile)
-    for (int facet = 0; facet < kFacetsAround; ++facet) mesh.add_vertex(on_circle(point.x(), point.y(), facet));
-  const auto add = [&](int a, int b, int c) { outward ? mesh.add_triangle(a, b, c) : mesh.add_triangle(a, c, b); };
-  for (int ring = 0; ring + 1 < static_cast<int>(profile.size()); ++ring) {
-    const bool from_axis = profile[ring].x() == 0.0, to_axis = profile[ring + 1].x() == 0.0;
-    for (int facet = 0; facet < kFacetsAround; ++facet) {
-      const int next = (facet + 1) % kFacetsAround;
-      const int low = ring * kFacetsAround, high = low + kFacetsAround;
-      if (!from_axis) add(low + facet, low + next, high + next);
-      if (!to_axis) add(low + facet, high + next, high + facet);
-    }
-  }
-  return mesh;
-}
-
-}  // namespace
-
 Mesh handle_mesh(const CupShape& shape) {
   constexpr int kAlong = 24, kAround = 12;
   const Handle& handle = *shape.handle;

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "sim/scene/mesh.h"
+#include "sim/scene/revolve.h"
 #include "sim/scene/scene.h"
 
 namespace fathom {
-
-/// Facets around the axis. The sagitta of a 40 mm wall is then 40 mm · (1 − cos(π/256)) = 3 µm.
-inline constexpr int kFacetsAround = 256;
 
 /// The solid between outer and inner profile, with its handle, axis at the origin, standing on z = 0.
 Mesh cup_mesh(const CupShape& shape);

@@ -13,15 +13,11 @@
 #include "core/error.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/cup_mesh.h"
+#include "sim/scene/object.h"
 #include "sim/scene/wetted_wall.h"
 
 namespace fathom {
 namespace {
-
-int add_object(Geometry& geometry, std::string name) {
-  geometry.objects.push_back(std::move(name));
-  return static_cast<int>(geometry.objects.size());
-}
 
 /// Collects surfaces and bodies; bodies get their final numbers at the end, when all priorities are known.
 class Builder {
@@ -36,12 +32,12 @@ class Builder {
     top.mesh.add_triangle(0, 2, 3);
     top.albedo = desk.albedo;
     top.coat = desk.glaze;
-    add_opaque(std::move(top), add_object(geometry_, "desk"));
+    add_opaque(std::move(top), new_object("desk"));
   }
 
   void add_cup(const Cup& cup, std::size_t index, bool on_desk) {
     const std::string prefix = fmt::format("cup {} ", index);
-    const int object = add_object(geometry_, prefix + cup_name(cup));
+    const int object = new_object(prefix + cup_name(cup));
     const std::optional<int> liquid = cup.filling ? std::optional(add_filling(cup, prefix)) : std::nullopt;
     const auto* shape = std::get_if<CupShape>(&cup.shape);
     const auto* mesh = std::get_if<MeshCup>(&cup.shape);
@@ -53,11 +49,8 @@ class Builder {
       add_parts(cup_parts(cup), object, on_desk);
   }
 
-  void add_object_file(const Object& placed, std::size_t index, bool on_desk) {
-    std::vector<GltfPart> parts = read_gltf(placed.gltf);
-    for (GltfPart& part : parts) part.transform(placed.world_from_object);
-    const std::string name = fmt::format("object {} {}", index, placed.gltf.filename().string());
-    add_parts(std::move(parts), add_object(geometry_, name), on_desk);
+  void add_object(const Object& object, std::size_t index, bool on_desk) {
+    add_parts(object_parts(object), new_object(fmt::format("object {} {}", index, object_name(object))), on_desk);
   }
 
   /// Numbers the bodies by rising priority.
@@ -83,6 +76,11 @@ class Builder {
   }
 
  private:
+  int new_object(std::string name) {
+    geometry_.objects.push_back(std::move(name));
+    return static_cast<int>(geometry_.objects.size());
+  }
+
   enum class Priority { liquid, gltf, wall };
   struct RankedBody {
     Body body;
@@ -209,7 +207,7 @@ class Builder {
   /// Returns the liquid's body.
   int add_filling(const Cup& cup, const std::string& prefix) {
     const Filling& filling = *cup.filling;
-    const int object = add_object(geometry_, prefix + filling.medium.name);
+    const int object = new_object(prefix + filling.medium.name);
     const auto* shape = std::get_if<CupShape>(&cup.shape);
     const bool in_clear_wall = is_clear(cup), plain = filling.form.level() && !in_clear_wall;
     const double level = liquid_level(cup);
@@ -266,7 +264,7 @@ Geometry build_geometry(const Scene& scene, double wavelength_nm) {
   if (scene.desk) builder.add_desk(*scene.desk);
   for (std::size_t i = 0; i < scene.cups.size(); ++i) builder.add_cup(scene.cups[i], i, scene.desk.has_value());
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    builder.add_object_file(scene.objects[i], i, scene.desk.has_value());
+    builder.add_object(scene.objects[i], i, scene.desk.has_value());
   builder.finish();
   return geometry;
 }

@@ -1,5 +1,5 @@
-// The libraries that come with the program: scenes/cups, scenes/media, scenes/walls, scenes/sensors, one JSON file per
-// entry.
+// The libraries that come with the program: scenes/cups, scenes/media, scenes/walls, scenes/solids,
+// scenes/sensors, one JSON file per entry.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-/// Names of the entries of a library ("cups", "media", "walls", "sensors"), sorted.
+/// Names of the entries of a library ("cups", "media", "walls", "solids", "sensors"), sorted.
 std::vector<std::string> library_names(std::string_view library);
 
 /// The entry's file. Throws Error with the choices when there is none; `file` and `where` say who asked.

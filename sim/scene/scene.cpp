@@ -110,17 +110,6 @@ CupShape shape_from_object(const JsonReader& json) {
   return shape;
 }
 
-Object object_from_json(const JsonReader& json) {
-  json.allow_only({"gltf", "position_mm", "rotation_deg"});
-  Object object;
-  object.gltf = std::filesystem::path(json.file()).parent_path() / json.text("gltf");
-  const Eigen::Vector3d position = json.has("position_mm")
-                                       ? Eigen::Vector3d(json.at("position_mm").vector3() * kMetresPerMm)
-                                       : Eigen::Vector3d::Zero();
-  object.world_from_object = Eigen::Translation3d(position) * rotation_from_json(json);
-  return object;
-}
-
 }  // namespace
 
 double CupShape::inner_radius(double height_above_desk) const { return radius_at(inner, height_above_desk); }
@@ -170,6 +159,16 @@ std::optional<Coat> glaze_from_json(const JsonReader& json) {
   Coat coat{glaze.number("roughness", {kLeastRoughness, 1.0})};
   coat.index = glaze.number_or("index", coat.index, {1.0, 4.0});
   return coat;
+}
+
+Eigen::Translation3d put_down(const JsonReader& json, double lowest) {
+  const JsonReader position = json.at("position_mm");
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  if (position.value().is_array() && position.value().size() == 3)
+    place = position.vector3(kCupPlaceMm) * kMetresPerMm;
+  else
+    place.head<2>() = position.vector2(kCupPlaceMm) * kMetresPerMm;
+  return Eigen::Translation3d(place - lowest * Eigen::Vector3d::UnitZ());
 }
 
 Scene scene_from_json(const JsonReader& json) {

@@ -100,9 +100,25 @@ struct Cup {
   std::optional<Filling> filling;
 };
 
+struct Box {
+  Eigen::Vector3d size;  ///< along x, y, z; the middle of its base is the origin
+};
+
+/// Bounded by what a profile sweeps: (radius, height) from the axis, round the outside, back to the axis above.
+struct Revolved {
+  std::vector<Eigen::Vector2d> profile;
+};
+
+/// What stands or lies about, without refraction: goods, crockery, an empty cup turned over.
+struct Solid {
+  std::string name;
+  std::variant<Box, Revolved, CupShape> form;
+  double albedo = 0.5;
+};
+
 struct Object {
-  std::filesystem::path gltf;
-  Pose world_from_object = Pose::Identity();  ///< after glTF's +Y up became z up
+  std::variant<std::filesystem::path, Solid> thing;  ///< a glTF file, or
+  Pose world_from_object = Pose::Identity();         ///< after glTF's +Y up became z up
 };
 
 struct Scene {
@@ -112,14 +128,19 @@ struct Scene {
 };
 
 /// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes come from
-/// scenes/cups; relative glTF paths are relative to the scene file.
+/// scenes/cups, named solids from scenes/solids; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);
 Cup cup_from_json(const JsonReader& json);
+Object object_from_json(const JsonReader& json);
+Solid solid_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
 /// The member glaze of a desk or a cup; nothing without it.
 std::optional<Coat> glaze_from_json(const JsonReader& json);
 /// The member rotation_deg: angles about the world's fixed axes x, then y, then z; none without it.
 Eigen::Quaterniond rotation_from_json(const JsonReader& json);
+/// The member position_mm of a thing that is put down, given its lowest point's height [m] before: two numbers place it
+/// on the desk, a third is the height of its lowest point.
+Eigen::Translation3d put_down(const JsonReader& json, double lowest);
 /// Whether a file's name ends as a glTF file's.
 bool names_gltf(const std::string& file);
 

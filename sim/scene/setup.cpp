@@ -18,8 +18,9 @@ void require_indices(const JsonReader& root, const Setup& setup) {
 void require_files(const JsonReader& root, const Scene& scene) {
   const std::vector<JsonReader> objects = root.items_or_none("objects");
   for (std::size_t i = 0; i < objects.size(); ++i)
-    if (const std::filesystem::path& gltf = scene.objects[i].gltf; !std::filesystem::is_regular_file(gltf))
-      objects[i].fail_at("gltf", fmt::format("there is no file {}", gltf.string()));
+    if (const auto* gltf = std::get_if<std::filesystem::path>(&scene.objects[i].thing);
+        gltf && !std::filesystem::is_regular_file(*gltf))
+      objects[i].fail_at("gltf", fmt::format("there is no file {}", gltf->string()));
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ TEST(Scene, IsReadInMetresAndRadians) {
   EXPECT_DOUBLE_EQ(cup.filling->depth, 0.030);
   EXPECT_DOUBLE_EQ(cup.filling->medium.absorption, 3.1);  // 0.0031 per mm
   EXPECT_DOUBLE_EQ(setup.scene.desk->size.y(), 0.8);
-  EXPECT_EQ(setup.scene.objects.at(0).gltf, "folder/box.glb");  // relative to the scene file
+  EXPECT_EQ(std::get<std::filesystem::path>(setup.scene.objects.at(0).thing),
+            "folder/box.glb");  // relative to the scene file
   // A quarter turn about z takes x to y.
   const auto turned = changed("/objects/0/rotation_deg", "[0, 0, 90]");
   EXPECT_LT(
@@ -120,7 +121,7 @@ TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
       {"/cups/0/fill_ml", "30", "/cups/0/fill_ml: cannot stand beside fill_mm"},
       {"/cups/0/rotation_deg", "[0, 10, 0]", "/cups/0/rotation_deg: is for cups from glTF files"},
       {"/cups/0/fill_mm", "81", "/cups/0/fill_mm: must be at most 80, the depth of the cup"},
-      {"/objects/0/gltf", nullptr, "/objects/0/gltf: is missing"},
+      {"/objects/0/gltf", nullptr, "/objects/0: must have one of gltf and solid"},
   };
   for (const Refusal& refusal : refusals)
     expect_error([&] { changed(refusal.pointer, refusal.value); }, {"scene.json: ", refusal.message});

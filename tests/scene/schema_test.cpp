@@ -27,7 +27,7 @@ Json full_scene() {
              {"shape": "mug", "position_mm": [-200, 400], "fill_mm": 20, "liquid": {"index": {"dispersion": "water"}}},
              {"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33,
                         "material": {"index": 1.51}}, "position_mm": [100, 400]}],
-    "objects": [{"gltf": "box.glb"}]
+    "objects": [{"gltf": "box.glb"}, {"solid": {"box_mm": [10, 10, 10]}, "position_mm": [300, 400]}]
   })");
 }
 
@@ -83,6 +83,7 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
       {"/cups/1/liquid", "/$defs/changed_liquid"},
       {"/cups/2/liquid/index", "/$defs/water_like"},
       {"/objects/0", "/$defs/object"},
+      {"/objects/1/solid", "/$defs/solid"},
   };
   EXPECT_NO_THROW(setup_from_json(full_scene(), "scene.json"));
   const Json whole = schema();
