@@ -1,36 +1,42 @@
-// fathom evaluate: detection rates over clouds whose containers are known.
+// fathom evaluate: detection rates over random desks, and over clouds whose containers are known.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/detector_options.h"
+#include "app/evaluate_clutter.h"
 #include "app/labelled_clouds.h"
 #include "app/results.h"
+#include "app/share_rows.h"
 #include "core/files.h"
 #include "core/rows.h"
 #include "core/units.h"
-#include "core/wilson.h"
 
 namespace fathom {
 namespace {
 
 struct EvaluateOptions {
-  std::filesystem::path folder;
+  std::string what;  ///< an experiment, or a folder
   std::string method{methods().front().name};
   DeskOptions desk;
   std::filesystem::path config;
+  std::filesystem::path clutter;
+  std::optional<int> trials;
 };
 
-void add_share(const std::string& name, int hits, int trials, std::vector<Row>& rows) {
-  const Interval interval = wilson_95(hits, trials);
-  rows.push_back({name, fmt::format("{}/{}", hits, trials)});
-  rows.push_back({name + "_low", interval.low});
-  rows.push_back({name + "_high", interval.high});
-}
+/// The paper's experiments on random desks.
+struct Experiment {
+  std::string_view name, clutter;
+  bool by_filling;
+  int trials;
+};
+constexpr std::array kExperiments{Experiment{"recognition", "desk.json", false, 20},
+                                  Experiment{"liquid", "liquids.json", true, 10}};
 
 /// Half of the values differ from the labels by less, if there are any: one wrong label does not count.
 void add_median(const std::string& name, std::vector<double> offs_m, std::vector<Row>& rows) {
@@ -77,11 +83,32 @@ std::vector<Row> summary(const LabelledResult& result) {
   return rows;
 }
 
-void run_evaluate(const EvaluateOptions& options, const CommonOptions& common) {
+void run_experiment(const Experiment& experiment, const EvaluateOptions& options, const CommonOptions& common) {
+  if (options.desk.given) throw UsageError("--height-mm and --pitch-deg stand in the clutter file of random desks");
+  const std::filesystem::path file =
+      options.clutter.empty() ? data_directory() / "clutter" / experiment.clutter : options.clutter;
+  const ClutterEvaluation evaluation{
+      .clutter = read_clutter_spec(file),
+      .files = {{"clutter", read_json(file)}, {"config", options.config.empty() ? Json() : read_json(options.config)}},
+      .by_filling = experiment.by_filling,
+      .trials = options.trials.value_or(experiment.trials),
+      .method = &method_named(options.method),
+      .detector = detector_settings(options.config)};
+  const std::vector<TrialResult> trials = run_trials(evaluation, common);
+  if (!common.output.empty()) {
+    write_table(common.output / "cups.csv", cups_table(trials));
+    write_table(common.output / "fillings.csv", fillings_table(trials));
+  }
+  print_results(common, "rates", ".txt", format_rows(rates(evaluation, trials), common.json));
+}
+
+void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
+  if (options.trials || !options.clutter.empty())
+    throw UsageError("--trials and --clutter are for the experiments recognition and liquid");
   const Method& method = method_named(options.method);
   DetectorSettings settings = detector_settings(options.config);
   settings.prior = options.desk.prior();
-  const LabelledResult result = evaluate_folder(options.folder, method, settings, common.quiet);
+  const LabelledResult result = evaluate_folder(options.what, method, settings, common.quiet);
   if (!common.output.empty()) {
     make_directory(common.output);
     write_table(common.output / "containers.csv", containers_table(result));
@@ -89,13 +116,25 @@ void run_evaluate(const EvaluateOptions& options, const CommonOptions& common) {
   print_results(common, "evaluation", ".txt", format_rows(summary(result), common.json));
 }
 
+void run_evaluate(const EvaluateOptions& options, const CommonOptions& common) {
+  for (const Experiment& experiment : kExperiments)
+    if (options.what == experiment.name) return run_experiment(experiment, options, common);
+  run_folder(options, common);
+}
+
 }  // namespace
 
 std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<EvaluateOptions>();
-  app.add_option("folder", options->folder, "Clouds with cups_groundtruth.csv beside them")
+  app.add_option("what", options->what,
+                 "recognition or liquid, the paper's experiments on random desks; or a folder of clouds with "
+                 "cups_groundtruth.csv beside them")
       ->required()
-      ->type_name("DIR");
+      ->type_name("recognition|liquid|DIR");
+  app.add_option("--trials", options->trials, "Random desks; of liquid for each filling (20, 10)")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--clutter", options->clutter, "What stands on the desks (scenes/clutter/desk.json, liquids.json)")
+      ->type_name("SPEC.json");
   add_method_option(app, options->method);
   add_desk_options(app, options->desk);
   app.add_option("--config", options->config, "Parameters of the method and its templates")->type_name("JSON");

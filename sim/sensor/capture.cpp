@@ -1,10 +1,10 @@
 #include "sim/sensor/capture.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
+#include "core/timed.h"
 #include "sim/render/intersect.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
@@ -12,15 +12,6 @@
 
 namespace fathom {
 namespace {
-
-/// Runs `work` and adds its wall-clock time.
-template <class Work>
-auto timed(double& seconds, Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  auto result = work();
-  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
-}
 
 /// What this unit makes of disparities [px]; 0 stays invalid.
 void misread(const UnitError& error, Image<float>& disparity) {

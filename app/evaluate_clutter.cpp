@@ -1,0 +1,213 @@
+#include "app/evaluate_clutter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/share_rows.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "core/rng.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The paper's cups of which less is in sight are not asked for.
+constexpr double kInSight = 0.3;
+
+/// How a trial failed, in one word for a file's name; nothing when all is right.
+std::string failure(const TrialResult& trial) {
+  for (const TrialCup& cup : trial.cups) {
+    if (cup.miss) return std::string(name_of(*cup.miss));
+    if (cup.liquid_found == (cup.liquid == "empty" ? "yes" : "no")) return "liquid";
+  }
+  return trial.false_cups.empty() ? "" : "false_cup";
+}
+
+/// The folder that keeps the trials; without one nothing is kept.
+class Keeper {
+ public:
+  Keeper(const ClutterEvaluation& evaluation, const CommonOptions& common) : folder_(common.output) {
+    if (folder_.empty()) return;
+    const Json identity = {{"fathom", FATHOM_VERSION},
+                           {"seed", common.seed},
+                           {"method", evaluation.method->name},
+                           {"by_filling", evaluation.by_filling},
+                           {"files", evaluation.files}};
+    const fs::path file = folder_ / "evaluation.json";
+    if (fs::exists(file) && read_json(file) != identity)
+      throw Error(file.string(),
+                  "is of another clutter, method, configuration, seed or program version; choose another folder");
+    if (!fs::exists(file) && fs::exists(folder_ / "trials"))
+      throw Error((folder_ / "trials").string(), "is there already; choose another folder");
+    make_directory(folder_);
+    write_json(file, identity);
+    for (const char* name : {"trials", "failures"}) {
+      make_directory(folder_ / name);
+      remove_leftovers(folder_ / name);
+    }
+  }
+
+  std::optional<TrialResult> kept(const std::string& name) const {
+    const fs::path file = folder_ / "trials" / (name + ".json");
+    if (folder_.empty() || !fs::exists(file)) return std::nullopt;
+    const Json json = read_json(file);
+    return trial_from_json(JsonReader(json, file.string()));
+  }
+
+  /// The trial's own file last: a trial with it is complete.
+  void keep(const std::string& name, const Json& scene, const Trial& trial) const {
+    if (folder_.empty()) return;
+    if (const std::string why = failure(trial.result); !why.empty()) {
+      write_json(folder_ / "failures" / fmt::format("{}_{}.json", name, why), scene);
+      write_png(folder_ / "failures" / fmt::format("{}_{}.png", name, why), trial.picture);
+    }
+    write_json(folder_ / "trials" / (name + ".json"), json_of(trial.result));
+  }
+
+ private:
+  fs::path folder_;
+};
+
+std::string trial_name(std::size_t number) { return fmt::format("{:06}", number); }
+
+int count_of(const std::vector<TrialResult>& trials, const std::function<bool(const TrialCup&)>& is) {
+  int count = 0;
+  for (const TrialResult& trial : trials)
+    count += static_cast<int>(std::count_if(trial.cups.begin(), trial.cups.end(), is));
+  return count;
+}
+
+double median_s(const std::vector<TrialResult>& trials, double TrialResult::*time) {
+  std::vector<double> times;
+  for (const TrialResult& trial : trials) times.push_back(trial.*time);
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+void add_liquid_rates(const std::vector<TrialResult>& trials, std::vector<Row>& rows) {
+  const auto share = [&](const char* name, bool filled, const char* right) {
+    add_share(name,
+              count_of(trials,
+                       [&](const TrialCup& cup) {
+                         return cup.found && (cup.liquid != "empty") == filled && cup.liquid_found == right;
+                       }),
+              count_of(trials,
+                       [&](const TrialCup& cup) {
+                         return cup.found && (cup.liquid != "empty") == filled && cup.liquid_found != "unknown";
+                       }),
+              rows);
+  };
+  share("sensitivity", true, "yes");
+  share("specificity", false, "no");
+  rows.push_back({"liquid_unknown", static_cast<double>(count_of(trials, [](const TrialCup& cup) {
+                    return cup.found && cup.liquid_found == "unknown";
+                  }))});
+  double sum = 0.0;
+  int filled = 0;
+  for (const TrialResult& trial : trials)
+    for (const TrialCup& cup : trial.cups)
+      if (cup.fill_found_mm && cup.liquid != "empty") sum += std::fabs(*cup.fill_found_mm - cup.fill_mm), ++filled;
+  if (filled > 0) rows.push_back({"fill_mean_absolute_error", sum / filled, "mm"});
+}
+
+std::string number_text(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : ""; }
+
+}  // namespace
+
+std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common) {
+  const Keeper keeper(evaluation, common);
+  const std::size_t conditions = evaluation.by_filling ? evaluation.clutter.fillings.size() : 1;
+  std::vector<TrialResult> results;
+  Progress progress("trial", conditions * evaluation.trials, common.quiet);
+  for (std::size_t condition = 0; condition < conditions; ++condition) {
+    ClutterSpec clutter = evaluation.clutter;
+    if (evaluation.by_filling) clutter.fillings = {evaluation.clutter.fillings[condition]};
+    for (int i = 0; i < evaluation.trials; ++i) {
+      // Each filling has its own numbers, so that more trials leave those there are as they were.
+      constexpr std::size_t kMostTrials = 100000;
+      const std::size_t number = condition * kMostTrials + i;
+      const std::string name = trial_name(number);
+      std::optional<TrialResult> result = keeper.kept(name);
+      if (!result) {
+        const Json scene = random_scene(clutter, common.seed, number);
+        const Trial trial = run_trial(scene, *evaluation.method, evaluation.detector, Rng(common.seed, number).bits());
+        keeper.keep(name, scene, trial);
+        result = trial.result;
+      }
+      results.push_back(*std::move(result));
+      progress.step();
+    }
+  }
+  return results;
+}
+
+std::vector<Row> rates(const ClutterEvaluation& evaluation, const std::vector<TrialResult>& trials) {
+  const auto any = [](const TrialCup&) { return true; };
+  const auto found = [](const TrialCup& cup) { return cup.found; };
+  const auto in_sight = [](const TrialCup& cup) { return cup.visible >= kInSight; };
+  int false_cups = 0;
+  for (const TrialResult& trial : trials) false_cups += static_cast<int>(trial.false_cups.size());
+  std::vector<Row> rows{{"method", std::string(evaluation.method->name)},
+                        {"trials", static_cast<double>(trials.size())}};
+  add_share("recognised", count_of(trials, found), count_of(trials, any), rows);
+  add_share("recognised_in_sight", count_of(trials, [&](const TrialCup& cup) { return found(cup) && in_sight(cup); }),
+            count_of(trials, in_sight), rows);
+  for (const Miss miss : {Miss::merged, Miss::occluded, Miss::refused})
+    rows.push_back({fmt::format("missed_{}", name_of(miss)),
+                    static_cast<double>(count_of(trials, [&](const TrialCup& cup) { return cup.miss == miss; }))});
+  add_share("precision", count_of(trials, found), count_of(trials, found) + false_cups, rows);
+  add_liquid_rates(trials, rows);
+  rows.push_back({"shoot_median", median_s(trials, &TrialResult::shoot_s), "s"});
+  rows.push_back({"detect_median", median_s(trials, &TrialResult::detect_s), "s"});
+  return rows;
+}
+
+Table cups_table(const std::vector<TrialResult>& trials) {
+  Table table({"trial", "cup", "x_mm", "y_mm", "visible", "liquid", "fill_mm", "found", "miss", "liquid_found",
+               "surface_mm", "kind_found", "fill_found_mm", "fill_sigma_mm", "p_liquid", "why"});
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::string number = fmt::format("{}", i);
+    for (const TrialCup& cup : trials[i].cups)
+      table.add({number, cup.shape, fmt::format("{:.1f}", cup.position_mm.x()),
+                 fmt::format("{:.1f}", cup.position_mm.y()), fmt::format("{:.3f}", cup.visible), cup.liquid,
+                 fmt::format("{:g}", cup.fill_mm), cup.found ? "yes" : "no",
+                 cup.miss ? std::string(name_of(*cup.miss)) : "", cup.liquid_found, number_text(cup.surface_mm),
+                 cup.kind_found, number_text(cup.fill_found_mm), number_text(cup.fill_sigma_mm),
+                 number_text(cup.p_liquid), cup.why});
+    for (const std::string& name : trials[i].false_cups)
+      table.add({number, name, "", "", "", "", "", "false", "", "", "", "", "", "", "", ""});
+  }
+  return table;
+}
+
+Table fillings_table(const std::vector<TrialResult>& trials) {
+  struct Tally {
+    int cups = 0, recognised = 0, detected = 0;
+  };
+  std::vector<std::pair<std::string, Tally>> fillings;  // in the order of the trials
+  for (const TrialResult& trial : trials)
+    for (const TrialCup& cup : trial.cups) {
+      const std::string name = cup.liquid + (cup.fill_mm > 0.0 ? fmt::format(",{:g}", cup.fill_mm) : ",0");
+      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const auto& one) { return one.first == name; });
+      if (known == fillings.end()) known = fillings.insert(known, {name, Tally{}});
+      ++known->second.cups;
+      known->second.recognised += cup.found;
+      known->second.detected += cup.liquid_found == "yes";
+    }
+  Table table({"liquid", "fill_mm", "cups", "recognised", "liquid_detected"});
+  for (const auto& [name, tally] : fillings) {
+    const std::size_t comma = name.rfind(',');
+    table.add({name.substr(0, comma), name.substr(comma + 1), fmt::format("{}", tally.cups),
+               fmt::format("{}", tally.recognised), fmt::format("{}", tally.detected)});
+  }
+  return table;
+}
+
+}  // namespace fathom

@@ -1,0 +1,36 @@
+// Detection rates over random desks: the paper's two experiments, and as many trials as one likes.
+#pragma once
+
+#include <vector>
+
+#include "app/clutter_trial.h"
+#include "app/command.h"
+#include "core/rows.h"
+#include "core/table.h"
+#include "sim/scene/clutter.h"
+
+namespace fathom {
+
+struct ClutterEvaluation {
+  ClutterSpec clutter;
+  Json files;               ///< texts of the clutter file and of the method's configuration
+  bool by_filling = false;  ///< as many trials of each of the spec's fillings; else each cup draws one
+  int trials = 20;
+  const Method* method = nullptr;
+  DetectorSettings detector;
+};
+
+/// The trials in their order. With -o DIR each is kept there in trials/, so that a run cut short goes on; a folder that
+/// belongs to another evaluation is refused. What failed has its scene and its picture in failures/.
+std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common);
+
+/// Recognition, and where cups are filled sensitivity and specificity, with their intervals; misses by kind.
+std::vector<Row> rates(const ClutterEvaluation& evaluation, const std::vector<TrialResult>& trials);
+
+/// A row for each cup that stands there, and for each that does not.
+Table cups_table(const std::vector<TrialResult>& trials);
+
+/// A row for each filling: recognised and detected, as the paper's Table I.
+Table fillings_table(const std::vector<TrialResult>& trials);
+
+}  // namespace fathom
