@@ -20,6 +20,8 @@ if(FATHOM_WARNINGS_AS_ERRORS)
   target_compile_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(FATHOM_SANITIZE)
+  # Under a sanitizer Eigen would align memory by hand, and free so what Debian's PCL took from malloc.
+  target_compile_definitions(fathom_settings INTERFACE $<BUILD_INTERFACE:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
   target_compile_options(fathom_settings INTERFACE
     $<BUILD_INTERFACE:-fsanitize=${FATHOM_SANITIZE};-fno-omit-frame-pointer;-fno-sanitize-recover=all>)
   target_link_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-fsanitize=${FATHOM_SANITIZE}>)

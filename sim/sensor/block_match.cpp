@@ -141,8 +141,8 @@ BlockReference block_reference(const MatcherModel& matcher, std::span<const Imag
   return reference;
 }
 
-Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference,
-                         int margin_px, const Image<float>& coarse) {
+Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference, int margin_px,
+                         const Image<float>& coarse) {
   const MatcherModel& matcher = sensor.matcher;
   const Blocks live = blocks_of(matcher, std::move(halved));
   const RowMatcher rows(sensor, live, reference, margin_px);

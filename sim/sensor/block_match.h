@@ -28,7 +28,7 @@ BlockReference block_reference(const MatcherModel& matcher, std::span<const Imag
 /// Disparity of every pixel relative to the reference plane [px], a multiple of 1/8; NaN where the block is not whole,
 /// has too little contrast, or nothing is alike enough. `halved` is the infrared image at the depth
 /// image's scale, `coarse` what search() found in it.
-Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference,
-                         int margin_px, const Image<float>& coarse);
+Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference, int margin_px,
+                         const Image<float>& coarse);
 
 }  // namespace fathom

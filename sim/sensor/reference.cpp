@@ -167,8 +167,7 @@ Reference memorise(const SensorModel& sensor, const Image<float>& image, int mar
     auto [even_slope, odd_slope] = convolved(paired, kernel(phase, lanczos_slope));
     reference.slope[phase] = std::move(even_slope), reference.slope[phase + kOdd] = std::move(odd_slope);
   }
-  if (sensor.matcher.method == MatchMethod::device)
-    reference.blocks = block_reference(sensor.matcher, reference.value);
+  if (sensor.matcher.method == MatchMethod::device) reference.blocks = block_reference(sensor.matcher, reference.value);
   return reference;
 }
 
