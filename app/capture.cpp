@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "core/files.h"
+#include "core/median.h"
 #include "core/progress.h"
 #include "core/rows.h"
 #include "core/units.h"
@@ -46,8 +47,7 @@ std::vector<Row> summary(const Frame& frame, const Image<TruePixel>& truth) {
   std::vector<Row> rows{{"pixels_lit", lit, "px"}, {"pixels_valid", valid, "px"}};
   if (lit > 0) rows.push_back({"valid_of_lit", both / lit, ""});
   if (errors.empty()) return rows;
-  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
-  rows.push_back({"median_depth_error", mm_from_metres(errors[errors.size() / 2]), "mm"});
+  rows.push_back({"median_depth_error", mm_from_metres(median(std::move(errors))), "mm"});
   rows.push_back({"beyond_10_mm", outliers / both, ""});
   return rows;
 }

@@ -30,12 +30,22 @@ DeskPrior prior_of(const Rig& rig) {
   return {rig.camera_in_world().z(), std::asin(down), roll_of(axes)};
 }
 
-/// How many pixels show cup `index`, or what is in it.
-int pixels_of_cup(const Geometry& geometry, const Image<TruePixel>& truth, std::size_t index) {
+/// Of each object the number of pixels, or of points, that lie on it.
+using Owners = std::map<int, int>;
+
+/// How many lie on cup `index`, or on what is in it.
+int count_on_cup(const Geometry& geometry, const Owners& owners, std::size_t index) {
   const std::string prefix = fmt::format("cup {} ", index);
-  return static_cast<int>(std::count_if(truth.pixels().begin(), truth.pixels().end(), [&](const TruePixel& pixel) {
-    return pixel.object > 0 && geometry.objects[pixel.object - 1].starts_with(prefix);
-  }));
+  int on_cup = 0;
+  for (const auto& [object, count] : owners)
+    if (object > 0 && geometry.objects[object - 1].starts_with(prefix)) on_cup += count;
+  return on_cup;
+}
+
+int pixels_of_cup(const Geometry& geometry, const Image<TruePixel>& truth, std::size_t index) {
+  Owners owners;
+  for (const TruePixel& pixel : truth.pixels()) ++owners[pixel.object];
+  return count_on_cup(geometry, owners, index);
 }
 
 /// The share of a cup that other things leave in sight.
@@ -48,8 +58,6 @@ double visible_share(const Setup& setup, const Camera& camera, std::size_t cup) 
   return whole == 0 ? 0.0 : static_cast<double>(pixels_of_cup(camera.geometry(), camera.truth(), cup)) / whole;
 }
 
-/// Of each object the number of a segment's points that lie on it.
-using Owners = std::map<int, int>;
 Owners owners_of(const Candidate& segment, const Eigen::Isometry3d& camera_from_desk, const SensorModel& sensor,
                  const Image<TruePixel>& truth) {
   Owners owners;
@@ -69,16 +77,6 @@ struct Search {
   Detection detection;
   Eigen::Isometry3d world_from_desk;
   std::vector<Owners> cups, rejected;
-
-  bool is_of_cup(int object, std::size_t cup) const {
-    return object > 0 && camera.geometry().objects[object - 1].starts_with(fmt::format("cup {} ", cup));
-  }
-  int points_of_cup(const Owners& owners, std::size_t cup) const {
-    int points = 0;
-    for (const auto& [object, count] : owners)
-      if (is_of_cup(object, cup)) points += count;
-    return points;
-  }
 };
 
 Search search(const Setup& setup, const Camera& camera, Detection detection) {
@@ -100,24 +98,22 @@ Eigen::Vector2d axis_in_world(const Search& search, const DetectedCup& cup) {
 }
 
 void explain_miss(const Search& search, std::size_t index, TrialCup& cup) {
-  cup.miss = cup.visible < kWholeCup ? Miss::occluded : Miss::refused;
   cup.why = search.detection.desk ? "no segment" : search.detection.why;
   int most = 0;
+  bool merged = false;
   const auto look_at = [&](const Owners& owners, const std::string& why) {
-    const int own = search.points_of_cup(owners, index);
+    const int own = count_on_cup(search.camera.geometry(), owners, index);
     if (own <= most) return;
     most = own;
     int all = 0;
     for (const auto& [object, count] : owners) all += count;
     cup.why = why;
-    if (all - own > kMerged * all)
-      cup.miss = Miss::merged;
-    else
-      cup.miss = cup.visible < kWholeCup ? Miss::occluded : Miss::refused;
+    merged = all - own > kMerged * all;
   };
   for (std::size_t i = 0; i < search.rejected.size(); ++i)
     look_at(search.rejected[i], search.detection.rejected[i].candidate.rejected);
   for (const Owners& owners : search.cups) look_at(owners, "found elsewhere");
+  cup.miss = merged ? Miss::merged : cup.visible < kWholeCup ? Miss::occluded : Miss::refused;
 }
 
 TrialCup true_cup(const Setup& setup, const Camera& camera, std::size_t index) {
@@ -196,17 +192,17 @@ std::string_view name_of(Miss miss) {
 Trial run_trial(const Json& scene, const Method& method, DetectorSettings settings, std::uint64_t seed) {
   const Setup setup = setup_from_json(scene, "random desk");
   settings.prior = prior_of(setup.rig);
-  TrialResult times;
+  double shoot_s = 0.0, detect_s = 0.0;
   std::optional<Camera> camera;
-  const Frame frame = timed(times.shoot_s, [&] {
+  const Frame frame = timed(shoot_s, [&] {
     camera.emplace(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed);
     return camera->shoot(0);
   });
   const Cloud cloud = cloud_from_image(frame.cloud);
-  Detection detection = timed(times.detect_s, [&] { return method.detect(cloud, settings); });
+  Detection detection = timed(detect_s, [&] { return method.detect(cloud, settings); });
   TrialResult result = compare(search(setup, *camera, std::move(detection)));
-  result.shoot_s = times.shoot_s;
-  result.detect_s = times.detect_s;
+  result.shoot_s = shoot_s;
+  result.detect_s = detect_s;
   return {std::move(result), preview(frame, camera->truth())};
 }
 

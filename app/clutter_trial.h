@@ -1,6 +1,7 @@
 // One random desk: shot, searched for cups, and what was found beside what stands there.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,8 @@ enum class Miss {
   occluded,  ///< other things hide much of it (Fig. 18)
   refused    ///< neither: the method looked at it and said no
 };
+
+inline constexpr std::array kMisses{Miss::merged, Miss::occluded, Miss::refused};
 
 std::string_view name_of(Miss miss);
 

@@ -4,8 +4,6 @@
 namespace fathom {
 namespace {
 
-constexpr std::array kMisses{Miss::merged, Miss::occluded, Miss::refused};
-
 Json optional_number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 std::optional<double> number_if_any(const JsonReader& json, const char* key) {

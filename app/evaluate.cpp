@@ -14,6 +14,7 @@
 #include "app/results.h"
 #include "app/share_rows.h"
 #include "core/files.h"
+#include "core/median.h"
 #include "core/rows.h"
 #include "core/units.h"
 
@@ -42,9 +43,7 @@ constexpr std::array kExperiments{Experiment{"recognition", "desk.json", false, 
 void add_median(const std::string& name, std::vector<double> offs_m, std::vector<Row>& rows) {
   if (offs_m.empty()) return;
   for (double& off : offs_m) off = std::abs(off);
-  const auto middle = offs_m.begin() + static_cast<std::ptrdiff_t>(offs_m.size() / 2);
-  std::nth_element(offs_m.begin(), middle, offs_m.end());
-  rows.push_back({name, mm_from_metres(*middle), "mm"});
+  rows.push_back({name, mm_from_metres(median(std::move(offs_m))), "mm"});
 }
 
 std::vector<Row> summary(const LabelledResult& result) {
@@ -87,13 +86,12 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
   if (options.desk.given) throw UsageError("--height-mm and --pitch-deg stand in the clutter file of random desks");
   const std::filesystem::path file =
       options.clutter.empty() ? data_directory() / "clutter" / experiment.clutter : options.clutter;
-  const ClutterEvaluation evaluation{
-      .clutter = read_clutter_spec(file),
-      .files = {{"clutter", read_json(file)}, {"config", options.config.empty() ? Json() : read_json(options.config)}},
-      .by_filling = experiment.by_filling,
-      .trials = options.trials.value_or(experiment.trials),
-      .method = &method_named(options.method),
-      .detector = detector_settings(options.config)};
+  const ClutterEvaluation evaluation{.clutter = read_clutter_spec(file),
+                                     .config = options.config.empty() ? Json() : read_json(options.config),
+                                     .by_filling = experiment.by_filling,
+                                     .trials = options.trials.value_or(experiment.trials),
+                                     .method = &method_named(options.method),
+                                     .detector = detector_settings(options.config)};
   const std::vector<TrialResult> trials = run_trials(evaluation, common);
   if (!common.output.empty()) {
     write_table(common.output / "cups.csv", cups_table(trials));

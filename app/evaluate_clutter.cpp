@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/share_rows.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/median.h"
 #include "core/progress.h"
 #include "core/rng.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paper's cups of which less is in sight are not asked for.
+/// Cups of which less is in sight are not asked for.
 constexpr double kInSight = 0.3;
 
 /// How a trial failed, in one word for a file's name; nothing when all is right.
@@ -38,7 +38,8 @@ class Keeper {
                            {"seed", common.seed},
                            {"method", evaluation.method->name},
                            {"by_filling", evaluation.by_filling},
-                           {"files", evaluation.files}};
+                           {"clutter", evaluation.clutter.source},
+                           {"config", evaluation.config}};
     const fs::path file = folder_ / "evaluation.json";
     if (fs::exists(file) && read_json(file) != identity)
       throw Error(file.string(),
@@ -86,9 +87,7 @@ int count_of(const std::vector<TrialResult>& trials, const std::function<bool(co
 double median_s(const std::vector<TrialResult>& trials, double TrialResult::*time) {
   std::vector<double> times;
   for (const TrialResult& trial : trials) times.push_back(trial.*time);
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return median(std::move(times));
 }
 
 void add_liquid_rates(const std::vector<TrialResult>& trials, std::vector<Row>& rows) {
@@ -159,7 +158,7 @@ std::vector<Row> rates(const ClutterEvaluation& evaluation, const std::vector<Tr
   add_share("recognised", count_of(trials, found), count_of(trials, any), rows);
   add_share("recognised_in_sight", count_of(trials, [&](const TrialCup& cup) { return found(cup) && in_sight(cup); }),
             count_of(trials, in_sight), rows);
-  for (const Miss miss : {Miss::merged, Miss::occluded, Miss::refused})
+  for (const Miss miss : kMisses)
     rows.push_back({fmt::format("missed_{}", name_of(miss)),
                     static_cast<double>(count_of(trials, [&](const TrialCup& cup) { return cup.miss == miss; }))});
   add_share("precision", count_of(trials, found), count_of(trials, found) + false_cups, rows);
@@ -189,24 +188,25 @@ Table cups_table(const std::vector<TrialResult>& trials) {
 
 Table fillings_table(const std::vector<TrialResult>& trials) {
   struct Tally {
+    std::string liquid;
+    double fill_mm;
     int cups = 0, recognised = 0, detected = 0;
   };
-  std::vector<std::pair<std::string, Tally>> fillings;  // in the order of the trials
+  std::vector<Tally> fillings;  // in the order of the trials
   for (const TrialResult& trial : trials)
     for (const TrialCup& cup : trial.cups) {
-      const std::string name = cup.liquid + (cup.fill_mm > 0.0 ? fmt::format(",{:g}", cup.fill_mm) : ",0");
-      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const auto& one) { return one.first == name; });
-      if (known == fillings.end()) known = fillings.insert(known, {name, Tally{}});
-      ++known->second.cups;
-      known->second.recognised += cup.found;
-      known->second.detected += cup.liquid_found == "yes";
+      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const Tally& tally) {
+        return tally.liquid == cup.liquid && tally.fill_mm == cup.fill_mm;
+      });
+      if (known == fillings.end()) known = fillings.insert(known, {cup.liquid, cup.fill_mm});
+      ++known->cups;
+      known->recognised += cup.found;
+      known->detected += cup.liquid_found == "yes";
     }
   Table table({"liquid", "fill_mm", "cups", "recognised", "liquid_detected"});
-  for (const auto& [name, tally] : fillings) {
-    const std::size_t comma = name.rfind(',');
-    table.add({name.substr(0, comma), name.substr(comma + 1), fmt::format("{}", tally.cups),
+  for (const Tally& tally : fillings)
+    table.add({tally.liquid, fmt::format("{:g}", tally.fill_mm), fmt::format("{}", tally.cups),
                fmt::format("{}", tally.recognised), fmt::format("{}", tally.detected)});
-  }
   return table;
 }
 

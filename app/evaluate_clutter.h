@@ -13,7 +13,7 @@ namespace fathom {
 
 struct ClutterEvaluation {
   ClutterSpec clutter;
-  Json files;               ///< texts of the clutter file and of the method's configuration
+  Json config;              ///< text of the method's configuration file; null without one
   bool by_filling = false;  ///< as many trials of each of the spec's fillings; else each cup draws one
   int trials = 20;
   const Method* method = nullptr;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
+
 namespace fathom {
 
 MatchError match_error(const StereoPair& pair, const Image<float>& disparity_px) {
@@ -25,9 +27,7 @@ MatchError match_error(const StereoPair& pair, const Image<float>& disparity_px)
     }
   if (inliers == 0) return {};
   const double valid = static_cast<double>(errors.size());
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return {valid / lit, *middle, std::sqrt(squares / inliers), 1.0 - inliers / valid};
+  return {valid / lit, median(std::move(errors)), std::sqrt(squares / inliers), 1.0 - inliers / valid};
 }
 
 }  // namespace fathom

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/sensor_scenes.h"
+#include "core/median.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -29,9 +30,8 @@ TemporalNoise temporal_noise(Camera& camera) {
     total += deviations.back();
   }
   if (deviations.empty()) return {0.0, 0.0, valid};
-  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  return {*middle, total / static_cast<double>(deviations.size()), valid};
+  const double mean = total / static_cast<double>(deviations.size());
+  return {median(std::move(deviations)), mean, valid};
 }
 
 }  // namespace fathom

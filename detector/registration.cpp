@@ -53,18 +53,24 @@ Described describe(const Points& points, const RegistrationConfig& config) {
   return result;
 }
 
-/// Pose of the template in the segment's frame, whatever it is worth.
-using Register = Eigen::Matrix4f (*)(const Described& known, const Described& segment, const RegistrationConfig&);
-
-Eigen::Matrix4f register_sac_ia(const Described& known, const Described& segment, const RegistrationConfig& config) {
+/// What both methods are given.
+template <class Consensus>
+void set_pair(const Described& known, const Described& segment, const RegistrationConfig& config, Consensus& sac) {
   std::srand(1);  // PCL draws by it
-  pcl::SampleConsensusInitialAlignment<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> sac;
   sac.setInputSource(known.points);
   sac.setSourceFeatures(known.descriptors);
   sac.setInputTarget(segment.points);
   sac.setTargetFeatures(segment.descriptors);
-  sac.setMinSampleDistance(0.02f);
   sac.setMaxCorrespondenceDistance(config.score_max_m);
+}
+
+/// Pose of the template in the segment's frame, whatever it is worth.
+using Register = Eigen::Matrix4f (*)(const Described& known, const Described& segment, const RegistrationConfig&);
+
+Eigen::Matrix4f register_sac_ia(const Described& known, const Described& segment, const RegistrationConfig& config) {
+  pcl::SampleConsensusInitialAlignment<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> sac;
+  set_pair(known, segment, config, sac);
+  sac.setMinSampleDistance(0.02f);
   sac.setMaximumIterations(config.iterations);
   PclCloud aligned;
   sac.align(aligned);
@@ -73,16 +79,11 @@ Eigen::Matrix4f register_sac_ia(const Described& known, const Described& segment
 
 Eigen::Matrix4f register_prerejective(const Described& known, const Described& segment,
                                       const RegistrationConfig& config) {
-  std::srand(1);
   pcl::SampleConsensusPrerejective<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33> sac;
-  sac.setInputSource(known.points);
-  sac.setSourceFeatures(known.descriptors);
-  sac.setInputTarget(segment.points);
-  sac.setTargetFeatures(segment.descriptors);
+  set_pair(known, segment, config, sac);
   sac.setNumberOfSamples(3);
   sac.setCorrespondenceRandomness(5);
   sac.setSimilarityThreshold(0.9f);
-  sac.setMaxCorrespondenceDistance(config.score_max_m);
   sac.setInlierFraction(0.25f);
   sac.setMaximumIterations(10 * config.iterations);  // most are dropped before they cost anything
   PclCloud aligned;

@@ -22,6 +22,7 @@ struct ClutterSpec {
     int low, high;
   };
 
+  Json source;        ///< the file's text
   Json sensor, desk;  ///< as in a scene file
   Count cups{1, 1}, objects{3, 6};
   std::vector<ClutterThing> cup_kinds, object_kinds;

@@ -56,13 +56,13 @@ Eigen::AlignedBox2d region_from_json(const JsonReader& json) {
 }  // namespace
 
 ClutterSpec read_clutter_spec(const std::filesystem::path& path) {
-  const Json source = read_json(path);
-  const JsonReader json(source, path.string());
-  json.allow_only({"sensor", "desk", "cups", "objects", "fillings", "region_mm", "gap_mm", "touching", "occluding"});
   ClutterSpec spec;
+  spec.source = read_json(path);
+  const JsonReader json(spec.source, path.string());
+  json.allow_only({"sensor", "desk", "cups", "objects", "fillings", "region_mm", "gap_mm", "touching", "occluding"});
   spec.sensor = json.at("sensor").value();
   rig_from_json(json.at("sensor"));
-  spec.desk = json.has("desk") ? source["desk"] : Json::object();
+  spec.desk = json.has("desk") ? spec.source["desk"] : Json::object();
   const Json bare{{"desk", spec.desk}};
   if (!scene_from_json(JsonReader(bare, path.string())).desk)
     json.fail_at("desk", "is what things stand on and cannot be null");

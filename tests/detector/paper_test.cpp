@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "tests/detector/synthetic.h"
+#include "tests/detector/why_no_desk.h"
 
 namespace fathom {
 namespace {
@@ -170,18 +171,13 @@ TEST(PaperMethod, TurningTheSceneAboutTheVerticalThroughTheCameraDoesNotMatter) 
 }
 
 TEST(PaperMethod, CloudsWithoutADeskSaySo) {
-  const auto why = [](const Cloud& cloud, std::optional<DeskPrior> prior = std::nullopt) {
-    const Detection result = detect(cloud, prior);
-    EXPECT_FALSE(result.desk);
-    EXPECT_TRUE(result.cups.empty());
-    return result.why;
-  };
   const Eigen::Vector3f nothing = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-  EXPECT_EQ(why({}), "no desk: the cloud has 0 measured points");
-  EXPECT_EQ(why({Points(64, nothing), {}, 8, 8}), "no desk: the cloud has 0 measured points");
-  EXPECT_EQ(why({{{0.0f, 0.0f, 1.0f}}, {}, 1, 1}), "no desk: the cloud has 1 measured points");
-  EXPECT_EQ(why({Points(64, {0.0f, 0.0f, 1.0f}), {}, 64, 1}), "no desk: none of 0 planes lies below the camera");
-  EXPECT_EQ(why(noisy_cup(), DeskPrior{0.65, -1.0}),
+  EXPECT_EQ(why_no_desk(detect({})), "no desk: the cloud has 0 measured points");
+  EXPECT_EQ(why_no_desk(detect({Points(64, nothing), {}, 8, 8})), "no desk: the cloud has 0 measured points");
+  EXPECT_EQ(why_no_desk(detect({{{0.0f, 0.0f, 1.0f}}, {}, 1, 1})), "no desk: the cloud has 1 measured points");
+  EXPECT_EQ(why_no_desk(detect({Points(64, {0.0f, 0.0f, 1.0f}), {}, 64, 1})),
+            "no desk: none of 0 planes lies below the camera");
+  EXPECT_EQ(why_no_desk(detect(noisy_cup(), DeskPrior{0.65, -1.0})),
             "no desk: none of 1 planes lies where the sensor's height and pitch put it");
 }
 
