@@ -17,6 +17,7 @@ LAYERS = {
     "sim/sensor": ["core", "sim/*"],
     "openni2": ["core", "sim/*"],
     "detector": ["core"],
+    "diagnosis/statistics": ["core"],
     "examples": ["core", "detector"],
     "app": EVERYTHING,
     "bench": EVERYTHING,

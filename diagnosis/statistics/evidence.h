@@ -1,0 +1,66 @@
+// What the statistics see of a campaign: what was measured, what the model predicts, and how it could be wrong.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+/// How an observation came about. What does not apply is 0 or empty.
+struct Factors {
+  int session = 0, pour = 0, placement = 0;
+  double time_s = 0.0;  ///< since the session began, mean of the repeats
+  std::string liquid;   ///< "empty", "none" (bare desk), or a liquid of the rig
+  double fill_mm = 0.0, distance_mm = 0.0, lateral_mm = 0.0;
+  std::string region;  ///< of the cup or of the desk around it
+};
+
+/// One number that a cloud gives, over the repeats (trials) of one placement.
+struct Observation {
+  std::string observable;  ///< its name, with its unit: "height_mm", "valid_fraction"
+  Factors factors;
+  double value = 0.0;      ///< mean of the repeats
+  double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
+  int repeats = 1;
+};
+
+/// Something uncertain that is no effect: a calibrated length, the fill of one pour, the place of one placement.
+struct Nuisance {
+  std::string name;
+  double sigma = 0.0;         ///< of its prior, about 0
+  Eigen::VectorXd signature;  ///< change of every observation per unit
+};
+
+struct Parameter {
+  std::string name;          ///< with its unit: "scattering_per_mm"
+  double nominal = 0.0;      ///< the value at which the effect is absent
+  double prior_scale = 1.0;  ///< a typical departure from nominal
+  double lower = 0.0, upper = 0.0;
+};
+
+/// An effect that the model leaves out.
+struct Candidate {
+  std::string effect;
+  std::vector<Parameter> parameters;
+  Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
+};
+
+struct Evidence {
+  std::vector<Observation> observations;
+  Eigen::VectorXd predicted;  ///< by the nominal model, one for each observation
+  std::vector<Nuisance> nuisances;
+  std::vector<Candidate> candidates;
+};
+
+/// An effect switched on, with the values of its parameters in their order.
+struct EffectValue {
+  std::string effect;
+  std::vector<double> values;
+};
+
+/// The observations as the model with these effects predicts them.
+using Predict = std::function<Eigen::VectorXd(const std::vector<EffectValue>&)>;
+
+}  // namespace fathom
