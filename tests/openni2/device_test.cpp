@@ -183,7 +183,7 @@ TEST_F(Device, SaysWhatTheXtionSays) {
     ASSERT_EQ(s2d[shift], in_range ? static_cast<int>(depth_mm) : 0) << shift;
   }
   const std::vector<std::uint16_t> d2s = client.table(XN_STREAM_PROPERTY_D2S_TABLE, 10001);
-  for (int shift = 0; shift < 2047; ++shift)
+  for (int shift = 1; shift < 2047; ++shift)
     if (s2d[shift] > s2d[shift - 1] && s2d[shift] < s2d[shift + 1]) {
       ASSERT_EQ(d2s[s2d[shift]], shift);
     }

@@ -100,8 +100,9 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
 }
 
 TEST(Schema, WholeNumbersHaveTheRangesOfTheParser) {
+  const Json whole = schema();
   for (const char* part : {"noise", "pattern", "matcher", "unit"})
-    for (const auto& [key, rule] : schema().at("$defs").at(part).at("properties").items()) {
+    for (const auto& [key, rule] : whole.at("$defs").at(part).at("properties").items()) {
       if (rule.value("type", "") != "integer" || !rule.contains("maximum")) continue;
       const int low = rule.at("minimum"), high = rule.at("maximum");
       Json scene = full_scene();
@@ -126,7 +127,8 @@ TEST(Schema, RefersOnlyToItself) {
 }
 
 TEST(Schema, NoisePresetsAreTheParsers) {
-  for (const Json& name : schema().at(Json::json_pointer("/$defs/sensor/properties/noise/anyOf/0/enum"))) {
+  const Json whole = schema();
+  for (const Json& name : whole.at(Json::json_pointer("/$defs/sensor/properties/noise/anyOf/0/enum"))) {
     Json scene = full_scene();
     scene["sensor"]["noise"] = name;
     EXPECT_NO_THROW(setup_from_json(scene, "scene.json")) << name;
