@@ -23,7 +23,8 @@ Device::Device(const std::string& uri, oni::driver::DriverServices& services, St
         state_changed(problem.empty() ? ONI_DEVICE_STATE_EOF : ONI_DEVICE_STATE_ERROR, problem);
       }) {
   const SensorModel& sensor = player_.source().sensor();
-  for (const OniPixelFormat format : {ONI_PIXEL_FORMAT_DEPTH_1_MM, ONI_PIXEL_FORMAT_DEPTH_100_UM})
+  for (const OniPixelFormat format :
+       {ONI_PIXEL_FORMAT_DEPTH_1_MM, ONI_PIXEL_FORMAT_DEPTH_100_UM, ONI_PIXEL_FORMAT_SHIFT_9_2})
     depth_modes_.push_back({format, sensor.width, sensor.height, kFramesPerSecond});
   sensors_.push_back({ONI_SENSOR_DEPTH, static_cast<int>(depth_modes_.size()), depth_modes_.data()});
   if (!player_.source().has_infrared()) return;
@@ -44,7 +45,7 @@ oni::driver::StreamBase* Device::createStream(OniSensorType type) {
       if (sensor.sensorType == type) {
         const std::span modes(sensor.pSupportedVideoModes, static_cast<std::size_t>(sensor.numSupportedVideoModes));
         const std::lock_guard lock(mutex_);
-        return streams_.emplace_back(std::make_unique<Stream>(type, modes, player_, services_)).get();
+        return streams_.emplace_back(std::make_unique<Stream>(type, modes, player_, registered_, services_)).get();
       }
     return nullptr;
   });
@@ -66,7 +67,7 @@ std::optional<PropertyValue> Device::property(int id) const {
     case ONI_DEVICE_PROPERTY_SERIAL_NUMBER:
       return text(uri_);
     case ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION:
-      return std::int64_t{ONI_IMAGE_REGISTRATION_OFF};
+      return std::int64_t{registered_ ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF};
     case ONI_DEVICE_PROPERTY_PLAYBACK_SPEED:
       return is_folder() ? std::optional<PropertyValue>(double{player_.speed()}) : std::nullopt;
     case ONI_DEVICE_PROPERTY_PLAYBACK_REPEAT_ENABLED:
@@ -91,7 +92,9 @@ OniStatus Device::setProperty(int id, const void* data, int size) {
   if (id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) {
     const auto mode = read_property<OniImageRegistrationMode>(data, size);
     if (!mode) return ONI_STATUS_BAD_PARAMETER;
-    return *mode == ONI_IMAGE_REGISTRATION_OFF ? ONI_STATUS_OK : ONI_STATUS_NOT_SUPPORTED;
+    if (!isImageRegistrationModeSupported(*mode)) return ONI_STATUS_NOT_SUPPORTED;
+    registered_ = *mode == ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+    return ONI_STATUS_OK;
   }
   if (is_folder() && id == ONI_DEVICE_PROPERTY_PLAYBACK_SPEED) {
     const auto speed = read_property<float>(data, size);
@@ -121,6 +124,10 @@ OniStatus Device::invoke(int command, void* data, int size) {
 OniStatus Device::tryManualTrigger() {
   if (player_.speed() == Player::kManual) player_.trigger();
   return ONI_STATUS_OK;
+}
+
+OniBool Device::isImageRegistrationModeSupported(OniImageRegistrationMode mode) {
+  return mode == ONI_IMAGE_REGISTRATION_OFF || mode == ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR;
 }
 
 }  // namespace fathom

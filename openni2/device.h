@@ -4,6 +4,7 @@
 #include <Driver/OniDriverAPI.h>
 
 #include <array>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -33,6 +34,7 @@ class Device final : public oni::driver::DeviceBase {
   OniStatus invoke(int command, void* data, int size) override;
   OniBool isCommandSupported(int command) override;
   OniStatus tryManualTrigger() override;
+  OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
 
  private:
   std::optional<PropertyValue> property(int id) const;
@@ -43,6 +45,7 @@ class Device final : public oni::driver::DeviceBase {
   Player player_;
   std::vector<OniVideoMode> depth_modes_, infrared_modes_;
   std::vector<OniSensorInfo> sensors_;
+  std::atomic<bool> registered_ = false;  ///< depth as the colour camera sees it
   std::mutex mutex_;
   std::vector<std::unique_ptr<Stream>> streams_;  ///< those that are not destroyed are when the device is closed
 };

@@ -5,6 +5,7 @@
 
 #include "openni2/guard.h"
 #include "openni2/pixels.h"
+#include "sim/sensor/device_outputs.h"
 
 namespace fathom {
 namespace {
@@ -20,12 +21,20 @@ Region region_of(const OniCropping& cropping) {
   return {cropping.originX, cropping.originY, cropping.width, cropping.height};
 }
 
+/// Shifts stay where the infrared camera has them: the device registers what its table made of them.
+Image<std::uint16_t> measured_pixels(const SensorModel& sensor, const Frame& frame, const StreamState& state,
+                                     bool registered) {
+  if (state.mode.pixelFormat == ONI_PIXEL_FORMAT_SHIFT_9_2) return shift_image(sensor, frame.disparity_px);
+  return depth_pixels(sensor, frame, state.depth_unit(), registered);
+}
+
 }  // namespace
 
 Stream::Stream(OniSensorType type, std::span<const OniVideoMode> modes, Player& player,
-               oni::driver::DriverServices& services)
+               const std::atomic<bool>& registered, oni::driver::DriverServices& services)
     : modes_(modes),
       player_(player),
+      registered_(registered),
       services_(services),
       state_{type, modes.front(), whole_image(modes.front()), false} {}
 
@@ -127,7 +136,7 @@ void Stream::deliver(const Shot& shot) {
   const SensorModel& sensor = player_.source().sensor();
   const Region region = region_of(now.cropping);
   const Image<std::uint16_t> image = now.type == ONI_SENSOR_DEPTH
-                                         ? depth_pixels(sensor, shot.frame, now.depth_unit())
+                                         ? measured_pixels(sensor, shot.frame, now, registered_)
                                          : infrared_pixels(sensor, shot.frame, now.mode.resolutionX);
   OniFrame* frame = getServices().acquireFrame();
   if (!frame) return;

@@ -3,6 +3,7 @@
 
 #include <Driver/OniDriverAPI.h>
 
+#include <atomic>
 #include <mutex>
 #include <span>
 
@@ -14,7 +15,7 @@ namespace fathom {
 class Stream final : public oni::driver::StreamBase {
  public:
   /// The first mode is the one it starts with. All arguments must outlive it.
-  Stream(OniSensorType type, std::span<const OniVideoMode> modes, Player& player,
+  Stream(OniSensorType type, std::span<const OniVideoMode> modes, Player& player, const std::atomic<bool>& registered,
          oni::driver::DriverServices& services);
   ~Stream() override { stop(); }
 
@@ -35,6 +36,7 @@ class Stream final : public oni::driver::StreamBase {
 
   std::span<const OniVideoMode> modes_;
   Player& player_;
+  const std::atomic<bool>& registered_;  ///< the device's setting
   oni::driver::DriverServices& services_;
 
   mutable std::mutex mutex_;  ///< of what follows; never held while OpenNI2 is called, which asks back

@@ -25,8 +25,9 @@ int max_depth(const SensorModel& sensor, double unit) {
 }
 
 std::int64_t max_value(const FrameSource& source, const StreamState& state) {
-  return state.type == ONI_SENSOR_DEPTH ? max_depth(source.sensor(), state.depth_unit())
-                                        : infrared_full_scale(source.sensor());
+  if (state.type != ONI_SENSOR_DEPTH) return infrared_full_scale(source.sensor());
+  return state.mode.pixelFormat == ONI_PIXEL_FORMAT_SHIFT_9_2 ? kMaxShift
+                                                              : max_depth(source.sensor(), state.depth_unit());
 }
 
 int columns(const StreamState& state) { return state.cropping.enabled ? state.cropping.width : state.mode.resolutionX; }

@@ -8,6 +8,7 @@
 
 #include "sim/scene/geometry.h"
 #include "sim/sensor/depth.h"
+#include "sim/sensor/device_outputs.h"
 #include "sim/sensor/read_capture.h"
 #include "tests/core/expect_error.h"
 #include "tests/openni2/client.h"
@@ -170,8 +171,6 @@ TEST_F(Device, SaysWhatTheXtionSays) {
   EXPECT_FALSE(
       client.stream.isPropertySupported(XN_STREAM_PROPERTY_DCMOS_RCMOS_DISTANCE));  // there is no colour camera
   EXPECT_FALSE(client.device.hasSensor(openni::SENSOR_COLOR));
-  EXPECT_FALSE(client.device.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR));
-  EXPECT_NE(client.device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR), STATUS_OK);
 
   // OpenNI2's formula of the properties above, which the driver does not use.
   const std::vector<std::uint16_t> s2d = client.table(XN_STREAM_PROPERTY_S2D_TABLE, 2048);
@@ -179,7 +178,7 @@ TEST_F(Device, SaysWhatTheXtionSays) {
   for (int shift = 0; shift < 2047; ++shift) {
     const double metric = ((shift - 800) / 4.0 - 0.375) * pixel_cm;
     const double depth_mm = 10.0 * (metric * 120.0 / (7.5 - metric) + 120.0);
-    const bool in_range = metric < 7.5 && std::floor(depth_mm) >= 400.0 && std::floor(depth_mm) <= 10000.0;
+    const bool in_range = metric < 7.5 && std::floor(depth_mm) >= 450.0 && std::floor(depth_mm) <= 10000.0;
     ASSERT_EQ(s2d[shift], in_range ? static_cast<int>(depth_mm) : 0) << shift;
   }
   const std::vector<std::uint16_t> d2s = client.table(XN_STREAM_PROPERTY_D2S_TABLE, 10001);
@@ -187,6 +186,30 @@ TEST_F(Device, SaysWhatTheXtionSays) {
     if (s2d[shift] > s2d[shift - 1] && s2d[shift] < s2d[shift + 1]) {
       ASSERT_EQ(d2s[s2d[shift]], shift);
     }
+}
+
+TEST_F(Device, GivesShiftsThatItsTableTakesToDepths) {
+  Client client(captured().frames, openni::SENSOR_DEPTH);
+  const std::vector<std::uint16_t> s2d = client.table(XN_STREAM_PROPERTY_S2D_TABLE, 2048);
+  client.set_mode(openni::PIXEL_FORMAT_SHIFT_9_2, sensor().width);
+  EXPECT_EQ(client.stream.getMaxPixelValue(), 2047);
+  ASSERT_EQ(client.device.getPlaybackControl()->setSpeed(-1.0f), STATUS_OK);
+  ASSERT_EQ(client.stream.start(), STATUS_OK);
+  std::vector<std::uint16_t> depth = client.read().pixels;
+  for (std::uint16_t& pixel : depth) pixel = s2d.at(pixel);
+  EXPECT_EQ(depth, captured_mm(captured().frames, 0));
+}
+
+TEST_F(Device, RegistersDepthToWhereAColourCameraStands) {
+  Client client(captured().frames, openni::SENSOR_DEPTH);
+  EXPECT_EQ(client.device.getImageRegistrationMode(), openni::IMAGE_REGISTRATION_OFF);
+  ASSERT_TRUE(client.device.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR));
+  ASSERT_EQ(client.device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR), STATUS_OK);
+  EXPECT_EQ(client.device.getImageRegistrationMode(), openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
+  ASSERT_EQ(client.device.getPlaybackControl()->setSpeed(-1.0f), STATUS_OK);
+  ASSERT_EQ(client.stream.start(), STATUS_OK);
+  const Frame recorded = read_frame(read_capture(captured().frames), 0, false);
+  EXPECT_EQ(client.read().pixels, in_units(registered_to_colour(sensor(), recorded.depth), 1e-3));
 }
 
 TEST_F(Device, MirrorsAndCrops) {
