@@ -34,33 +34,22 @@ void append(std::vector<DeskWindow>& all, const std::vector<DeskWindow>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-}  // namespace
-
-void compare_desks() {
-  const Setup twin = desk_twin();
-  const SensorModel& sensor = twin.rig.sensor;
-  std::vector<DeskWindow> measured, simulated;
-  const std::vector<DeskImage> clouds = measured_desks();
-  for (const DeskImage& image : clouds) append(measured, windows_of(sensor, image));
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
-    if (const auto image = with_desk("twin", in_colour_view(shoot(twin, seed).depth, sensor.focal_px)))
-      append(simulated, windows_of(sensor, *image));
-
-  print_title("Bare desk: windows of 31 x 31 pixels, their plane of disparity removed (registered to colour)");
-  if (clouds.empty()) print_note("skipped: no measured clouds (FATHOM_REAL_DATA); published figures instead");
-  const std::string_view source = clouds.empty() ? "published" : "measured";
+/// `simulated` windows beside those measured; none measured: beside what was published with the clouds' analysis.
+void compare(const SensorModel& sensor, const std::vector<DeskWindow>& simulated,
+             const std::vector<DeskWindow>& measured) {
+  const std::string_view source = measured.empty() ? "published" : "measured";
   for (const Published& at : kDistances) {
     const DeskNoise sim = desk_noise(sensor, simulated, at.from, at.to);
     const DeskNoise real = desk_noise(sensor, measured, at.from, at.to);
     const auto name = [&](std::string_view what) { return fmt::format("{:.2f} m: {}", at.distance, what); };
-    const double sigma = clouds.empty() ? at.sigma_steps : real.sigma_steps;
+    const double sigma = measured.empty() ? at.sigma_steps : real.sigma_steps;
     print_figure(name("sigma [steps of 1/8 px]"), sim.sigma_steps, sigma, source, within_share(sigma, 0.15));
-    if (!clouds.empty()) {
+    if (!measured.empty()) {
       print_figure(name("sigma [mm]"), mm_from_metres(sim.sigma), mm_from_metres(real.sigma), source);
       print_figure(name("slow bias [mm]"), mm_from_metres(sim.height), mm_from_metres(real.height), source);
     }
     const auto correlation = [&](char axis, int lag, double ours, double published, double theirs) {
-      const double other = clouds.empty() ? published : theirs;
+      const double other = measured.empty() ? published : theirs;
       print_figure(name(fmt::format("autocorrelation {} {}", axis, lag)), ours, other, source, within(other, 0.1));
     };
     for (std::size_t i = 0; i < kLagsX.size(); ++i)
@@ -68,9 +57,26 @@ void compare_desks() {
     for (std::size_t i = 0; i < kLagsY.size(); ++i)
       correlation('y', kLagsY[i], sim.correlation_y[i], kPublishedY[i], real.correlation_y[i]);
   }
+}
+
+}  // namespace
+
+void compare_desks(CaptureMode mode) {
+  const Setup twin = desk_twin();
+  const SensorModel& sensor = twin.rig.sensor;
+  std::vector<DeskWindow> measured, simulated;
+  const std::vector<DeskImage> clouds = measured_desks();
+  for (const DeskImage& image : clouds) append(measured, windows_of(sensor, image));
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    if (const auto image = with_desk("twin", in_colour_view(shoot(twin, seed, mode).depth, sensor.focal_px)))
+      append(simulated, windows_of(sensor, *image));
+  print_title("Bare desk: windows of 31 x 31 pixels, their plane of disparity removed (registered to colour)");
+  if (clouds.empty()) print_note("skipped: no measured clouds (FATHOM_REAL_DATA); published figures instead");
+  compare(sensor, simulated, measured);
+  if (mode == CaptureMode::geometric) return;
   print_note(
       "Fitted: f-number, dot size, focus and beam, to these sigmas, to the columns' correlation and to a facing");
-  print_note("wall at 1 m, all at once. Predicted: the rows' correlation, walls over distance, pots.");
+  print_note("wall at 1 m, all at once. Predicted: the rows' correlation, walls over distance.");
 }
 
 }  // namespace fathom

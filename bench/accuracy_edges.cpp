@@ -59,14 +59,14 @@ EdgeFigures edges_of(const Image<float>& depth, double nearer_than, int first_ro
 
 }  // namespace
 
-void compare_edges() {
+void compare_edges(CaptureMode mode) {
   print_title("A box before a wall: the projector's shadow to its left, its right edge");
   const TemporaryFolder folder;
   for (const auto& [near, far] : {std::pair{0.6, 0.7}, std::pair{0.5, 0.6}}) {
     const std::filesystem::path file = folder / "box.gltf";
     write_gltf(file, box(0.15, 0.15, far - near));
     const Setup setup = wall_with(far, file.string(), 0.0);
-    const Frame frame = shoot(setup, 1);
+    const Frame frame = shoot(setup, 1, mode);
     const EdgeFigures figures = edges_of(frame.depth, 0.5 * (near + far), 190, 290);
     const SensorModel& sensor = setup.rig.sensor;
     const double expected = sensor.focal_px * sensor.baseline * (1.0 / near - 1.0 / far);

@@ -26,7 +26,7 @@ bool on_law(const SensorModel& sensor, float depth) {
 
 }  // namespace
 
-void compare_ranges() {
+void compare_ranges(CaptureMode mode) {
   print_title("Facing wall, no slope: axial sigma [mm], mean over four places within a step of disparity");
   constexpr std::array kDistances{0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0};
   double least_valid = 1.0, measured = 0.0, on_device_law = 0.0;
@@ -39,7 +39,7 @@ void compare_ranges() {
       const double z = distance + place * step / kPlaces;
       const Setup wall = facing_wall(z);
       const SensorModel& sensor = wall.rig.sensor;
-      const Frame frame = shoot(wall, static_cast<std::uint64_t>(place + 1));
+      const Frame frame = shoot(wall, static_cast<std::uint64_t>(place + 1), mode);
       const auto inside = desk_windows(sensor, frame.depth, sensor.focal_px, -Eigen::Vector3d::UnitZ(), -z, 8.0 * step);
       const DeskNoise noise = desk_noise(sensor, inside, 0.0, 2.0 * z);
       variance += noise.windows * noise.sigma * noise.sigma, windows += noise.windows;
@@ -59,7 +59,7 @@ void compare_ranges() {
   print_figure("least valid share inside the border, matte", least_valid, std::nullopt, "", Bar{0.99, 1.0});
 
   const Setup wall = desk_twin();
-  const Image<float> depth = shoot(wall, 1).depth;
+  const Image<float> depth = shoot(wall, 1, mode).depth;
   int border = 0;
   for (bool empty = true; empty; border += empty)
     for (int y = 0; y < depth.height() && empty; ++y) empty = depth(border, y) == 0.0f;

@@ -7,22 +7,33 @@
 #include <string_view>
 
 #include "bench/accuracy.h"
+#include "bench/comparison.h"
 
+namespace fathom {
 namespace {
+
+/// Geometric captures, whose noise is drawn at random and does not come out of an image.
+void compare_statistics() {
+  print_title("Geometric mode with statistical noise, from here on");
+  for (const auto compare : {compare_desks, compare_pots, compare_ranges, compare_edges})
+    compare(CaptureMode::geometric);
+}
 
 struct Part {
   std::string_view name;
   void (*compare)();
 };
 
-constexpr std::array<Part, 6> kParts{{{"desks", fathom::compare_desks},
-                                      {"pots", fathom::compare_pots},
-                                      {"ranges", fathom::compare_ranges},
-                                      {"edges", fathom::compare_edges},
-                                      {"times", fathom::compare_times},
-                                      {"materials", fathom::compare_materials}}};
+constexpr std::array<Part, 7> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
+                                      {"pots", [] { compare_pots(CaptureMode::photometric); }},
+                                      {"ranges", [] { compare_ranges(CaptureMode::photometric); }},
+                                      {"edges", [] { compare_edges(CaptureMode::photometric); }},
+                                      {"times", compare_times},
+                                      {"materials", compare_materials},
+                                      {"statistics", compare_statistics}}};
 
 }  // namespace
+}  // namespace fathom
 
 int main(int argc, char** argv) {
   const auto asked = [&](std::string_view name) {
@@ -31,7 +42,7 @@ int main(int argc, char** argv) {
     return argc == 1;
   };
   try {
-    for (const Part& part : kParts)
+    for (const fathom::Part& part : fathom::kParts)
       if (asked(part.name)) part.compare();
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());

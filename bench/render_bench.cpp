@@ -11,6 +11,7 @@
 #include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "sim/render/truth.h"
+#include "sim/sensor/capture.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/ir_camera.h"
 #include "sim/sensor/match.h"
@@ -76,6 +77,14 @@ void register_photometric() {
   measure("photometric/frame", rays, [yardstick, &scene, pattern, reference] {
     benchmark::DoNotOptimize(whole_frame(scene, *pattern, *reference));
   });
+  // The same scene without an image, noise by statistics: whole, and each further frame.
+  const auto device = std::make_shared<Setup>(scene.setup);
+  const Json preset = "device";
+  device->rig.sensor.noise = noise_from_json(JsonReader(preset, "noise"));
+  measure("photometric/geometric_first", {},
+          [device] { benchmark::DoNotOptimize(Camera(*device, CaptureMode::geometric, 1, 1).shoot(0)); });
+  const auto camera = std::make_shared<Camera>(*device, CaptureMode::geometric, 1, 1);
+  measure("photometric/geometric_frame", {}, [camera] { benchmark::DoNotOptimize(camera->shoot(1)); });
   measure_embree("photometric/camera_rays", embree_of(yardstick),
                  record_camera_rays(scene.world, scene.setup.rig, kSamplesAcross));
   measure_embree("photometric/embree", embree_of(yardstick), std::move(recording));

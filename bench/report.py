@@ -56,7 +56,11 @@ def report_tracing(table):
         table.add_rays("  Embree", unit)
         frame_cpu, frame_wall = (table.runs.value("photometric/frame", key) for key in ("cpu_time", "real_time"))
         table.add("render + match + depth + cloud / U", f"{frame_cpu:.0f} ms", f"{cpu:.0f} ms", frame_cpu / cpu,
-                  frame_wall / wall)
+                  frame_wall / wall, 5.0)
+        for name, what in (("first", "first frame, scene built and traced"), ("frame", "each further frame")):
+            cpu_ms, wall_ms = (table.runs.value(f"photometric/geometric_{name}", key) for key in ("cpu_time", "real_time"))
+            table.add(f"geometric with statistical noise, {what} / U", f"{cpu_ms:.0f} ms", f"{cpu:.0f} ms", cpu_ms / cpu,
+                      wall_ms / wall, 0.5)
 
 
 def report_light(table):

@@ -39,8 +39,8 @@ Setup wall_with(double distance, const std::string& gltf, double z_mm, double ti
                            mm_from_metres(distance * std::sin(radians_from_deg(tilt_deg))), z_mm));
 }
 
-Frame shoot(const Setup& setup, std::uint64_t seed) {
-  return Camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed).shoot(0);
+Frame shoot(const Setup& setup, std::uint64_t seed, CaptureMode mode) {
+  return Camera(setup, mode, kDefaultSamplesPerPixel, seed).shoot(0);
 }
 
 double valid_share(const Image<float>& depth, int border) {

@@ -18,7 +18,7 @@ Setup facing_wall(double distance, double tilt_deg = 0.0);
 /// The same, whole, with a glTF file's things before it, `z_mm` from the wall.
 Setup wall_with(double distance, const std::string& gltf, double z_mm, double tilt_deg = 0.0);
 
-Frame shoot(const Setup& setup, std::uint64_t seed);
+Frame shoot(const Setup& setup, std::uint64_t seed, CaptureMode mode = CaptureMode::photometric);
 
 /// Share of pixels with a depth among those at least `border` from every edge.
 double valid_share(const Image<float>& depth, int border);

@@ -31,7 +31,8 @@ NoiseModel landau_2016() {
 }
 
 /// Speckle as the lens makes it, in the remembered image as well. The share that is renewed is fitted to the temporal
-/// deviation of a box face at 1.06 m, 1.05 mm; shot and read noise, ambient light and spill are estimates.
+/// deviation of a box face at 1.06 m, 1.05 mm; shot and read noise, ambient light and spill are estimates. The
+/// disparity's statistics are fitted to the deviations that measured desks show, and to that of the box face.
 NoiseModel device() {
   NoiseModel noise;
   noise.pixel_speckle = 1.0;
@@ -42,6 +43,7 @@ NoiseModel device() {
   noise.read_dn = 2.0;
   noise.bloom_share = 0.5;
   noise.bits = 10;
+  noise.disparity = {.facing_px = 0.0545, .lateral_px = 0.45, .renewed = 0.27};
   return noise;
 }
 
@@ -71,6 +73,15 @@ const std::array<Part, 12> kParts{{{"speckle_shape", &NoiseModel::speckle_shape,
                                    {"bloom_share", &NoiseModel::bloom_share, kShare},
                                    {"bloom_ir_px", &NoiseModel::bloom_ir_px, {0.5, 64.0}}}};
 
+DisparityNoise disparity_from_json(const JsonReader& json) {
+  json.allow_only({"facing_px", "lateral_px", "renewed"});
+  DisparityNoise noise;
+  noise.facing_px = json.number_or("facing_px", noise.facing_px, {0.0, 4.0});
+  noise.lateral_px = json.number_or("lateral_px", noise.lateral_px, {0.0, 16.0});
+  noise.renewed = json.number_or("renewed", noise.renewed, kShare);
+  return noise;
+}
+
 }  // namespace
 
 NoiseModel basic_noise() { return basic(); }
@@ -83,12 +94,13 @@ NoiseModel noise_from_json(const JsonReader& json) {
   }
   json.allow_only({"speckle_shape", "speckle_mean", "pixel_speckle", "reference_speckle", "speckle_renewed",
                    "ambient_dn", "gain", "electrons_per_dn", "read_dn", "offset_dn", "bloom_share", "bloom_ir_px",
-                   "bits"});
+                   "bits", "disparity"});
   NoiseModel noise;
   for (const Part& part : kParts) noise.*part.value = json.number_or(part.key, noise.*part.value, part.range);
   if (noise.speckle_shape > 0.0 && noise.speckle_shape < 1.0)
     json.fail_at("speckle_shape", "must be 0 (none) or at least 1 (fully developed speckle)");
   noise.bits = json.integer_or("bits", 0, 0, 16);
+  if (json.has("disparity")) noise.disparity = disparity_from_json(json.at("disparity"));
   return noise;
 }
 
@@ -96,6 +108,9 @@ Json json_from_noise(const NoiseModel& noise) {
   Json json = Json::object();
   for (const Part& part : kParts) json[part.key] = noise.*part.value;
   json["bits"] = noise.bits;
+  json["disparity"] = {{"facing_px", noise.disparity.facing_px},
+                       {"lateral_px", noise.disparity.lateral_px},
+                       {"renewed", noise.disparity.renewed}};
   return json;
 }
 

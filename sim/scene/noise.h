@@ -1,9 +1,20 @@
-// What turns even radiance into digital numbers that are not: speckle, the detector, ambient light.
+// What turns even radiance into digital numbers that are not: speckle, the detector, ambient light; and statistics for
+// captures without an image.
 #pragma once
 
 #include "core/json.h"
 
 namespace fathom {
+
+/// Statistics that stand in for the image chain where no image is made (CaptureMode::geometric): of the disparity, as
+/// measured desks show them, not derived from light. See sim/sensor/disparity_noise.h.
+struct DisparityNoise {
+  double facing_px = 0.0;   ///< standard deviation on a surface that faces the sensor, far away
+  double lateral_px = 0.0;  ///< of the place that a pixel reads, along each axis
+  double renewed = 0.0;     ///< share of both variances that each frame draws anew
+
+  bool present() const { return facing_px > 0.0 || lateral_px > 0.0; }
+};
 
 /// All parts at their defaults: an ideal camera.
 struct NoiseModel {
@@ -20,6 +31,7 @@ struct NoiseModel {
   double bloom_share = 0.0;        ///< share of the light above saturation that spills over to the pixels around
   double bloom_ir_px = 4.0;        ///< mean distance along each axis that it spills
   int bits = 0;                    ///< rounding, and saturation at 2^bits − 1; 0 = none
+  DisparityNoise disparity;        ///< of geometric captures only
 };
 
 /// A preset's name, or an object of parts: what it does not name is off.

@@ -43,9 +43,10 @@ struct MatcherModel {
   int window_columns = 9, window_rows = 9;  ///< odd, depth pixels
   int disparity_min_px = -32;               ///< of the search, relative to the reference plane; positive = nearer
   int disparity_max_px = 63;
-  double correlation_min = 0.55;  ///< least zero-mean normalised cross-correlation of a match
-  double contrast_min = 4.0;      ///< least standard deviation of the window [DN]
-  int hole_max_px = 0;            ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
+  double correlation_min = 0.55;       ///< least zero-mean normalised cross-correlation of a match
+  double contrast_min = 4.0;           ///< least standard deviation of the window [DN]
+  double relative_contrast_min = 0.0;  ///< the same over the window's mean; device's method only
+  int hole_max_px = 0;  ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
 };
 
 struct SensorModel {
@@ -57,7 +58,7 @@ struct SensorModel {
   double focal_px = 1200.0 / (2 * 1.052);  ///< zero plane distance over twice the zero plane pixel size
   Eigen::Vector2d principal_px{320.0, 240.0};
   double reference = 1.2;          ///< distance of the memorised reference plane
-  double near = 0.4, far = 10.0;   ///< depths outside are invalid
+  double near = 0.45, far = 10.0;  ///< depths outside are invalid; nearer ones the search does not reach
   double radiant_dn_mm2 = 5.90e8;  ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
   bool quantized = true;           ///< depth on the device's law; false: float depth
   PatternModel pattern;

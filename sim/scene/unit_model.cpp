@@ -1,6 +1,9 @@
 #include "sim/scene/unit_model.h"
 
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
 
 #include "core/rng.h"
 
@@ -17,11 +20,35 @@ UnitError unit_error(const UnitModel& unit, std::uint64_t frame) {
   return error;
 }
 
+Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, int height) {
+  if (unit.residue_px == 0.0) return {};
+  constexpr std::uint64_t kResidueStream = 0x72657369ULL;
+  constexpr int kWaves = 64;
+  // Waves at random, of wave numbers as the covariance's spectrum has them (Rahimi & Recht 2007).
+  Image<float> residue(width, height);
+  const auto amplitude = static_cast<float>(unit.residue_px * std::sqrt(2.0 / kWaves));
+  std::vector<std::complex<float>> along(width);
+  for (int wave = 0; wave < kWaves; ++wave) {
+    Rng rng(unit.serial, kResidueStream, wave);
+    const double across = rng.normal() / unit.residue_reach_px, down = rng.normal() / unit.residue_reach_px;
+    const double phase = 2.0 * std::numbers::pi * rng.uniform();
+    for (int x = 0; x < width; ++x) along[x] = std::polar(amplitude, static_cast<float>(across * (x - margin_px)));
+    for (int y = 0; y < height; ++y) {
+      const std::complex<float> here = std::polar(1.0f, static_cast<float>(down * y + phase));
+      for (int x = 0; x < width; ++x) residue(x, y) += here.real() * along[x].real() - here.imag() * along[x].imag();
+    }
+  }
+  return residue;
+}
+
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
-  json.allow_only({"disparity_sigma_px", "scale_sigma", "serial", "warm_up_px", "warm_up_s", "on_for_s"});
+  json.allow_only({"disparity_sigma_px", "scale_sigma", "serial", "residue_px", "residue_reach_px", "warm_up_px",
+                   "warm_up_s", "on_for_s"});
   unit.disparity_sigma_px = json.number_or("disparity_sigma_px", unit.disparity_sigma_px, {0.0, 4.0});
   unit.scale_sigma = json.number_or("scale_sigma", unit.scale_sigma, {0.0, 0.1});
   unit.serial = static_cast<std::uint64_t>(json.integer_or("serial", static_cast<int>(unit.serial), 0, 1 << 30));
+  unit.residue_px = json.number_or("residue_px", unit.residue_px, {0.0, 4.0});
+  unit.residue_reach_px = json.number_or("residue_reach_px", unit.residue_reach_px, {4.0, 1000.0});
   unit.warm_up_px = json.number_or("warm_up_px", unit.warm_up_px, {-4.0, 4.0});
   unit.warm_up_s = json.number_or("warm_up_s", unit.warm_up_s, kPositive);
   unit.on_for_s = json.number_or("on_for_s", unit.on_for_s, kNonNegative);
@@ -32,6 +59,8 @@ Json json_from_unit(const UnitModel& unit) {
   return {{"disparity_sigma_px", unit.disparity_sigma_px},
           {"scale_sigma", unit.scale_sigma},
           {"serial", unit.serial},
+          {"residue_px", unit.residue_px},
+          {"residue_reach_px", unit.residue_reach_px},
           {"warm_up_px", unit.warm_up_px},
           {"warm_up_s", unit.warm_up_s},
           {"on_for_s", unit.on_for_s}};

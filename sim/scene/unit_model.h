@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/image.h"
 #include "core/json.h"
 
 namespace fathom {
@@ -12,6 +13,8 @@ struct UnitModel {
   double disparity_sigma_px = 0.0;  ///< spread of the reference's disparity from unit to unit
   double scale_sigma = 0.0;         ///< relative spread of focal length times baseline
   std::uint64_t serial = 0;         ///< of this unit, which draws its errors
+  double residue_px = 0.0;          ///< standard deviation, over the image, of what the reference is displaced by
+  double residue_reach_px = 70.0;   ///< distance over which that changes
   double warm_up_px = 0.0;          ///< what a cold unit's disparity has too much
   double warm_up_s = 940.0;         ///< in which that falls to 1/e
   double on_for_s = 1e9;            ///< since the unit was switched on, at frame 0
@@ -23,6 +26,12 @@ struct UnitError {
 };
 /// Of the frame of that number at 30 a second.
 UnitError unit_error(const UnitModel& unit, std::uint64_t frame);
+
+/// What the remembered image of this unit is displaced by along its rows [px], at each of its pixels: lenses and
+/// pattern are not any more, or not at all distances, where they were when it was taken. A smooth normal field of
+/// covariance residue_px² exp(−r² / 2 residue_reach_px²), width × height; empty: none. Column 0 lies `margin_px` left
+/// of the image.
+Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, int height);
 
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit);
 Json json_from_unit(const UnitModel& unit);

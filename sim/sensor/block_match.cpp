@@ -149,6 +149,8 @@ Image<float> block_match(const SensorModel& sensor, Image<float> halved, const B
   const int half_columns = matcher.window_columns / 2, half_rows = matcher.window_rows / 2;
   const auto least_spread = static_cast<float>(
       matcher.contrast_min * std::sqrt(static_cast<double>(matcher.window_columns) * matcher.window_rows));
+  const auto least_spread_of_sum = static_cast<float>(
+      matcher.relative_contrast_min / std::sqrt(static_cast<double>(matcher.window_columns) * matcher.window_rows));
   Image<float> disparity(sensor.width, sensor.height, std::numeric_limits<float>::quiet_NaN());
   parallel_ranges(sensor.height, [&](int begin, int end) {
     std::vector<Candidate> row(sensor.width);
@@ -158,7 +160,10 @@ Image<float> block_match(const SensorModel& sensor, Image<float> halved, const B
       std::fill(row.begin(), row.end(), Candidate{});
       for (int x = half_columns; x < sensor.width - half_columns; ++x) {
         const float start = coarse(x / 2, y / kSearchStep);
-        if (std::isnan(start) || live.spread(x - half_columns, top) < least_spread) continue;
+        const float spread = live.spread(x - half_columns, top);
+        if (std::isnan(start) || spread < least_spread ||
+            spread < least_spread_of_sum * live.sum(x - half_columns, top))
+          continue;
         row[x] = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kPhases)));
       }
       believe(matcher, row, disparity.row(y));

@@ -13,6 +13,24 @@
 namespace fathom {
 namespace {
 
+// Keys of what is drawn for a geometric capture; those of the frames are their numbers.
+constexpr std::uint64_t kStill = ~std::uint64_t{0};
+
+/// What a displaced reference adds to disparities [px]: a pixel meets it as far to the side as it is nearer.
+void add_residue(const SensorModel& sensor, const Image<float>& residue, Image<float>& disparity) {
+  if (residue.empty()) return;
+  const int margin = reference_margin(sensor.matcher);
+  const double at_reference = disparity_of_depth(sensor, sensor.reference);
+  const int first_row = sensor.ir_first_row() / 2;
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x) {
+      float& value = disparity(x, y);
+      if (value <= 0.0f) continue;
+      const int met = x + margin - static_cast<int>(std::lround(value - at_reference));
+      value = std::max(value + residue(std::clamp(met, 0, residue.width() - 1), y + first_row), 0.0f);
+    }
+}
+
 /// What this unit makes of disparities [px]; 0 stays invalid.
 void misread(const UnitError& error, Image<float>& disparity) {
   for (float& value : disparity.pixels())
@@ -30,11 +48,16 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
       timed(statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, rig_.projector_in_world()); });
   truth_ = timed(statistics_.truth_s, [&] { return trace_truth(*projector, rig_); });
   statistics_.camera_rays = truth_.size();
-  if (mode == CaptureMode::geometric) return;
+  if (mode == CaptureMode::geometric) {
+    if (sensor.noise.disparity.present()) still_chance_ = block_chance(sensor, seed, kStill);
+    const int margin = reference_margin(sensor.matcher);
+    residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);
+    return;
+  }
 
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
-  reference_ = timed(statistics_.reference_s, [&] { return remember(sensor, pattern, samples_across_); });
+  reference_ = timed(statistics_.reference_s, [&] { return remembered(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ =
       timed(statistics_.render_s, [&] { return render_ir(*projector, rig_, pattern, samples_across_, light, seed); });
@@ -57,6 +80,10 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
     if (pixel.apparent_depth)
       shot.disparity_px.pixels()[i] = static_cast<float>(disparity_of_depth(rig_.sensor, *pixel.apparent_depth));
   }
+  if (rig_.sensor.noise.disparity.present())
+    shot.disparity_px = disparity_with_noise(rig_.sensor, shot.disparity_px, intensity, still_chance_,
+                                             block_chance(rig_.sensor, seed_, frame));
+  add_residue(rig_.sensor, residue_, shot.disparity_px);
   misread(unit_error(rig_.sensor.unit, frame), shot.disparity_px);
   shot.depth = depth_image(rig_.sensor, shot.disparity_px);
   shot.cloud = cloud_of_depth(rig_.sensor, shot.depth, intensity);
@@ -70,7 +97,7 @@ Frame Camera::shoot_photometric(std::uint64_t frame) {
   add_speckle(renewed_speckle(sensor, speckle_, seed_, frame), light);
   for (std::size_t i = 0; i < ambient_.size(); ++i) light.pixels()[i] += ambient_.pixels()[i];
   shot.ir = expose(light, sensor.noise, seed_, frame);
-  shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, reference_).disparity_px; });
+  shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
   misread(unit_error(sensor.unit, frame), shot.disparity_px);
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "core/cloud_file.h"
 #include "core/image.h"
 #include "sim/render/truth.h"
 #include "sim/scene/setup.h"
+#include "sim/sensor/disparity_noise.h"
 #include "sim/sensor/ir_camera.h"
 #include "sim/sensor/reference.h"
 
@@ -15,7 +17,8 @@ namespace fathom {
 inline constexpr int kDefaultSamplesPerPixel = 4;  ///< of the infrared image, on a square grid
 
 enum class CaptureMode {
-  geometric,   ///< every pixel's exact refracted triangulation, no images
+  geometric,   ///< every pixel's exact refracted triangulation, no images; noise by statistics, where the sensor has
+               ///< them
   photometric  ///< infrared image → matching → depth
 };
 
@@ -61,9 +64,12 @@ class Camera {
   Geometry geometry_;
   Image<TruePixel> truth_;
   Image<float> radiance_;
-  Image<float> speckle_;  ///< of the static scene; empty: none
-  Image<float> ambient_;  ///< [DN]; empty: none
-  Reference reference_;
+  Image<float> speckle_;                        ///< of the static scene; empty: none
+  Image<float> ambient_;                        ///< [DN]; empty: none
+  std::shared_ptr<const Reference> reference_;  ///< none in geometric mode
+  // Of geometric mode only, empty where the sensor has none.
+  BlockChance still_chance_;
+  Image<float> residue_;  ///< of the reference [px]
   CaptureStatistics statistics_;
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "core/parallel.h"
@@ -101,11 +103,13 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
   Image<float> image(sensor.ir_width + 2 * margin_px * scale, sensor.ir_height);
   const double parallax = sensor.baseline / sensor.reference;
   const double blur = blur_steps(sensor, sensor.reference);
+  const Image<float> residue = reference_residue(sensor.unit, margin_px, image.width() / scale, image.height() / scale);
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
+        const double displaced = residue.empty() ? 0.0 : residue(x / scale, y / scale);
         const auto sample = [&](double dx, double dy) {
-          const double x_px = (x + dx) / scale - margin_px, y_px = (y - sensor.ir_first_row() + dy) / scale;
+          const double x_px = (x + dx) / scale - margin_px + displaced, y_px = (y - sensor.ir_first_row() + dy) / scale;
           const Eigen::Vector2d centred(x_px - sensor.principal_px.x(), y_px - sensor.principal_px.y());
           Eigen::Vector2d seen = centred / sensor.focal_px;
           if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
@@ -179,6 +183,29 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
                             mix_bits(kReferenceStream ^ sensor.unit.serial)),
               image);
   return memorise(sensor, image, margin);
+}
+
+std::shared_ptr<const Reference> remembered(const SensorModel& sensor, const Pattern& pattern, int samples_across) {
+  struct Kept {
+    std::string sensor;
+    std::shared_ptr<const Image<float>> drawn;
+    int samples_across = 0;
+    std::shared_ptr<const Reference> reference;
+  };
+  static std::mutex mutex;
+  static Kept kept;
+  const std::string described = json_from_rig({sensor, Pose::Identity()}).dump();
+  {
+    const std::lock_guard lock(mutex);
+    if (kept.reference && kept.sensor == described && kept.drawn == sensor.pattern.image &&
+        kept.samples_across == samples_across)
+      return kept.reference;
+  }
+  // Not under the lock: a thread that waits within may take up a task that asks for a reference itself.
+  auto made = std::make_shared<const Reference>(remember(sensor, pattern, samples_across));
+  const std::lock_guard lock(mutex);
+  kept = {described, sensor.pattern.image, samples_across, made};
+  return made;
 }
 
 }  // namespace fathom

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "core/image.h"
 #include "sim/scene/rig.h"
@@ -33,8 +34,9 @@ struct Reference {
   BlockReference blocks;                    ///< of the device's method only
 };
 
-/// The ideal image of a plane at sensor.reference, facing the camera, of even brightness; wider than the camera's image
-/// by `margin_px` depth pixels on each side, because a near surface shows dots that leave the image at the reference.
+/// The image of a plane at sensor.reference, facing the camera, of even brightness, displaced as this unit's is; wider
+/// than the camera's image by `margin_px` depth pixels on each side, because a near surface shows dots that leave the
+/// image at the reference.
 Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, int margin_px, int samples_across);
 
 /// Depth pixels of margin the matcher needs for its search range and window.
@@ -46,6 +48,10 @@ Reference memorise(const SensorModel& sensor, const Image<float>& image, int mar
 /// The reference as the sensor remembers it: of the image above, taken with the speckle of its noise model, which is
 /// the unit's own.
 Reference remember(const SensorModel& sensor, const Pattern& pattern, int samples_across);
+
+/// The same for cameras that follow one another: the last one is kept in the process, because making it takes longer
+/// than most shots and sensors differ less often than scenes.
+std::shared_ptr<const Reference> remembered(const SensorModel& sensor, const Pattern& pattern, int samples_across);
 
 /// Mean of each pair of rows: half the height.
 Image<float> rows_in_pairs(const Image<float>& image);

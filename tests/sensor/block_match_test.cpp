@@ -19,7 +19,7 @@ Setup facing_desk(double height_mm, const std::string& more) {
                                                  height_mm, more)),
                          "test");
 }
-constexpr const char* kIdeal = R"(, "noise": "off", "quantization": "off")";
+constexpr const char* kIdeal = R"(, "noise": "off", "quantization": "off", "unit": {"residue_px": 0})";
 
 TEST(BlockMatch, MeasuresAFacingPlaneToTheNearestEighth) {
   for (const double height_mm : {700.0, 1700.0}) {
@@ -47,7 +47,7 @@ TEST(BlockMatch, MeasuresAFacingPlaneToTheNearestEighth) {
 TEST(BlockMatch, SlopesGetNoiseThatTheDotsDraw) {
   // 0.1 px of disparity per row times a lot of about 0.7 rows is half a step: much more than on a facing plane.
   const auto setup = setup_from_json(Json::parse(R"({"sensor": {"model": "xtion_pro_live_device", "height_mm": 600,
-      "pitch_deg": 35, "noise": "off", "quantization": "off"}, "desk": {"size_mm": [4000, 4000]}})"),
+      "pitch_deg": 35, "noise": "off", "quantization": "off", "unit": {"residue_px": 0}}, "desk": {"size_mm": [4000, 4000]}})"),
                                      "test");
   Camera camera(setup, CaptureMode::photometric, 4, 1);
   const Frame frame = camera.shoot(0);
@@ -71,6 +71,21 @@ TEST(BlockMatch, OfTheDeviceMeasuresAMatteDeskAlmostEverywhere) {
   double valid = 0.0;
   for (const float depth : frame.depth.pixels()) valid += depth > 0.0f;
   EXPECT_GE(valid / (632.0 * 480.0), 0.99);  // promised, inside the border
+}
+
+TEST(BlockMatch, EvenLightThatDrownsTheDotsLeavesNoDepth) {
+  const auto valid = [](const char* ambient_dn) {
+    const auto setup = facing_desk(
+        900.0,
+        fmt::format(R"(, "noise": {{"ambient_dn": {}}}, "matcher": {{"relative_contrast_min": 0.2}})", ambient_dn));
+    double count = 0.0;
+    for (const float depth : Camera(setup, CaptureMode::photometric, 4, 1).shoot(0).depth.pixels())
+      count += depth > 0.0f;
+    return count / (632.0 * 480.0);
+  };
+  // Dots on albedo 0.55 at 0.9 m deviate by some 100 DN from their mean; ambient light adds 0.55 of its number.
+  EXPECT_GT(valid("10"), 0.99);
+  EXPECT_LT(valid("5000"), 0.01);
 }
 
 }  // namespace

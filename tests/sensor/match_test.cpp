@@ -100,6 +100,25 @@ TEST(Holes, AreFilledWithinOneSurfaceAndStayBetweenTwo) {
   EXPECT_TRUE(std::isnan(disparity(8, 0)));  // too wide
 }
 
+TEST(Match, ReachesAsNearAsTheSensorGivesDepths) {
+  for (const char* model : {"xtion_pro_live", "xtion_pro_live_device", "kinect_v1", "kinect_v1_device"}) {
+    const Json json = {{"model", model}, {"height_mm", 650}, {"pitch_deg", 90}};
+    const SensorModel sensor = rig_from_json(JsonReader(json, "test")).sensor;
+    const double nearest = disparity_of_depth(sensor, sensor.near) - disparity_of_depth(sensor, sensor.reference);
+    EXPECT_LT(nearest, sensor.matcher.disparity_max_px - 1) << model;  // a peak needs a neighbour on both sides
+    EXPECT_GT(nearest, sensor.matcher.disparity_max_px - 5) << model;
+  }
+}
+
+TEST(Reference, OfTheSameSensorIsMadeOnce) {
+  SensorModel sensor = Bench(650.0).sensor();
+  const Pattern pattern(sensor.pattern, sensor.ir_scale());
+  const auto first = remembered(sensor, pattern, 1);
+  EXPECT_EQ(remembered(sensor, pattern, 1), first);
+  sensor.unit.serial = 7;
+  EXPECT_NE(remembered(sensor, pattern, 1), first);
+}
+
 TEST(Match, WithoutContrastThereIsNoMatch) {
   const Bench bench(650.0);
   const Match found = match(bench.sensor(), Image<float>(1280, 1024, 200.0f), bench.reference);

@@ -1,0 +1,163 @@
+#include "sim/sensor/disparity_noise.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/parallel.h"
+#include "core/rng.h"
+#include "core/simd.h"
+#include "sim/sensor/pattern.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::uint64_t kBlockStream = 0x626c6f636bULL;
+
+/// White noise of variance 1, the number of ones among 32 bits; adding up blocks makes it normal.
+void white_row(std::uint64_t seed, std::uint64_t key, int row, std::vector<float>& noise) {
+  const float per_deviation = 1.0f / std::sqrt(8.0f);
+  Rng rng(seed, kBlockStream, key, static_cast<std::uint64_t>(row));
+  for (std::size_t x = 0; x < noise.size(); x += 2) {
+    const std::uint64_t bits = rng.bits();
+    noise[x] = per_deviation * static_cast<float>(std::popcount(bits >> 32) - 16);
+    if (x + 1 < noise.size())
+      noise[x + 1] = per_deviation * static_cast<float>(std::popcount(bits & 0xffffffffULL) - 16);
+  }
+}
+
+/// sum[x] += Σ n[x + i], moment[x] += Σ (i − half) n[x + i] over `count` places.
+FATHOM_SIMD_CLONES
+void sum_along(const float* __restrict noise, int count, float* __restrict sum, float* __restrict moment, int width) {
+  std::fill_n(sum, width, 0.0f);
+  std::fill_n(moment, width, 0.0f);
+  for (int i = 0; i < count; ++i) {
+    const auto off = static_cast<float>(i - count / 2);
+    for (int x = 0; x < width; ++x) sum[x] += noise[x + i], moment[x] += off * noise[x + i];
+  }
+}
+
+FATHOM_SIMD_CLONES
+void add_scaled(const float* __restrict row, float scale, float* __restrict sum, int width) {
+  for (int x = 0; x < width; ++x) sum[x] += scale * row[x];
+}
+
+/// Σ i² over a window of `count` places about its middle.
+double second_moment(int count) { return count * (static_cast<double>(count) * count - 1.0) / 12.0; }
+
+/// What the light on a surface is made of, in pixels of the depth image.
+struct Dots {
+  double per_px2;   ///< number
+  double light;     ///< of one, over its centre's brightness when it is in focus [px²]
+  double variance;  ///< of its width, defocus included [px²]
+};
+Dots dots_at(const SensorModel& sensor, double depth) {
+  const PatternModel& pattern = sensor.pattern;
+  const double sharp = std::pow(pattern.dot_sigma_ir_px / sensor.ir_scale(), 2.0);
+  const double blur = std::pow(blur_steps(sensor, depth) * pattern.step_px, 2.0);
+  const double positions = pattern.tile_columns * pattern.tile_rows;
+  return {pattern.dots_per_tile / (positions * pattern.step_px * pattern.step_px), 2.0 * std::numbers::pi * sharp,
+          sharp + blur};
+}
+
+/// Campbell's theorem: the variance of Gaussian spots that lie at random.
+double contrast_of(const Dots& dots, double centre_dn) {
+  return centre_dn * dots.light * std::sqrt(dots.per_px2 / (4.0 * std::numbers::pi * dots.variance));
+}
+
+/// How uncertain a block's disparity is [px], by what is drawn once for a scene and by what each frame draws anew.
+struct Deviation {
+  double still_px, renewed_px;
+};
+Deviation deviation_of(const SensorModel& sensor, const Dots& dots, double far_variance, double centre_dn) {
+  const NoiseModel& noise = sensor.noise;
+  // Speckle is as strong as the light that it weighs: of dots that are wider, root mean square light falls with the
+  // width, its gradient with the width's square. The shift that speckle looks like is their ratio.
+  const double speckle_px = noise.disparity.facing_px * std::sqrt(dots.variance / far_variance);
+  const double shot_variance =
+      noise.electrons_per_dn > 0.0 ? centre_dn * dots.light * dots.per_px2 * noise.gain / noise.electrons_per_dn : 0.0;
+  const double contrast = contrast_of(dots, centre_dn);
+  const double pixels = std::pow(sensor.ir_scale(), 2.0) * sensor.matcher.window_columns * sensor.matcher.window_rows;
+  const double detector_variance_px2 = (shot_variance + noise.read_dn * noise.read_dn) * 2.0 * dots.variance /
+                                       (pixels * contrast * contrast);  // mean squared slope: contrast² / 2 variance
+  const double renewed = noise.disparity.renewed;
+  return {std::sqrt(1.0 - renewed) * speckle_px, std::sqrt(renewed * speckle_px * speckle_px + detector_variance_px2)};
+}
+
+/// The disparity at a place in the image, between the pixels of one surface; across an edge the nearest pixel's.
+float disparity_at(const Image<float>& exact, float x, float y) {
+  constexpr float kSameSurface = 1.0f;  // [px]
+  const float left = std::floor(x), top = std::floor(y);
+  const int i = std::clamp(static_cast<int>(left), 0, exact.width() - 2);
+  const int j = std::clamp(static_cast<int>(top), 0, exact.height() - 2);
+  const float across = std::clamp(x - static_cast<float>(i), 0.0f, 1.0f);
+  const float down = std::clamp(y - static_cast<float>(j), 0.0f, 1.0f);
+  const float *upper = exact.row(j) + i, *lower = exact.row(j + 1) + i;
+  const auto [least, most] = std::minmax({upper[0], upper[1], lower[0], lower[1]});
+  if (least <= 0.0f || most - least > kSameSurface) return (down < 0.5f ? upper : lower)[across < 0.5f ? 0 : 1];
+  return (1.0f - down) * ((1.0f - across) * upper[0] + across * upper[1]) +
+         down * ((1.0f - across) * lower[0] + across * lower[1]);
+}
+
+}  // namespace
+
+BlockChance block_chance(const SensorModel& sensor, std::uint64_t seed, std::uint64_t key) {
+  const int width = sensor.width, height = sensor.height;
+  const int columns = sensor.matcher.window_columns, rows = sensor.matcher.window_rows;
+  Image<float> sums(width, height + rows - 1), moments(width, height + rows - 1);
+  parallel_ranges(sums.height(), [&](int begin, int end) {
+    std::vector<float> noise(width + columns - 1);
+    for (int y = begin; y < end; ++y) {
+      white_row(seed, key, y, noise);
+      sum_along(noise.data(), columns, sums.row(y), moments.row(y), width);
+    }
+  });
+  BlockChance chance{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height)};
+  const auto per_level = static_cast<float>(1.0 / std::sqrt(columns * rows));
+  const auto per_across = static_cast<float>(1.0 / std::sqrt(second_moment(columns) * rows));
+  const auto per_down = static_cast<float>(1.0 / std::sqrt(columns * second_moment(rows)));
+  parallel_ranges(height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int j = 0; j < rows; ++j) {
+        add_scaled(sums.row(y + j), per_level, chance.level.row(y), width);
+        add_scaled(moments.row(y + j), per_across, chance.across.row(y), width);
+        add_scaled(sums.row(y + j), per_down * static_cast<float>(j - rows / 2), chance.down.row(y), width);
+      }
+  });
+  return chance;
+}
+
+double block_contrast(const SensorModel& sensor, double intensity, double depth) {
+  return contrast_of(dots_at(sensor, depth), intensity * sensor.noise.gain);
+}
+
+Image<float> disparity_with_noise(const SensorModel& sensor, const Image<float>& exact_px,
+                                  const Image<float>& intensity, const BlockChance& still, const BlockChance& renewed) {
+  const DisparityNoise& noise = sensor.noise.disparity;
+  const double focal_baseline = sensor.focal_px * sensor.baseline;
+  const double far_variance = dots_at(sensor, sensor.far).variance;
+  const auto still_off = static_cast<float>(noise.lateral_px * std::sqrt(1.0 - noise.renewed));
+  const auto renewed_off = static_cast<float>(noise.lateral_px * std::sqrt(noise.renewed));
+  const int border = sensor.matcher.window_columns / 2;
+  Image<float> noisy(exact_px.width(), exact_px.height());
+  parallel_ranges(noisy.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = border; x < noisy.width() - border; ++x) {
+        const float exact = disparity_at(
+            exact_px, static_cast<float>(x) + still_off * still.across(x, y) + renewed_off * renewed.across(x, y),
+            static_cast<float>(y) + still_off * still.down(x, y) + renewed_off * renewed.down(x, y));
+        if (exact <= 0.0f) continue;
+        const Dots dots = dots_at(sensor, focal_baseline / exact);
+        const double centre_dn = intensity(x, y) * sensor.noise.gain;
+        if (contrast_of(dots, centre_dn) < sensor.matcher.contrast_min) continue;
+        const Deviation deviation = deviation_of(sensor, dots, far_variance, centre_dn);
+        noisy(x, y) = std::max(0.0f, exact + static_cast<float>(deviation.still_px) * still.level(x, y) +
+                                         static_cast<float>(deviation.renewed_px) * renewed.level(x, y));
+      }
+  });
+  return noisy;
+}
+
+}  // namespace fathom
