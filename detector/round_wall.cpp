@@ -81,18 +81,20 @@ std::optional<FlatCircle> circle_through(const Eigen::Vector2f& a, const Eigen::
   return FlatCircle{a + offset, offset.norm()};
 }
 
-/// Directions in which points lie on the circle, fewer for points inside it. A wall has none inside at its own height;
-/// one that is open at the top has none higher up.
+/// Directions in which points lie on the circle, fewer for points inside it and around it. A wall has none inside at
+/// its own height, and around it only what touches it, where a circle on a can's lid has them everywhere; one that is
+/// open at the top has none higher up.
 float score(const Slab& slab, const FlatCircle& circle, float tolerance, Top top) {
   const float inner = circle.radius - tolerance, outer = circle.radius + tolerance;
-  const float within = std::max(0.0f, circle.radius - 2.0f * tolerance);
+  const float within = std::max(0.0f, circle.radius - 2.0f * tolerance), around = circle.radius + 3.0f * tolerance;
   unsigned directions = 0;
-  int on = 0, inside = 0, above = 0;
+  int on = 0, inside = 0, outside = 0, above = 0;
   for (const Eigen::Vector2f& point : slab.points) {
     const Eigen::Vector2f v = point - circle.center;
     const float squared = v.squaredNorm();
-    if (squared > outer * outer) continue;
-    if (squared > inner * inner) {
+    if (squared > outer * outer) {
+      outside += squared < around * around;
+    } else if (squared > inner * inner) {
       directions |= direction_bit(v);
       ++on;
     } else if (squared < within * within) {
@@ -103,8 +105,8 @@ float score(const Slab& slab, const FlatCircle& circle, float tolerance, Top top
   if (top == Top::kOpen)
     for (const Eigen::Vector2f& point : slab.above) above += (point - circle.center).squaredNorm() < within * within;
   const float wall = slab.each * static_cast<float>(on);
-  const float filling = slab.each * static_cast<float>(inside) + slab.each_above * static_cast<float>(above);
-  return static_cast<float>(std::popcount(directions)) * wall / (wall + filling);
+  const float others = slab.each * static_cast<float>(inside + outside) + slab.each_above * static_cast<float>(above);
+  return static_cast<float>(std::popcount(directions)) * wall / (wall + others);
 }
 
 struct Hypothesis {
@@ -198,10 +200,28 @@ std::optional<ConeFit> fit_cone(const Points& points, Cone cone, double toleranc
   return fit;
 }
 
+/// Above it are other things that reach over the circle: the highest level at which points lie on the wall in a good
+/// part of the directions in which they lie at any level.
+double highest_level(const Points& on_wall, const Eigen::Vector2d& center) {
+  constexpr double kLevel = 0.004, kPart = 0.5;  // a flat face that touches a cup is on its circle in 6 of 32
+  std::vector<unsigned> levels;
+  for (const Eigen::Vector3f& point : on_wall) {
+    const auto level = static_cast<std::size_t>(std::max(0.0, point.z() / kLevel));
+    if (level >= levels.size()) levels.resize(level + 1);
+    levels[level] |= direction_bit(point.head<2>() - center.cast<float>());
+  }
+  int most = 0;
+  for (const unsigned level : levels) most = std::max(most, std::popcount(level));
+  while (std::popcount(levels.back()) < kPart * most) levels.pop_back();
+  return kLevel * static_cast<double>(levels.size());
+}
+
 /// The rim: in each direction the height that one point in twenty on the wall passes, and of these the upper third.
 double rim_height(const Points& on_wall, const Eigen::Vector2d& center) {
+  const double highest = highest_level(on_wall, center);
   std::array<std::vector<float>, kDirections> heights;
   for (const Eigen::Vector3f& point : on_wall) {
+    if (point.z() > highest) continue;
     const unsigned bit = direction_bit(point.head<2>() - center.cast<float>());
     heights[std::countr_zero(bit)].push_back(point.z());
   }
@@ -277,6 +297,21 @@ std::optional<RoundWall> wall_from(const Hypothesis& hypothesis, const Points& p
   return wall;
 }
 
+/// The wall's points and those inside it. Above its rim a wall that leans would take in its neighbours'.
+void take_away(const RoundWall& wall, const WallSearch& search, Points& points) {
+  std::erase_if(points, [&](const Eigen::Vector3f& point) {
+    return wall.distance_of(point) < wall.radius_at(std::min<double>(point.z(), wall.top_m)) + 2.0 * search.tolerance_m;
+  });
+}
+
+/// What looked like a wall in its slab and is none.
+void take_away(const Hypothesis& none, const WallSearch& search, Points& points) {
+  const double reach = none.circle.radius + 2.0 * search.tolerance_m;
+  std::erase_if(points, [&](const Eigen::Vector3f& point) {
+    return std::abs(point.z() - none.height) < search.slab_m && (point.head<2>() - none.circle.center).norm() < reach;
+  });
+}
+
 }  // namespace
 
 double RoundWall::radius_at(double height_m) const { return radius_m + lean * (height_m - kWallHeight); }
@@ -296,16 +331,17 @@ std::vector<RoundWall> find_round_walls(const Points& segment, const WallSearch&
   for (const Top top : {Top::kOpen, Top::kAny}) {
     if (top == Top::kAny && !walls.empty()) break;
     // Of what is closed one wall is enough: it is no cup, and boxes show several.
-    const int rounds = top == Top::kOpen ? search.walls_max : 1;
-    for (int round = 0; round < rounds; ++round) {
+    const std::size_t most = top == Top::kOpen ? search.walls_max : 1;
+    for (int round = 0; round < search.rounds_max && walls.size() < most; ++round) {
       const auto hypothesis = best_circle(slabs_of(left, search), search, top, round);
       if (!hypothesis || hypothesis->score < search.arc_min * kDirections) break;
       const auto wall = wall_from(*hypothesis, left, search, top);
-      if (!wall || wall->arc_share < search.arc_min) break;
+      if (!wall || wall->arc_share < search.arc_min) {
+        take_away(*hypothesis, search, left);
+        continue;
+      }
       if (!is_part_of_one(*wall)) walls.push_back(*wall);
-      std::erase_if(left, [&](const Eigen::Vector3f& point) {
-        return wall->distance_of(point) < wall->radius_at(point.z()) + 2.0 * search.tolerance_m;
-      });
+      take_away(*wall, search, left);
     }
   }
   return walls;

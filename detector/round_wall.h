@@ -19,6 +19,7 @@ struct WallSearch {
   int slab_points = 400;  ///< drawn of each slab
   double arc_min = 0.30;  ///< share of the directions; a corner of a box reaches 0.36 and fails elsewhere
   int walls_max = 8;      ///< of one segment
+  int rounds_max = 16;    ///< of looking for them; lids and corners take some in vain
 };
 
 /// The wall of a round vessel that stands upright: radius(z) = radius + lean · (z − kWallHeight).
