@@ -40,6 +40,8 @@ class Desktop {
     return choices[rng_.below(static_cast<std::uint32_t>(choices.size()))];
   }
 
+  Json filling() { return rng_.uniform() < spec_.empty ? Json::object() : one_of(spec_.fillings); }
+
   std::optional<Place> put_cup(const ClutterThing& cup) {
     const auto place = put_anywhere(cup);
     if (place) cups_.push_back(taken_.size() - 1);
@@ -133,7 +135,7 @@ std::optional<Json> try_scene(const ClutterSpec& spec, Rng rng) {
                         [&] {
                           const ClutterThing& cup = desktop.one_of(spec.cup_kinds);
                           const auto place = desktop.put_cup(cup);
-                          if (place) scene["cups"].push_back(placed_cup(cup, desktop.one_of(spec.fillings), *place));
+                          if (place) scene["cups"].push_back(placed_cup(cup, desktop.filling(), *place));
                           return place.has_value();
                         }) &&
                     lay(desktop.from(spec.objects), [&] {

@@ -27,6 +27,7 @@ struct ClutterSpec {
   Count cups{1, 1}, objects{3, 6};
   std::vector<ClutterThing> cup_kinds, object_kinds;
   std::vector<Json> fillings{Json::object()};  ///< what a cup may hold: {"liquid", "fill_mm"}, or nothing
+  double empty = 0.0;                          ///< share of the cups that stay empty and draw no filling
   Eigen::AlignedBox2d region;                  ///< [m] where cups and objects have their origins
   double gap = 0.010;                          ///< [m] least distance between things that do not touch
   double touching = 0.0;                       ///< share of the objects that are pushed against a cup …
@@ -34,6 +35,7 @@ struct ClutterSpec {
 };
 
 /// Throws Error naming file, path, what is wrong and what is allowed.
+ClutterSpec clutter_spec_from_json(const JsonReader& json);
 ClutterSpec read_clutter_spec(const std::filesystem::path& path);
 
 /// The scene of that number, as its file would say it. Throws Error when the region has no room for so many things.

@@ -55,16 +55,16 @@ Eigen::AlignedBox2d region_from_json(const JsonReader& json) {
 
 }  // namespace
 
-ClutterSpec read_clutter_spec(const std::filesystem::path& path) {
+ClutterSpec clutter_spec_from_json(const JsonReader& json) {
   ClutterSpec spec;
-  spec.source = read_json(path);
-  const JsonReader json(spec.source, path.string());
-  json.allow_only({"sensor", "desk", "cups", "objects", "fillings", "region_mm", "gap_mm", "touching", "occluding"});
+  spec.source = json.value();
+  json.allow_only(
+      {"sensor", "desk", "cups", "objects", "fillings", "empty", "region_mm", "gap_mm", "touching", "occluding"});
   spec.sensor = json.at("sensor").value();
   rig_from_json(json.at("sensor"));
   spec.desk = json.has("desk") ? spec.source["desk"] : Json::object();
   const Json bare{{"desk", spec.desk}};
-  if (!scene_from_json(JsonReader(bare, path.string())).desk)
+  if (!scene_from_json(JsonReader(bare, json.file())).desk)
     json.fail_at("desk", "is what things stand on and cannot be null");
   json.at("cups").allow_only({"number", "kinds"});
   spec.cups = count_from_json(json.at("cups"), spec.cups);
@@ -79,12 +79,18 @@ ClutterSpec read_clutter_spec(const std::filesystem::path& path) {
     for (const JsonReader& item : json.at("fillings").items()) spec.fillings.push_back(filling_from_json(item));
     if (spec.fillings.empty()) json.fail_at("fillings", "must hold at least one; {} leaves a cup empty");
   }
+  spec.empty = json.number_or("empty", spec.empty, {0.0, 1.0});
   spec.region = region_from_json(json.at("region_mm"));
   spec.gap = json.metres_or("gap_mm", spec.gap, kCupLengthMm);
   spec.touching = json.number_or("touching", spec.touching, {0.0, 1.0});
   spec.occluding = json.number_or("occluding", spec.occluding, {0.0, 1.0});
   if (spec.touching + spec.occluding > 1.0) json.fail_at("occluding", "must leave touching + occluding at most 1");
   return spec;
+}
+
+ClutterSpec read_clutter_spec(const std::filesystem::path& path) {
+  const Json json = read_json(path);
+  return clutter_spec_from_json(JsonReader(json, path.string()));
 }
 
 }  // namespace fathom

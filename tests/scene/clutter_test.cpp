@@ -102,18 +102,30 @@ TEST(Clutter, WhatOccludesACupStandsBetweenItAndTheSensor) {
   }
 }
 
-TEST(Clutter, FillsItsCups) {
-  Json json = shipped_spec();
-  json["fillings"] = {Json::object(), {{"liquid", "water"}, {"fill_mm", 20}}};
-  const ClutterSpec spec = spec_of(json);
+/// Of desks 0 to 39.
+int filled_cups(const Json& spec_json) {
+  const ClutterSpec spec = spec_of(spec_json);
   int filled = 0;
   for (std::uint64_t number = 0; number < 40; ++number) {
     const auto setup = setup_from_json(random_scene(spec, 1, number), "scene.json");
     filled += setup.scene.cups.at(0).filling.has_value();
   }
-  // Binomial(40, ½) stays from 8 to 32 but for 1 in 10,000 seeds.
-  EXPECT_GE(filled, 8);
-  EXPECT_LE(filled, 32);
+  return filled;
+}
+
+TEST(Clutter, FillsItsCupsButTheShareThatStaysEmpty) {
+  const Json water = {{"liquid", "water"}, {"fill_mm", 20}};
+  Json drawn = shipped_spec(), shared = drawn, none = drawn;
+  drawn["fillings"] = {Json::object(), water};
+  shared["fillings"] = none["fillings"] = Json::array({water});
+  EXPECT_EQ(filled_cups(shared), 40);
+  shared["empty"] = 0.5, none["empty"] = 1.0;
+  EXPECT_EQ(filled_cups(none), 0);
+  for (const Json& half : {drawn, shared}) {
+    // Binomial(40, ½) stays from 8 to 32 but for 1 in 10,000 seeds.
+    EXPECT_GE(filled_cups(half), 8);
+    EXPECT_LE(filled_cups(half), 32);
+  }
 }
 
 TEST(Clutter, WrongSpecsSayWhatIsWrong) {
