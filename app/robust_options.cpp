@@ -31,6 +31,7 @@ RobustConfig read_robust_config(const JsonReader& json) {
                    "index",
                    "liquid_prior",
                    "liquid_sure",
+                   "dry_sure",
                    "kind_sure"});
   constexpr Range kShare{0.0, 1.0};
   constexpr int kMany = 1'000'000;
@@ -60,6 +61,7 @@ RobustConfig read_robust_config(const JsonReader& json) {
   config.fill.index = json.number_or("index", config.fill.index, {1.0, 2.0, true});
   config.fill.liquid_prior = json.number_or("liquid_prior", config.fill.liquid_prior, kShare);
   config.fill.liquid_sure = json.number_or("liquid_sure", config.fill.liquid_sure, {0.5, 1.0});
+  config.fill.dry_sure = json.number_or("dry_sure", config.fill.dry_sure, {0.5, 1.0});
   config.fill.kind_sure = json.number_or("kind_sure", config.fill.kind_sure, {0.5, 1.0});
   return config;
 }

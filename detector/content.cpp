@@ -8,9 +8,9 @@
 namespace fathom {
 namespace {
 
-Liquid liquid_from(double probability, double sure) {
-  if (probability >= sure) return Liquid::kYes;
-  return probability <= 1.0 - sure ? Liquid::kNo : Liquid::kUnknown;
+Liquid liquid_from(double probability, const FillSettings& settings) {
+  if (probability >= settings.liquid_sure) return Liquid::kYes;
+  return 1.0 - probability >= settings.dry_sure ? Liquid::kNo : Liquid::kUnknown;
 }
 
 LiquidKind kind_from(double p_opaque, double sure) {
@@ -44,7 +44,7 @@ void decide_content(DetectedCup& cup, const CupEvidence& evidence, const FillSet
 
   const FillDecision decision =
       decide_fill(evidence.readings, evidence.bottom, evidence.fill_max_m, evidence.signs, settings);
-  const Liquid liquid = liquid_from(decision.p_liquid, settings.liquid_sure);
+  const Liquid liquid = liquid_from(decision.p_liquid, settings);
   if (liquid == Liquid::kYes && !evidence.solid_words.empty()) {
     cup.why += "; solid? " + evidence.solid_words;
     return;

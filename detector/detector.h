@@ -15,6 +15,7 @@
 #include "detector/plane.h"
 #include "detector/registration_config.h"
 #include "detector/robust_config.h"
+#include "detector/stage_clock.h"
 
 namespace fathom {
 
@@ -54,6 +55,7 @@ struct Detection {
   std::vector<DetectedCup> cups;
   std::vector<RejectedSegment> rejected;
   std::string why;  ///< why there is no desk; empty when there is one
+  std::vector<StageTime> stages;
 };
 
 struct DetectorSettings {

@@ -58,6 +58,7 @@ std::vector<Candidate> cup_candidates(const DeskView& view, const PaperConfig& c
 Detection detect_paper(const Cloud& cloud, const DetectorSettings& settings) {
   const PaperConfig& config = settings.paper;
   Detection result;
+  StageClock clock(result.stages);
   const auto found = view_of_desk(cloud, settings.prior, config.plane);
   if (const NoDesk* none = std::get_if<NoDesk>(&found)) {
     result.why = none->why;
@@ -65,14 +66,18 @@ Detection detect_paper(const Cloud& cloud, const DetectorSettings& settings) {
   }
   const DeskView& view = std::get<DeskView>(found);
   result.desk = view.desk;
+  clock.done("desk");
+  std::vector<Candidate> candidates = cup_candidates(view, config);
+  clock.done("segments");
 
-  for (Candidate& candidate : cup_candidates(view, config)) {
+  for (Candidate& candidate : candidates) {
     ++result.segments;
     if (!candidate.rejected.empty()) {
       result.rejected.push_back({std::move(candidate), std::nullopt});
       continue;
     }
     const auto match = match_templates(candidate, settings.templates, config.icp);
+    clock.done("templates");
     if (!match || match->score_m > config.icp.score_max_m) {
       candidate.rejected = match ? far_from_template(*match, settings.templates[match->index], config.icp)
                                  : "there is no template to match";
@@ -89,6 +94,7 @@ Detection detect_paper(const Cloud& cloud, const DetectorSettings& settings) {
     cup.why = decision_in_words(cup, known);
     cup.candidate = std::move(candidate);
     result.cups.push_back(std::move(cup));
+    clock.done("content");
   }
   return result;
 }

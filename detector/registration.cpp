@@ -126,6 +126,7 @@ std::optional<Placed> place_templates(const Points& segment, const std::vector<C
 Detection detect_by(const Cloud& cloud, const DetectorSettings& settings, Register align) {
   const RegistrationConfig& config = settings.registration;
   Detection result;
+  StageClock clock(result.stages);
   const auto found = view_of_desk(cloud, settings.prior, settings.paper.plane);
   if (const NoDesk* none = std::get_if<NoDesk>(&found)) {
     result.why = none->why;
@@ -133,9 +134,13 @@ Detection detect_by(const Cloud& cloud, const DetectorSettings& settings, Regist
   }
   const DeskView& view = std::get<DeskView>(found);
   result.desk = view.desk;
-  for (Candidate& candidate : cup_candidates(view, settings.paper)) {
+  clock.done("desk");
+  std::vector<Candidate> candidates = cup_candidates(view, settings.paper);
+  clock.done("segments");
+  for (Candidate& candidate : candidates) {
     ++result.segments;
     const auto placed = place_templates(candidate.points, settings.templates, config, align);
+    clock.done("templates");
     if (!placed || placed->score_m > config.score_max_m) {
       candidate.rejected =
           placed ? fmt::format("mean distance {:.1f} mm from {} is above {:g} mm", mm_from_metres(placed->score_m),

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "detector/content_signs.h"
+#include "detector/heap.h"
 #include "detector/noise.h"
 #include "detector/pinhole.h"
 
@@ -102,23 +103,26 @@ double height_sigma_m(const LevelSurface& surface) {
 }
 
 /// A liquid's surface is level; the raised bottom below a clear one leans by less than a degree.
-std::string solid_words(const LevelSurface& surface, const SurfaceSettings& settings) {
+std::string solid_words(const LevelSurface& surface, const HeapSlope& heap, const SurfaceSettings& settings) {
   const bool leans = surface.tilt_rad > settings.tilt_max_rad && surface.tilt_rad > 3.0 * surface.tilt_sigma_rad;
   if (leans)
     return fmt::format("its surface leans {:.0f} +- {:.0f} deg", deg_from_radians(surface.tilt_rad),
                        deg_from_radians(surface.tilt_sigma_rad));
+  if (heap.slope_rad > settings.tilt_max_rad && heap.slope_rad > 3.0 * heap.sigma_rad)
+    return fmt::format("it is heaped by {:.0f} +- {:.0f} deg", deg_from_radians(heap.slope_rad),
+                       deg_from_radians(heap.sigma_rad));
   const double flat = settings.roughness_max * depth_noise_m(surface.range_m);
   if (surface.sd_m > flat) return fmt::format("its surface is uneven by {}", mm(surface.sd_m));
   return "";
 }
 
-CupEvidence evidence_of(const RoundWall& wall, const std::optional<LevelSurface>& surface, ContentSigns signs,
-                        const KnownCup& known, const RobustConfig& config) {
+CupEvidence evidence_of(const RoundWall& wall, const Points& inside, const std::optional<LevelSurface>& surface,
+                        ContentSigns signs, const KnownCup& known, const RobustConfig& config) {
   CupEvidence evidence{
       known.bottom, wall.top_m - config.rays.lid_m - known.bottom.height_m, {}, std::move(signs), known.words, ""};
   if (!surface) return evidence;
   evidence.readings.push_back({surface->height_m, height_sigma_m(*surface), surface->incidence_rad});
-  evidence.solid_words = solid_words(*surface, config.surface);
+  evidence.solid_words = solid_words(*surface, heap_slope(inside, wall, *surface, config.surface), config.surface);
   return evidence;
 }
 
@@ -127,7 +131,9 @@ CupEvidence evidence_of(const RoundWall& wall, const std::optional<LevelSurface>
 Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
   const RobustConfig& config = settings.robust;
   Detection result;
+  StageClock clock(result.stages);
   const auto found = find_desk(cloud.points, settings.prior, config.desk);
+  clock.done("desk");
   if (const NoDesk* none = std::get_if<NoDesk>(&found)) {
     result.why = none->why;
     return result;
@@ -138,9 +144,12 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
   const Points points = in_desk_frame(cloud.points, to_desk);
   const std::optional<Pinhole> pinhole = pinhole_of(cloud);
 
-  for (Points& segment : grid_segments(points, config.segments)) {
+  std::vector<Points> segments = grid_segments(points, config.segments);
+  clock.done("segments");
+  for (Points& segment : segments) {
     const WallSearch search = search_at(range_of(segment, camera_height), config.wall);
     const std::vector<RoundWall> walls = find_round_walls(segment, search);
+    clock.done("walls");
     result.segments += std::max<int>(1, static_cast<int>(walls.size()));
     if (walls.empty()) {
       Candidate none;
@@ -176,10 +185,11 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
         cup.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
         cup.surface_sigma_m = height_sigma_m(*surface);
       }
-      cup.evidence = evidence_of(wall, surface, std::move(signs), known, config);
+      cup.evidence = evidence_of(wall, rays.inside, surface, std::move(signs), known, config);
       decide_content(cup, *cup.evidence, config.fill);
       result.cups.push_back(std::move(cup));
     }
+    clock.done("content");
   }
   return result;
 }

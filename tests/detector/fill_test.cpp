@@ -37,17 +37,23 @@ TEST(Fill, ProbabilityRisesWithTheHeight) {
 }
 
 TEST(Fill, FalseAlarmsOfEmptyCupsAreRareAndShallowFillingsAreSeen) {
-  const double sure = FillSettings{}.liquid_sure;
+  const FillSettings settings;
   Rng rng(1);
   constexpr int kTrials = 2000;
-  int alarms = 0, seen = 0;
+  int alarms = 0, seen = 0, dry = 0, overlooked = 0;
   for (int i = 0; i < kTrials; ++i) {
     const double error = std::hypot(kSigma, kBottom.sigma_m) * rng.normal();
-    alarms += decide(0.007 + error).p_liquid >= sure;
-    seen += decide(0.007 + error + apparent_rise(0.010, kIncidence, 1.33)).p_liquid >= sure;
+    const double empty = decide(0.007 + error).p_liquid;
+    const double water = decide(0.007 + error + apparent_rise(0.010, kIncidence, 1.33)).p_liquid;
+    alarms += empty >= settings.liquid_sure;
+    dry += 1.0 - empty >= settings.dry_sure;
+    seen += water >= settings.liquid_sure;
+    overlooked += 1.0 - water >= settings.dry_sure;
   }
-  EXPECT_LE(alarms, 0.01 * kTrials);  // one in 200 is meant, 3 σ of 10 are 19
-  EXPECT_GE(seen, 0.95 * kTrials);    // 10 mm of water rise by 4.3 of them
+  EXPECT_LE(alarms, 0.01 * kTrials);       // one in 200 is meant, 3 σ of 10 are 19
+  EXPECT_GE(seen, 0.95 * kTrials);         // 10 mm of water rise by 4.3 of them
+  EXPECT_LE(overlooked, 0.008 * kTrials);  // one in 300 is meant, 3 σ of 7 are 15
+  EXPECT_GE(dry, 0.9 * kTrials);           // two in three of what is left are nearer to 10 mm than to nothing
 }
 
 TEST(Fill, AWiderErrorOfTheBottomAsksForMore) {

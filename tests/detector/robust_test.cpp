@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/rng.h"
+#include "core/units.h"
 #include "tests/detector/synthetic.h"
 #include "tests/detector/why_no_desk.h"
 
@@ -105,6 +107,37 @@ TEST(Robust, ACupBesideABoxOrHalfHiddenByOneIsFound) {
   const Detection result = detect(cast(behind));
   EXPECT_EQ(result.cups.size(), 1u);
   expect_paper_cup(result, 0.0, 0.45);
+}
+
+TEST(Robust, ClosedAndTallThingsThatTouchCupsLeaveThemCups) {
+  Scene scene = noisy();
+  OpenCup can = cup_at(-0.078, 0.40, 0.118);  // its lid is full of circles
+  can.height_m = 0.122, can.inner_radius_m = 0.031, can.outer_radius_m = 0.033;
+  OpenCup other = can;
+  other.x_m = 0.020, other.y_m = 0.48;
+  scene.cups = {can, other, cup_at(0.0, 0.39), cup_at(0.10, 0.36)};
+  scene.boxes = {{{0.145, 0.30}, {0.20, 0.42}, 0.16}};
+  const Detection result = detect(cast(scene));
+  EXPECT_EQ(result.cups.size(), 2u);
+  expect_paper_cup(result, 0.0, 0.39);
+  expect_paper_cup(result, 0.10, 0.36);
+}
+
+TEST(Robust, WhatIsHeapedOrLeansIsNoLiquid) {
+  // Sugar stands up to 35 deg; a heap of 10 deg rises 7 mm from the wall to the tip.
+  for (const double slope_deg : {10.0, 20.0, 30.0}) {
+    for (const bool heap : {true, false}) {
+      Scene scene = one_cup(0.30, 0.040);
+      (heap ? scene.cups[0].heap_slope : scene.cups[0].lean_slope) = std::tan(radians_from_deg(slope_deg));
+      const Detection result = detect(cast(scene));
+      ASSERT_EQ(result.cups.size(), 1u) << slope_deg << heap;
+      const DetectedCup& cup = result.cups[0];
+      EXPECT_EQ(cup.liquid, Liquid::kUnknown) << slope_deg << heap << cup.why;
+      EXPECT_NE(cup.why.find("solid?"), std::string::npos) << slope_deg << heap << cup.why;
+    }
+  }
+  Scene level = one_cup(0.30, 0.040);
+  EXPECT_EQ(detect(cast(level)).cups.at(0).liquid, Liquid::kYes);
 }
 
 TEST(Robust, AHandleDoesNotMoveTheCircle) {

@@ -34,15 +34,43 @@ double hit_cylinder(const Ray& ray, const OpenCup& cup, double radius, double lo
   return nearest;
 }
 
+/// Nearest distance to z = floor + slope · (inner radius − distance from the axis), the surface of a heap.
+double hit_heap(const Ray& ray, const OpenCup& cup) {
+  const Eigen::Vector2d from = ray.origin.head<2>() - Eigen::Vector2d(cup.x_m, cup.y_m),
+                        along = ray.direction.head<2>();
+  const double below_tip = cup.floor_m + cup.heap_slope * cup.inner_radius_m - ray.origin.z();
+  const double steep = cup.heap_slope * cup.heap_slope, down = -ray.direction.z();
+  // (tip − z)² = slope² · distance², with tip − z above 0: the cone below its tip.
+  const double a = down * down - steep * along.squaredNorm(), b = below_tip * down - steep * from.dot(along),
+               c = below_tip * below_tip - steep * from.squaredNorm();
+  if (b * b - a * c < 0.0) return kNothing;
+  double nearest = kNothing;
+  for (const double sign : {-1.0, 1.0}) {
+    const double t = (-b + sign * std::sqrt(b * b - a * c)) / a;
+    if (t > 0.0 && below_tip + t * down >= 0.0 && (from + t * along).norm() < cup.inner_radius_m)
+      nearest = std::min(nearest, t);
+  }
+  return nearest;
+}
+
+/// Distance to the floor, which may lean.
+double hit_floor(const Ray& ray, const OpenCup& cup) {
+  const Eigen::Vector3d up(0.0, -cup.lean_slope, 1.0);
+  const Eigen::Vector3d on_floor(cup.x_m, cup.y_m, cup.floor_m);
+  const double t = up.dot(on_floor - ray.origin) / up.dot(ray.direction);
+  const Eigen::Vector2d at = (ray.origin + t * ray.direction).head<2>();
+  return t > 0.0 && (at - on_floor.head<2>()).norm() < cup.inner_radius_m ? t : kNothing;
+}
+
 double hit_cup(const Ray& ray, const OpenCup& cup) {
   const auto distance = [&](const Eigen::Vector3d& p) { return std::hypot(p.x() - cup.x_m, p.y() - cup.y_m); };
   const double rim = hit_level(ray, cup.height_m, [&](const Eigen::Vector3d& p) {
     return distance(p) >= cup.inner_radius_m && distance(p) <= cup.outer_radius_m;
   });
-  const double floor =
-      hit_level(ray, cup.floor_m, [&](const Eigen::Vector3d& p) { return distance(p) < cup.inner_radius_m; });
+  const double floor = cup.heap_slope > 0.0 ? hit_heap(ray, cup) : hit_floor(ray, cup);
   const double outside = hit_cylinder(ray, cup, cup.outer_radius_m, 0.0, cup.height_m);
-  const double inside = hit_cylinder(ray, cup, cup.inner_radius_m, cup.floor_m, cup.height_m);
+  const double lowest = cup.floor_m - cup.lean_slope * cup.inner_radius_m;
+  const double inside = hit_cylinder(ray, cup, cup.inner_radius_m, lowest, cup.height_m);
   return std::min(std::min(rim, floor), std::min(outside, inside));
 }
 
