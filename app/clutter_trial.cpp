@@ -10,9 +10,6 @@
 #include "core/units.h"
 #include "sim/render/intersect.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/setup.h"
-#include "sim/sensor/capture.h"
-#include "sim/sensor/preview.h"
 
 namespace fathom {
 namespace {
@@ -72,23 +69,23 @@ Owners owners_of(const Candidate& segment, const Eigen::Isometry3d& camera_from_
 
 /// What was found, with who owns the points of every segment.
 struct Search {
-  const Setup& setup;
-  const Camera& camera;
-  Detection detection;
+  const TrialShot& shot;
+  const Detection& detection;
   Eigen::Isometry3d world_from_desk;
   std::vector<Owners> cups, rejected;
 };
 
-Search search(const Setup& setup, const Camera& camera, Detection detection) {
-  Search result{setup, camera, std::move(detection), Eigen::Isometry3d::Identity(), {}, {}};
-  if (!result.detection.desk) return result;
-  const Eigen::Isometry3d from_camera = desk_from_camera(result.detection.desk->plane);
-  result.world_from_desk = setup.rig.world_from_camera * from_camera.inverse();
+Search owned(const TrialShot& shot, const Detection& detection) {
+  Search result{shot, detection, Eigen::Isometry3d::Identity(), {}, {}};
+  if (!detection.desk) return result;
+  const Rig& rig = shot.setup.rig;
+  const Eigen::Isometry3d from_camera = desk_from_camera(detection.desk->plane);
+  result.world_from_desk = rig.world_from_camera * from_camera.inverse();
   const auto owners = [&](const Candidate& candidate) {
-    return owners_of(candidate, from_camera.inverse(), setup.rig.sensor, camera.truth());
+    return owners_of(candidate, from_camera.inverse(), rig.sensor, shot.camera.truth());
   };
-  for (const DetectedCup& cup : result.detection.cups) result.cups.push_back(owners(cup.candidate));
-  for (const RejectedSegment& segment : result.detection.rejected) result.rejected.push_back(owners(segment.candidate));
+  for (const DetectedCup& cup : detection.cups) result.cups.push_back(owners(cup.candidate));
+  for (const RejectedSegment& segment : detection.rejected) result.rejected.push_back(owners(segment.candidate));
   return result;
 }
 
@@ -102,7 +99,7 @@ void explain_miss(const Search& search, std::size_t index, TrialCup& cup) {
   int most = 0;
   bool merged = false;
   const auto look_at = [&](const Owners& owners, const std::string& why) {
-    const int own = count_on_cup(search.camera.geometry(), owners, index);
+    const int own = count_on_cup(search.shot.camera.geometry(), owners, index);
     if (own <= most) return;
     most = own;
     int all = 0;
@@ -116,14 +113,16 @@ void explain_miss(const Search& search, std::size_t index, TrialCup& cup) {
   cup.miss = merged ? Miss::merged : cup.visible < kWholeCup ? Miss::occluded : Miss::refused;
 }
 
-TrialCup true_cup(const Setup& setup, const Camera& camera, std::size_t index) {
-  const Cup& cup = setup.scene.cups[index];
+TrialCup true_cup(const TrialShot& shot, std::size_t index) {
+  const Cup& cup = shot.setup.scene.cups[index];
   TrialCup result;
   result.shape = cup_name(cup);
   result.liquid = cup.filling ? cup.filling->medium.name : "empty";
   result.fill_mm = cup.filling ? mm_from_metres(cup.filling->depth) : 0.0;
+  if (cup.filling)
+    result.kind = name_of(cup.filling->medium.scatters() ? LiquidKind::kOpaque : LiquidKind::kTransparent);
   result.position_mm = cup.position / kMetresPerMm;
-  result.visible = visible_share(setup, camera, index);
+  result.visible = shot.visible[index];
   return result;
 }
 
@@ -146,20 +145,20 @@ std::string name_of_owner(const Search& search, const Owners& owners) {
   const auto most =
       std::max_element(owners.begin(), owners.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   if (most == owners.end() || most->first == 0) return "nothing";
-  const std::string& name = search.camera.geometry().objects[most->first - 1];
+  const std::string& name = search.shot.camera.geometry().objects[most->first - 1];
   return name.starts_with("object ") ? name.substr(name.find(' ', 7) + 1) : name;
 }
 
 TrialResult compare(const Search& search) {
   TrialResult result;
   std::vector<bool> used(search.detection.cups.size(), false);
-  for (std::size_t index = 0; index < search.setup.scene.cups.size(); ++index) {
-    TrialCup cup = true_cup(search.setup, search.camera, index);
+  for (std::size_t index = 0; index < search.shot.setup.scene.cups.size(); ++index) {
+    TrialCup cup = true_cup(search.shot, index);
     std::optional<std::size_t> nearest;
     double least = kSameAxis;
     for (std::size_t i = 0; i < used.size(); ++i) {
       const double off =
-          (axis_in_world(search, search.detection.cups[i]) - search.setup.scene.cups[index].position).norm();
+          (axis_in_world(search, search.detection.cups[i]) - search.shot.setup.scene.cups[index].position).norm();
       if (!used[i] && off < least) least = off, nearest = i;
     }
     if (nearest) {
@@ -189,21 +188,30 @@ std::string_view name_of(Miss miss) {
   return "refused";
 }
 
-Trial run_trial(const Json& scene, const Method& method, DetectorSettings settings, std::uint64_t seed) {
-  const Setup setup = setup_from_json(scene, "random desk");
-  settings.prior = prior_of(setup.rig);
-  double shoot_s = 0.0, detect_s = 0.0;
-  std::optional<Camera> camera;
-  const Frame frame = timed(shoot_s, [&] {
-    camera.emplace(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed);
-    return camera->shoot(0);
+TrialShot shoot_trial(const Json& scene, std::uint64_t seed) {
+  double shoot_s = 0.0;
+  Setup setup = setup_from_json(scene, "random desk");
+  Frame frame;
+  Camera camera = timed(shoot_s, [&] {
+    Camera result(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed);
+    frame = result.shoot(0);
+    return result;
   });
-  const Cloud cloud = cloud_from_image(frame.cloud);
-  Detection detection = timed(detect_s, [&] { return method.detect(cloud, settings); });
-  TrialResult result = compare(search(setup, *camera, std::move(detection)));
-  result.shoot_s = shoot_s;
+  std::vector<double> visible;
+  for (std::size_t cup = 0; cup < setup.scene.cups.size(); ++cup) visible.push_back(visible_share(setup, camera, cup));
+  Cloud cloud = cloud_from_image(frame.cloud);
+  return {std::move(setup), std::move(camera), std::move(frame), std::move(cloud), std::move(visible), shoot_s};
+}
+
+Trial search_trial(const TrialShot& shot, const Method& method, DetectorSettings settings) {
+  settings.prior = prior_of(shot.setup.rig);
+  double detect_s = 0.0;
+  Detection detection = timed(detect_s, [&] { return method.detect(shot.cloud, settings); });
+  TrialResult result = compare(owned(shot, detection));
+  result.shoot_s = shot.shoot_s;
   result.detect_s = detect_s;
-  return {std::move(result), preview(frame, camera->truth())};
+  for (const StageTime& stage : detection.stages) result.stages_s.emplace(stage.name, stage.seconds);
+  return {std::move(detection), std::move(result)};
 }
 
 }  // namespace fathom

@@ -1,15 +1,17 @@
-// One random desk: shot, searched for cups, and what was found beside what stands there.
+// One random desk: shot once, searched for cups by any number of methods, and what was found beside what stands there.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/image_file.h"
 #include "core/json.h"
 #include "detector/detector.h"
+#include "sim/scene/setup.h"
+#include "sim/sensor/capture.h"
 
 namespace fathom {
 
@@ -28,6 +30,7 @@ std::string_view name_of(Miss miss);
 struct TrialCup {
   std::string shape, liquid;  ///< of an empty cup "empty"
   double fill_mm = 0.0;
+  std::string kind;             ///< "transparent" or "opaque"; of an empty cup ""
   Eigen::Vector2d position_mm;  ///< of its axis, world
   double visible = 0.0;         ///< share of the pixels it would fill alone on the desk
   bool found = false;
@@ -42,18 +45,32 @@ struct TrialResult {
   std::vector<TrialCup> cups;
   std::vector<std::string> false_cups;  ///< what was taken for a cup
   double shoot_s = 0.0, detect_s = 0.0;
+  std::map<std::string, double> stages_s;  ///< of the method
 };
 
 /// To and from the file that keeps a trial.
 Json json_of(const TrialResult& result);
 TrialResult trial_from_json(const JsonReader& json);
 
-struct Trial {
-  TrialResult result;
-  Image<Rgb> picture;  ///< as preview()
+/// A random desk as the sensor saw it.
+struct TrialShot {
+  Setup setup;
+  Camera camera;
+  Frame frame;
+  Cloud cloud;                  ///< the frame's, as detectors take it
+  std::vector<double> visible;  ///< of each cup the share of the pixels it would fill alone on the desk
+  double shoot_s;
 };
 
-/// Photometric, direct light. `settings`' prior is set to where the sensor stands.
-Trial run_trial(const Json& scene, const Method& method, DetectorSettings settings, std::uint64_t seed);
+/// Photometric, direct light.
+TrialShot shoot_trial(const Json& scene, std::uint64_t seed);
+
+struct Trial {
+  Detection detection;
+  TrialResult result;
+};
+
+/// `settings`' prior is set to where the sensor stands.
+Trial search_trial(const TrialShot& shot, const Method& method, DetectorSettings settings);
 
 }  // namespace fathom

@@ -14,6 +14,7 @@ Json json_of(const TrialCup& cup) {
   return {{"shape", cup.shape},
           {"liquid", cup.liquid},
           {"fill_mm", cup.fill_mm},
+          {"kind", cup.kind},
           {"position_mm", {cup.position_mm.x(), cup.position_mm.y()}},
           {"visible", cup.visible},
           {"found", cup.found},
@@ -27,11 +28,12 @@ Json json_of(const TrialCup& cup) {
           {"why", cup.why}};
 }
 
-TrialCup cup_from_json(const JsonReader& json) {
+TrialCup trial_cup_from_json(const JsonReader& json) {
   TrialCup cup;
   cup.shape = json.text("shape");
   cup.liquid = json.text("liquid");
   cup.fill_mm = json.number("fill_mm");
+  cup.kind = json.text("kind");
   cup.position_mm = json.at("position_mm").vector2();
   cup.visible = json.number("visible");
   cup.found = json.value()["found"].get<bool>();
@@ -52,17 +54,21 @@ TrialCup cup_from_json(const JsonReader& json) {
 Json json_of(const TrialResult& result) {
   Json cups = Json::array();
   for (const TrialCup& cup : result.cups) cups.push_back(json_of(cup));
-  return {
-      {"cups", cups}, {"false_cups", result.false_cups}, {"shoot_s", result.shoot_s}, {"detect_s", result.detect_s}};
+  return {{"cups", cups},
+          {"false_cups", result.false_cups},
+          {"shoot_s", result.shoot_s},
+          {"detect_s", result.detect_s},
+          {"stages_s", result.stages_s}};
 }
 
 TrialResult trial_from_json(const JsonReader& json) {
-  json.allow_only({"cups", "false_cups", "shoot_s", "detect_s"});
+  json.allow_only({"cups", "false_cups", "shoot_s", "detect_s", "stages_s"});
   TrialResult result;
-  for (const JsonReader& cup : json.at("cups").items()) result.cups.push_back(cup_from_json(cup));
+  for (const JsonReader& cup : json.at("cups").items()) result.cups.push_back(trial_cup_from_json(cup));
   for (const JsonReader& name : json.at("false_cups").items()) result.false_cups.push_back(name.text());
   result.shoot_s = json.number("shoot_s");
   result.detect_s = json.number("detect_s");
+  result.stages_s = json.value()["stages_s"].get<std::map<std::string, double>>();
   return result;
 }
 

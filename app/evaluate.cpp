@@ -10,7 +10,10 @@
 #include "app/commands.h"
 #include "app/detector_options.h"
 #include "app/evaluate_clutter.h"
+#include "app/failure_gallery.h"
+#include "app/gnuplot.h"
 #include "app/labelled_clouds.h"
+#include "app/liquid_rates.h"
 #include "app/results.h"
 #include "app/share_rows.h"
 #include "core/files.h"
@@ -92,10 +95,13 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
                                      .trials = options.trials.value_or(experiment.trials),
                                      .method = &method_named(options.method),
                                      .detector = detector_settings(options.config)};
+  if (!common.output.empty()) require_gnuplot();
   const std::vector<TrialResult> trials = run_trials(evaluation, common);
   if (!common.output.empty()) {
     write_table(common.output / "cups.csv", cups_table(trials));
     write_table(common.output / "fillings.csv", fillings_table(trials));
+    write_reliability(common.output, trials);
+    write_failure_gallery(common.output);
   }
   print_results(common, "rates", ".txt", format_rows(rates(evaluation, trials), common.json));
 }

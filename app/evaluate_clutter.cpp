@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/failure_gallery.h"
+#include "app/liquid_rates.h"
 #include "app/share_rows.h"
+#include "app/trial_picture.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/median.h"
@@ -19,15 +22,6 @@ namespace fs = std::filesystem;
 
 /// Cups of which less is in sight are not asked for.
 constexpr double kInSight = 0.3;
-
-/// How a trial failed, in one word for a file's name; nothing when all is right.
-std::string failure(const TrialResult& trial) {
-  for (const TrialCup& cup : trial.cups) {
-    if (cup.miss) return std::string(name_of(*cup.miss));
-    if (cup.liquid_found == (cup.liquid == "empty" ? "yes" : "no")) return "liquid";
-  }
-  return trial.false_cups.empty() ? "" : "false_cup";
-}
 
 /// The folder that keeps the trials; without one nothing is kept.
 class Keeper {
@@ -62,11 +56,11 @@ class Keeper {
   }
 
   /// The trial's own file last: a trial with it is complete.
-  void keep(const std::string& name, const Json& scene, const Trial& trial) const {
+  void keep(const std::string& name, const Json& scene, const TrialShot& shot, const Trial& trial) const {
     if (folder_.empty()) return;
-    if (const std::string why = failure(trial.result); !why.empty()) {
+    if (const std::string why = failure_of(trial.result); !why.empty()) {
       write_json(folder_ / "failures" / fmt::format("{}_{}.json", name, why), scene);
-      write_png(folder_ / "failures" / fmt::format("{}_{}.png", name, why), trial.picture);
+      write_png(folder_ / "failures" / fmt::format("{}_{}.png", name, why), trial_picture(shot, trial));
     }
     write_json(folder_ / "trials" / (name + ".json"), json_of(trial.result));
   }
@@ -90,32 +84,6 @@ double median_s(const std::vector<TrialResult>& trials, double TrialResult::*tim
   return median(std::move(times));
 }
 
-void add_liquid_rates(const std::vector<TrialResult>& trials, std::vector<Row>& rows) {
-  const auto share = [&](const char* name, bool filled, const char* right) {
-    add_share(name,
-              count_of(trials,
-                       [&](const TrialCup& cup) {
-                         return cup.found && (cup.liquid != "empty") == filled && cup.liquid_found == right;
-                       }),
-              count_of(trials,
-                       [&](const TrialCup& cup) {
-                         return cup.found && (cup.liquid != "empty") == filled && cup.liquid_found != "unknown";
-                       }),
-              rows);
-  };
-  share("sensitivity", true, "yes");
-  share("specificity", false, "no");
-  rows.push_back({"liquid_unknown", static_cast<double>(count_of(trials, [](const TrialCup& cup) {
-                    return cup.found && cup.liquid_found == "unknown";
-                  }))});
-  double sum = 0.0;
-  int filled = 0;
-  for (const TrialResult& trial : trials)
-    for (const TrialCup& cup : trial.cups)
-      if (cup.fill_found_mm && cup.liquid != "empty") sum += std::fabs(*cup.fill_found_mm - cup.fill_mm), ++filled;
-  if (filled > 0) rows.push_back({"fill_mean_absolute_error", sum / filled, "mm"});
-}
-
 std::string number_text(const std::optional<double>& value) { return value ? fmt::format("{:.3f}", *value) : ""; }
 
 }  // namespace
@@ -127,7 +95,7 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
   Progress progress("trial", conditions * evaluation.trials, common.quiet);
   for (std::size_t condition = 0; condition < conditions; ++condition) {
     ClutterSpec clutter = evaluation.clutter;
-    if (evaluation.by_filling) clutter.fillings = {evaluation.clutter.fillings[condition]};
+    if (evaluation.by_filling) clutter.fillings = {evaluation.clutter.fillings[condition]}, clutter.empty = 0.0;
     for (int i = 0; i < evaluation.trials; ++i) {
       // Each filling has its own numbers, so that more trials leave those there are as they were.
       constexpr std::size_t kMostTrials = 100000;
@@ -136,8 +104,9 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
       std::optional<TrialResult> result = keeper.kept(name);
       if (!result) {
         const Json scene = random_scene(clutter, common.seed, number);
-        const Trial trial = run_trial(scene, *evaluation.method, evaluation.detector, Rng(common.seed, number).bits());
-        keeper.keep(name, scene, trial);
+        const TrialShot shot = shoot_trial(scene, Rng(common.seed, number).bits());
+        const Trial trial = search_trial(shot, *evaluation.method, evaluation.detector);
+        keeper.keep(name, scene, shot, trial);
         result = trial.result;
       }
       results.push_back(*std::move(result));
@@ -162,9 +131,14 @@ std::vector<Row> rates(const ClutterEvaluation& evaluation, const std::vector<Tr
     rows.push_back({fmt::format("missed_{}", name_of(miss)),
                     static_cast<double>(count_of(trials, [&](const TrialCup& cup) { return cup.miss == miss; }))});
   add_share("precision", count_of(trials, found), count_of(trials, found) + false_cups, rows);
-  add_liquid_rates(trials, rows);
+  for (Row& row : liquid_rates(trials)) rows.push_back(std::move(row));
   rows.push_back({"shoot_median", median_s(trials, &TrialResult::shoot_s), "s"});
   rows.push_back({"detect_median", median_s(trials, &TrialResult::detect_s), "s"});
+  std::map<std::string, std::vector<double>> stages;  // a trial in which nothing came so far has fewer
+  for (const TrialResult& trial : trials)
+    for (const auto& [stage, seconds] : trial.stages_s) stages[stage].push_back(seconds);
+  for (auto& [stage, seconds] : stages)
+    rows.push_back({fmt::format("detect_{}_median", stage), median(std::move(seconds)), "s"});
   return rows;
 }
 

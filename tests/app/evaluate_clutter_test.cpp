@@ -44,6 +44,12 @@ TEST_F(EvaluateClutter, ALoneCupIsFoundAndItsContentKnown) {
   EXPECT_EQ(value(run, "sensitivity"), "2/2");
   EXPECT_EQ(value(run, "specificity"), "2/2");
   EXPECT_EQ(value(run, "precision"), "4/4");
+  EXPECT_EQ(value(run, "sensitivity_30_mm"), "2/2");
+  EXPECT_EQ(value(run, "kind_right"), "2/2");
+  EXPECT_EQ(value(run, "fill_within_95"), "2/2");
+  EXPECT_LT(value(run, "p_liquid_calibration_error"), 0.01);  // certain in plain sight, and right
+  EXPECT_GT(value(run, "detect_walls_median"), 0.0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/reliability.png"));
   const Table fillings = read_table(folder / "out/fillings.csv");
   ASSERT_EQ(fillings.rows(), 2u);
   EXPECT_EQ(fillings.text(1, "liquid"), "water");
@@ -60,6 +66,10 @@ TEST_F(EvaluateClutter, AMergedCupIsCalledSoAndCanBeShotAgain) {
   EXPECT_EQ(value(run, "recognised"), "0/1");
   EXPECT_EQ(value(run, "missed_merged"), 1.0);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/failures/000000_merged.png"));
+  const std::string page = read_text(folder / "out/failures/index.html");
+  EXPECT_NE(page.find("<td>1</td><td>merged</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>0</td><td>occluded</td>"), std::string::npos);
+  EXPECT_NE(page.find("src=\"000000_merged.png\""), std::string::npos);
   const std::string scene = (folder / "out/failures/000000_merged.json").string();
   EXPECT_EQ(run_fathom("capture " + scene + " --mode geometric " + output("again")).exit_code, 0);
 }

@@ -1,0 +1,18 @@
+// The failures of an evaluation on one page: counted by kind, each with its picture and the method's words.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/clutter_trial.h"
+
+namespace fathom {
+
+/// How a trial failed first, in one word for a file's name; nothing when all is right: a miss, "liquid" (one is seen in
+/// an empty cup, or none in a filled one) or "false_cup".
+std::string failure_of(const TrialResult& trial);
+
+/// Writes folder/failures/index.html from the folder's trials/*.json and failures/NUMBER_KIND.png.
+void write_failure_gallery(const std::filesystem::path& folder);
+
+}  // namespace fathom
