@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,12 @@ struct Figure {
 
 struct ReproduceSettings {
   std::filesystem::path folder;
-  int trials = 3;  ///< shots of each condition
+  std::optional<int> trials;  ///< of each condition; without it each experiment has its own number
   std::uint64_t seed = 1;
   bool quiet = false;
+
+  /// Of each condition of the figures.
+  int shots() const { return trials.value_or(3); }
 };
 
 Figure reproduce_fig2(const ReproduceSettings& settings);  ///< side view, empty cup
@@ -42,6 +46,8 @@ Figure reproduce_fig12(const ReproduceSettings& settings);  ///< the skew of the
 Figure reproduce_fig13(const ReproduceSettings& settings);  ///< Eq. 6 over the distance
 /// Eq. 7, exact and measured.
 Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& heights);
+Figure reproduce_recognition(const ReproduceSettings& settings);  ///< section VI-A, and what its rates hang on
+Figure reproduce_table1(const ReproduceSettings& settings);       ///< section VI-B
 /// Not a figure of the paper: Fig. 5 of all its liquids, of all light.
 Figure reproduce_liquids(const ReproduceSettings& settings);
 /// Not a figure of the paper: at which scattering milk tea reads as the paper says.
@@ -51,6 +57,6 @@ Figure reproduce_scattering(const ReproduceSettings& settings);
 std::string mm_text(double mm);
 
 /// report.html: pictures, facts and tables in one file.
-void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures, int trials);
+void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures);
 
 }  // namespace fathom

@@ -194,7 +194,7 @@ plot for [i=1:4] 'fig5_bars.csv' using (column(2*i)):(column(2*i+1)):xtic(1) lc 
        title sprintf('%d mm', 100*i+100), \
      '' using ($0-0.42):'true_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red \
        title 'true surface (empty: bottom)'{})",
-                   settings.trials, any_few ? kFewPoints : ""));
+                   settings.shots(), any_few ? kFewPoints : ""));
   return figure;
 }
 

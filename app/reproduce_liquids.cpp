@@ -67,7 +67,7 @@ std::vector<LiquidRow> measure_liquids(const ReproduceSettings& settings) {
       for (std::size_t d = 0; d < kSeenDistances; ++d) {
         row.cells[d] = measure_height(
             row.filling, kPaperDistancesMm[d],
-            {.light = LightModel::full, .trials = settings.trials, .seed = Rng(settings.seed, rows.size(), d).bits()});
+            {.light = LightModel::full, .trials = settings.shots(), .seed = Rng(settings.seed, rows.size(), d).bits()});
         progress.step();
       }
     }

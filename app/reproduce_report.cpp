@@ -64,16 +64,15 @@ std::string table_html(const Table& table, const std::string& file) {
 
 }  // namespace
 
-void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures, int trials) {
+void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures) {
   std::string html = kHead;
-  html += fmt::format(
+  html +=
       "<h1>Cups, liquids and a depth camera: the paper’s figures, remade</h1>\n<p>Hara, Honda, Tsubouchi &amp; Ohya "
-      "measured cups with an ASUS Xtion PRO LIVE (IROS 2014). Here a simulated Xtion looks at simulated cups, {} "
-      "shot{} of each condition, and the paper’s detector measures them. The sensor stands 650 mm above the desk and "
+      "measured cups with an ASUS Xtion PRO LIVE (IROS 2014). Here a simulated Xtion looks at simulated cups, "
+      "and the paper’s detector measures them. The sensor stands 650 mm above the desk and "
       "aims at (0, 400, 0) mm; the cup’s bottom lies 7 mm above the desk, its inner radius is 40 mm. The paper’s text "
       "gives none of these four numbers: they are assumptions. Liquids that scatter are simulated as opaque at their "
-      "surface.</p>\n",
-      trials, trials == 1 ? "" : "s");
+      "surface.</p>\n";
   for (const Figure& figure : figures)
     html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n{}{}",
                         escaped(figure.title), escaped(figure.sentence), escaped(figure.title),
