@@ -200,28 +200,11 @@ std::optional<ConeFit> fit_cone(const Points& points, Cone cone, double toleranc
   return fit;
 }
 
-/// Above it are other things that reach over the circle: the highest level at which points lie on the wall in a good
-/// part of the directions in which they lie at any level.
-double highest_level(const Points& on_wall, const Eigen::Vector2d& center) {
-  constexpr double kLevel = 0.004, kPart = 0.5;  // a flat face that touches a cup is on its circle in 6 of 32
-  std::vector<unsigned> levels;
-  for (const Eigen::Vector3f& point : on_wall) {
-    const auto level = static_cast<std::size_t>(std::max(0.0, point.z() / kLevel));
-    if (level >= levels.size()) levels.resize(level + 1);
-    levels[level] |= direction_bit(point.head<2>() - center.cast<float>());
-  }
-  int most = 0;
-  for (const unsigned level : levels) most = std::max(most, std::popcount(level));
-  while (std::popcount(levels.back()) < kPart * most) levels.pop_back();
-  return kLevel * static_cast<double>(levels.size());
-}
-
-/// The rim: in each direction the height that one point in twenty on the wall passes, and of these the upper third.
+/// The rim: in each direction the height that one point in twenty on the wall passes; the directions of a rim agree, in
+/// others it is hidden, or something tall reaches over the circle. Of those that agree the upper third.
 double rim_height(const Points& on_wall, const Eigen::Vector2d& center) {
-  const double highest = highest_level(on_wall, center);
   std::array<std::vector<float>, kDirections> heights;
   for (const Eigen::Vector3f& point : on_wall) {
-    if (point.z() > highest) continue;
     const unsigned bit = direction_bit(point.head<2>() - center.cast<float>());
     heights[std::countr_zero(bit)].push_back(point.z());
   }
@@ -232,9 +215,14 @@ double rim_height(const Points& on_wall, const Eigen::Vector2d& center) {
     std::nth_element(part.begin(), high, part.end());
     tops.push_back(*high);
   }
-  const auto upper = tops.begin() + static_cast<std::ptrdiff_t>(tops.size() * 2 / 3);
-  std::nth_element(tops.begin(), upper, tops.end());
-  return *upper;
+  std::sort(tops.begin(), tops.end());
+  constexpr float kAlike = 0.006f;  // m: noise, and a rim that the desk's plane leaves a bit askew
+  std::size_t first = 0, agree = 0;
+  for (std::size_t low = 0, high = 0; high < tops.size(); ++high) {
+    while (tops[high] - tops[low] > kAlike) ++low;
+    if (high - low + 1 >= agree) first = low, agree = high - low + 1;
+  }
+  return tops[first + agree * 2 / 3];
 }
 
 /// The height at which the most points lie inside the circle, if many do: a filling, whose edge a leaning cone would
