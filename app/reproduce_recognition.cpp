@@ -86,9 +86,9 @@ Figure reproduce_recognition(const ReproduceSettings& settings) {
       .title = "Cup recognition on random desks",
       .sentence =
           "The printed method finds the cups that stand alone: what is nearer than its 40 mm is merged with them. So "
-          "its rate is that of the clutter, of which the paper does not say how much there was; the sensor's height "
-          "and the cup's shape, which it does not give either, matter less. The things differ from condition to "
-          "condition only where the condition says so.",
+          "its rate is that of the clutter, of which the paper does not say how much there was. What the sensor's "
+          "height "
+          "and the cup's shape change, which it does not give either, stands below.",
       .facts = {},
       .table = Table({"condition", "value", "method", "cups", "recognised", "share", "share_low", "share_high",
                       "merged", "occluded", "refused", "false_cups"})};
@@ -127,7 +127,7 @@ set title 'Cups recognised on random desks, {} of each kind (95 % intervals), ov
 set ylabel 'share of the cups that are recognised'
 set yrange [0:1.05]; set xrange [-0.6:{}.6]; set ytics 0.25
 set xtics scale 0 rotate by -35
-set bmargin 11; set rmargin 9
+set bmargin 11; set rmargin 14
 set key below horizontal
 plot 'recognition_bars.csv' using ($0-0.1):'paper':'paper_low':'paper_high':xtic(1) with yerrorbars pt 7 ps 1.6 lw 2 lc rgb blue title 'method as printed', \
      '' using ($0+0.1):'robust':'robust_low':'robust_high' with yerrorbars pt 5 ps 1.4 lw 2 lc rgb green title 'robust', \

@@ -1,6 +1,7 @@
 // The paper's second experiment, Table I: 16 contents of a cup among other things, each placed anew 10 times.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "app/gnuplot.h"
@@ -62,7 +63,9 @@ Tally tally_of(const std::vector<TrialResult>& trials) {
 
 std::string label_of(const Json& filling) {
   if (filling.empty()) return "empty";
-  return fmt::format("{} {:g} mm", filling["liquid"].get<std::string>(), filling["fill_mm"].get<double>());
+  std::string liquid = filling["liquid"];
+  std::replace(liquid.begin(), liquid.end(), '_', ' ');
+  return fmt::format("{} {:g} mm", liquid, filling["fill_mm"].get<double>());
 }
 
 /// Of one kind of desk: the tally of each filling by each method.
@@ -106,15 +109,16 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
   const Tallies among_many = fill_in(crowd, desks, settings.seed, progress),
                 beside_one = fill_in(one, desks, settings.seed, progress);
 
-  Figure figure{.name = "table1",
-                .title = "Table I: cups recognised and liquids detected",
-                .sentence =
-                    "Whatever fills a cup is told from its bottom, as printed. How many cups are recognised says how "
-                    "much stood about: the printed rate is that of about one thing beside the cup. Wherever a cup is "
-                    "recognised but its bottom is hidden, the content is unknown.",
-                .facts = {},
-                .table = Table({"liquid", "fill_mm", "printed_of", "printed_recognised", "printed_liquid", "things",
-                                "method", "cups", "recognised", "liquid_yes", "liquid_unknown"})};
+  Figure figure{
+      .name = "table1",
+      .title = "Table I: cups recognised and liquids detected",
+      .sentence =
+          "Whatever fills a cup is to be told from its bottom. How many cups are recognised says how much "
+          "stood about, which the paper does not tell. Where a cup is recognised but its bottom is hidden, the "
+          "content is unknown.",
+      .facts = {},
+      .table = Table({"liquid", "fill_mm", "printed_of", "printed_recognised", "printed_liquid", "things", "method",
+                      "cups", "recognised", "liquid_yes", "liquid_unknown"})};
   Table bars({"filling", "printed", "paper", "robust", "printed_liquid", "paper_liquid", "robust_liquid"});
   for (std::size_t i = 0; i < kPrinted.size(); ++i) {
     const Json& filling = crowd.fillings[i];
@@ -149,6 +153,7 @@ set style histogram clustered gap 1
 set style fill solid 0.9 border lc rgb ink
 set boxwidth 0.95
 set xtics scale 0 rotate by -40
+set rmargin 6
 set key below horizontal
 array colour[3] = [pale, blue, green]
 array who[3] = ['printed', 'method as printed, here', 'robust']
