@@ -14,6 +14,7 @@
 #include "core/progress.h"
 #include "core/rows.h"
 #include "core/units.h"
+#include "sim/effects/effects_json.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"
 #include "sim/sensor/capture_files.h"
@@ -22,7 +23,7 @@ namespace fathom {
 namespace {
 
 struct CaptureOptions {
-  std::filesystem::path scene;
+  std::filesystem::path scene, model;
   std::string mode = "photometric", light = "direct";
   int spp = kDefaultSamplesPerPixel;
   int frames = 1;
@@ -54,7 +55,8 @@ std::vector<Row> summary(const Frame& frame, const Image<TruePixel>& truth) {
 
 void run(const CaptureOptions& options, const CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
-  const Setup setup = read_setup(options.scene);
+  Setup setup = read_setup(options.scene);
+  if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
   const LightModel light = options.light == "full" ? LightModel::full : LightModel::direct;
   Camera camera(setup, mode, options.spp, common.seed, light);
@@ -75,10 +77,11 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
     if (i == 0) rows = summary(frame, camera.truth());
     progress.step();
   }
-  Json record = run_record(setup, camera);
+  Json record = run_record(camera);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
   record["light"] = options.light;
+  if (!options.model.empty()) record["model"] = read_json(options.model);
   record["spp"] = camera.samples_per_pixel();
   record["frames"] = options.frames;
   record["seed"] = common.seed;
@@ -96,6 +99,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
 std::function<void()> define_capture(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<CaptureOptions>();
   app.add_option("scene", options->scene, "Scene file (*.json)")->required();
+  app.add_option("--model", options->model, "Model of a diagnosis, whose effects are there as well")
+      ->type_name("M.json");
   app.add_option("--mode", options->mode, "geometric: exact triangulation; photometric: infrared image and matching")
       ->check(CLI::IsMember({"geometric", "photometric"}))
       ->capture_default_str();

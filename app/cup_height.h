@@ -4,9 +4,9 @@
 #include <string_view>
 #include <variant>
 
-#include "app/rig.h"
 #include "detector/cloud.h"
 #include "detector/liquid.h"
+#include "diagnosis/measurement/rig.h"
 
 namespace fathom {
 

@@ -10,14 +10,54 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "core/units.h"
+#include "sim/effects/registry.h"
 #include "sim/scene/library.h"
 #include "sim/scene/scene.h"
 
 namespace fathom {
 namespace {
 
-/// The effects that `effects` of a scene can switch on. There is none yet, and so nothing to print.
-std::string effects_text(bool as_json) { return as_json ? "[]\n" : ""; }
+std::string lines_of(const Effect& effect) {
+  std::string text =
+      fmt::format("{}\n  {:<22} {}\n  {:<22} {}\n", effect.id, "family", effect.family, "sentence", effect.sentence);
+  for (const EffectParameter& p : effect.parameters)
+    text += fmt::format("  {:<22} {}: {}; absent at {:g}, typically off by {:g}, from {:g} to {:g}\n", "parameter",
+                        p.name, p.meaning, p.nominal, p.scale, p.lower, p.upper);
+  if (effect.of_liquids) text += fmt::format("  {:<22} {}\n", "liquid", "may be limited to one liquid by its label");
+  text += fmt::format("  {:<22} {}\n", "citation", effect.citation);
+  text += fmt::format("  {:<22} {}\n", "twins", fmt::join(effect.twins, ", "));
+  return text + fmt::format("  {:<22} {}\n", "discriminated_by", effect.discriminated_by);
+}
+
+Json json_of(const Effect& effect) {
+  Json parameters = Json::array();
+  for (const EffectParameter& p : effect.parameters)
+    parameters.push_back({{"name", p.name},
+                          {"meaning", p.meaning},
+                          {"nominal", p.nominal},
+                          {"prior_scale", p.scale},
+                          {"lower", p.lower},
+                          {"upper", p.upper}});
+  return {{"name", effect.id},
+          {"family", effect.family},
+          {"sentence", effect.sentence},
+          {"parameters", parameters},
+          {"of_liquids", effect.of_liquids},
+          {"citation", effect.citation},
+          {"twins", effect.twins},
+          {"discriminated_by", effect.discriminated_by}};
+}
+
+/// The effects that `effects` of a scene or a model can switch on.
+std::string effects_text(bool as_json) {
+  Json list = Json::array();
+  std::string text;
+  for (const Effect& effect : effect_registry()) {
+    list.push_back(json_of(effect));
+    text += lines_of(effect);
+  }
+  return as_json ? list.dump(2) + "\n" : text;
+}
 
 /// {"n": 1.336, "at_nm": 830} as "n 1.336, at_nm 830"; anything else as it stands.
 std::string shown(const Json& value) {

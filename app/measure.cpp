@@ -17,31 +17,12 @@
 #include "core/table.h"
 #include "core/units.h"
 #include "detector/read_cloud.h"
+#include "diagnosis/measurement/frames.h"
 
 namespace fathom {
 namespace {
 
 constexpr std::array kHeightColumns{"height_mm", "height_sd_mm", "points"};
-
-/// The whole table is checked before the first cloud is read: a mistake in the last line shows at once.
-void check_frames(const Table& frames, const LaboratoryRig& rig, const std::filesystem::path& folder) {
-  for (const char* column : {"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm",
-                             "distance_mm", "lateral_mm", "cloud"})
-    if (!frames.has(column)) throw Error(frames.file(), "line 1", fmt::format("has no column '{}'", column));
-  std::vector<std::string> liquids{"empty", "none"};
-  for (const auto& [name, medium] : rig.liquids) liquids.push_back(name);
-  for (std::size_t row = 0; row < frames.rows(); ++row) {
-    const std::string& liquid = frames.text(row, "liquid");
-    if (std::find(liquids.begin(), liquids.end(), liquid) == liquids.end())
-      frames.fail(row, "liquid", unknown_name("liquid", liquid, liquids));
-    for (const char* column : {"fill_mm", "distance_mm", "lateral_mm"}) frames.number(row, column);
-    const std::string& cloud = frames.text(row, "cloud");
-    if (!cloud.empty() && !std::filesystem::is_regular_file(folder / cloud))
-      frames.fail(row, "cloud", fmt::format("there is no file {}", (folder / cloud).string()));
-    if (cloud.empty() && liquid != "none" && (!frames.has("height_mm") || frames.text(row, "height_mm").empty()))
-      frames.fail(row, "cloud", "is empty, and there is no height_mm in its place");
-  }
-}
 
 Cloud read_cloud_of(const Table& frames, std::size_t row, const std::filesystem::path& folder) {
   try {
@@ -62,7 +43,7 @@ void warn(NoHeight reason, const std::vector<std::string>& frames) {
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
   const LaboratoryRig rig = read_rig(folder / "rig.json");
   Table frames = read_table(folder / "frames.csv");
-  check_frames(frames, rig, folder);
+  read_frames(frames, rig, folder);  // a mistake in the last line shows before the first cloud is read
   for (const char* column : kHeightColumns)
     if (!frames.has(column)) frames.add_column(column);
 

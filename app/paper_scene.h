@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/rig.h"
+#include "diagnosis/measurement/rig.h"
 #include "sim/scene/setup.h"
 
 namespace fathom {

@@ -49,6 +49,13 @@ struct MatcherModel {
   int hole_max_px = 0;  ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
 };
 
+/// What the device takes for its own numbers when it makes depths and points of disparities.
+struct Calibration {
+  double baseline;  ///< [m]
+  double focal_px;
+  Eigen::Vector2d principal_px;
+};
+
 struct SensorModel {
   std::string name = "xtion_pro_live";  ///< of the model; empty for a full description
   double baseline = 0.075;
@@ -66,7 +73,9 @@ struct SensorModel {
   NoiseModel noise;
   MatcherModel matcher;
   UnitModel unit;
+  std::optional<Calibration> believed = {};  ///< where the calibration erred; nothing: the numbers above
 
+  Calibration calibration() const { return believed.value_or(Calibration{baseline, focal_px, principal_px}); }
   double ir_scale() const { return static_cast<double>(ir_width) / width; }
   int ir_first_row() const { return (ir_height - static_cast<int>(ir_scale()) * height) / 2; }
 };

@@ -34,9 +34,8 @@ void require_index(const JsonReader& json, const Medium& medium, double waveleng
 Setup setup_from_json(const Json& json, const std::string& file) {
   const JsonReader root(json, file);
   root.allow_only({"$schema", "sensor", "desk", "cups", "objects", "effects"});
-  if (!root.items_or_none("effects").empty())
-    root.fail_at("effects", "names an effect, but this version has none to switch on; leave the list empty");
-  Setup setup{scene_from_json(root), rig_from_json(root.at("sensor")), json};
+  Setup setup{.scene = scene_from_json(root), .rig = rig_from_json(root.at("sensor")), .source = json, .file = file};
+  for (const JsonReader& effect : root.items_or_none("effects")) setup.effects.push_back(effect.value());
   require_indices(root, setup);
   return setup;
 }

@@ -8,10 +8,40 @@
 
 namespace fathom {
 
+/// When a shot is taken, and of what as far as the laboratory knows.
+struct Circumstances {
+  double time_s = 0.0;               ///< of frame 0, since the session began
+  std::string liquid;                ///< as labelled; empty: by the medium's name
+  std::vector<Medium> liquids = {};  ///< all that the campaign pours, in the order of their labels
+};
+
+/// Disparities that differ by less [px] belong to one surface, for windows that average.
+inline constexpr double kOneSurfacePx = 1.0;
+
+/// How what a camera sees becomes what is compared, beyond the sensor's own model.
+struct Processing {
+  double window_px = 0.0;  ///< disparities are means over a square of this width, within a surface; 0: own
+  double bisector = 0.0;   ///< share of the paper's approximation in what is predicted of raised bottoms, 0 … 1
+};
+
+/// Shares of the light that takes other ways than from the projector to what the camera sees; images only have all or
+/// none of it.
+struct IndirectLight {
+  double thrown_on = 0.0;  ///< from wall to wall
+  double mirrored = 0.0;   ///< in surfaces of liquids
+
+  bool any() const { return thrown_on > 0.0 || mirrored > 0.0; }
+};
+
 struct Setup {
   Scene scene;
   Rig rig;
-  Json source;  ///< the file's text, kept for run.json
+  Json source = {};              ///< the file's text, kept for run.json
+  std::string file = {};         ///< its name, for errors
+  Json effects = Json::array();  ///< switched on by sim/effects; as in the file
+  Circumstances circumstances = {};
+  Processing processing = {};
+  IndirectLight light = {};
 };
 
 /// Reads a scene file. Throws Error naming file, path, what is wrong and what is allowed.

@@ -1,5 +1,6 @@
 #include "sim/scene/unit_model.h"
 
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -11,11 +12,14 @@ namespace fathom {
 
 UnitError unit_error(const UnitModel& unit, std::uint64_t frame) {
   constexpr std::uint64_t kUnitStream = 0x756e6974ULL;
-  constexpr double kFramesPerSecond = 30.0;
+  constexpr std::uint64_t kWanderStream = 0x77616e646572ULL;
   Rng rng(unit.serial, kUnitStream);
-  const double seconds = unit.on_for_s + static_cast<double>(frame) / kFramesPerSecond;
+  const double seconds = unit.on_for_s + static_cast<double>(frame) * unit.frame_interval_s;
   UnitError error;
-  error.offset_px = unit.disparity_sigma_px * rng.normal() + unit.warm_up_px * std::exp(-seconds / unit.warm_up_s);
+  error.offset_px = unit.disparity_offset_px + unit.disparity_sigma_px * rng.normal() +
+                    unit.warm_up_px * std::exp(-seconds / unit.warm_up_s);
+  if (unit.wander_px > 0.0)
+    error.offset_px += unit.wander_px * Rng(unit.serial, kWanderStream, std::bit_cast<std::uint64_t>(seconds)).normal();
   error.scale = 1.0 + unit.scale_sigma * rng.normal();
   return error;
 }
@@ -42,8 +46,10 @@ Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, 
 }
 
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
-  json.allow_only({"disparity_sigma_px", "scale_sigma", "serial", "residue_px", "residue_reach_px", "warm_up_px",
-                   "warm_up_s", "on_for_s"});
+  json.allow_only({"disparity_offset_px", "disparity_sigma_px", "scale_sigma", "serial", "residue_px", "residue_reach_px",
+                   "warm_up_px", "warm_up_s", "on_for_s", "wander_px"});
+  unit.disparity_offset_px = json.number_or("disparity_offset_px", unit.disparity_offset_px, {-4.0, 4.0});
+  unit.wander_px = json.number_or("wander_px", unit.wander_px, {0.0, 4.0});
   unit.disparity_sigma_px = json.number_or("disparity_sigma_px", unit.disparity_sigma_px, {0.0, 4.0});
   unit.scale_sigma = json.number_or("scale_sigma", unit.scale_sigma, {0.0, 0.1});
   unit.serial = static_cast<std::uint64_t>(json.integer_or("serial", static_cast<int>(unit.serial), 0, 1 << 30));
@@ -56,7 +62,9 @@ UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
 }
 
 Json json_from_unit(const UnitModel& unit) {
-  return {{"disparity_sigma_px", unit.disparity_sigma_px},
+  return {{"disparity_offset_px", unit.disparity_offset_px},
+          {"wander_px", unit.wander_px},
+          {"disparity_sigma_px", unit.disparity_sigma_px},
           {"scale_sigma", unit.scale_sigma},
           {"serial", unit.serial},
           {"residue_px", unit.residue_px},

@@ -10,21 +10,24 @@ namespace fathom {
 
 /// Errors of the disparity beside its nominal value.
 struct UnitModel {
-  double disparity_sigma_px = 0.0;  ///< spread of the reference's disparity from unit to unit
-  double scale_sigma = 0.0;         ///< relative spread of focal length times baseline
-  std::uint64_t serial = 0;         ///< of this unit, which draws its errors
-  double residue_px = 0.0;          ///< standard deviation, over the image, of what the reference is displaced by
-  double residue_reach_px = 70.0;   ///< distance over which that changes
-  double warm_up_px = 0.0;          ///< what a cold unit's disparity has too much
-  double warm_up_s = 940.0;         ///< in which that falls to 1/e
-  double on_for_s = 1e9;            ///< since the unit was switched on, at frame 0
+  double disparity_offset_px = 0.0;  ///< what this unit's disparities have too much
+  double disparity_sigma_px = 0.0;   ///< spread of the reference's disparity from unit to unit
+  double scale_sigma = 0.0;          ///< relative spread of focal length times baseline
+  std::uint64_t serial = 0;          ///< of this unit, which draws its errors
+  double residue_px = 0.0;           ///< standard deviation, over the image, of what the reference is displaced by
+  double residue_reach_px = 70.0;    ///< distance over which that changes
+  double warm_up_px = 0.0;           ///< what a cold unit's disparity has too much
+  double warm_up_s = 940.0;          ///< in which that falls to 1/e
+  double on_for_s = 1e9;             ///< since the unit was switched on, at frame 0
+  double wander_px = 0.0;            ///< standard deviation of an error that all disparities of a frame share
+  double frame_interval_s = 1.0 / 30.0;
 };
 
 /// Measured disparity = scale · true + offset [px].
 struct UnitError {
   double scale = 1.0, offset_px = 0.0;
 };
-/// Of the frame of that number at 30 a second.
+/// Of the frame of that number.
 UnitError unit_error(const UnitModel& unit, std::uint64_t frame);
 
 /// What the remembered image of this unit is displaced by along its rows [px], at each of its pixels: lenses and

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <memory>
 
+#include "core/parallel.h"
 #include "core/timed.h"
+#include "sim/effects/effects_json.h"
 #include "sim/render/intersect.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
+#include "sim/sensor/reading.h"
 #include "sim/sensor/speckle.h"
 
 namespace fathom {
@@ -31,22 +34,44 @@ void add_residue(const SensorModel& sensor, const Image<float>& residue, Image<f
     }
 }
 
-/// What this unit makes of disparities [px]; 0 stays invalid.
-void misread(const UnitError& error, Image<float>& disparity) {
+/// What this unit makes of disparities [px] in the frame of that number; 0 stays invalid.
+void misread(const SensorModel& sensor, std::uint64_t frame, Image<float>& disparity) {
+  const UnitError error = unit_error(sensor.unit, frame);
   for (float& value : disparity.pixels())
-    if (value > 0.0f) value = static_cast<float>(std::max(error.scale * value + error.offset_px, 0.0));
+    if (value > 0.0f) value = static_cast<float>(std::max(read_disparity(sensor, error, value), 0.0));
 }
+
+/// Every disparity becomes the mean of those in a square of this width [px] around it that are of its own surface.
+void average(double width_px, Image<float>& disparity) {
+  const int reach = static_cast<int>(std::lround(0.5 * (width_px - 1.0)));
+  if (reach < 1) return;
+  const Image<float> own = disparity;
+  parallel_ranges(own.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < own.width(); ++x) {
+        if (own(x, y) <= 0.0f) continue;
+        double sum = 0.0;
+        int known = 0;
+        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, own.height() - 1); ++v)
+          for (int u = std::max(x - reach, 0); u <= std::min(x + reach, own.width() - 1); ++u)
+            if (own(u, v) > 0.0f && std::abs(own(u, v) - own(x, y)) < kOneSurfacePx) sum += own(u, v), ++known;
+        disparity(x, y) = static_cast<float>(sum / known);
+      }
+  });
+}
+
+Eigen::Vector2d pixel_centre(int number, int width) { return {number % width + 0.5, number / width + 0.5}; }
 
 }  // namespace
 
 Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed, LightModel light)
-    : rig_(setup.rig), mode_(mode), seed_(seed) {
-  const SensorModel& sensor = rig_.sensor;
-  geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup.scene, sensor.wavelength_nm); });
+    : setup_(with_effects(setup)), mode_(mode), seed_(seed) {
+  const SensorModel& sensor = setup_.rig.sensor;
+  geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup_.scene, sensor.wavelength_nm); });
   const Intersector world(geometry_);
-  const auto projector =
-      timed(statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, rig_.projector_in_world()); });
-  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(*projector, rig_); });
+  const auto projector = timed(
+      statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, setup_.rig.projector_in_world()); });
+  truth_ = timed(statistics_.truth_s, [&] { return trace_truth(*projector, setup_.rig); });
   statistics_.camera_rays = truth_.size();
   if (mode == CaptureMode::geometric) {
     if (sensor.noise.disparity.present()) still_chance_ = block_chance(sensor, seed, kStill);
@@ -54,16 +79,17 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
     residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);
     return;
   }
+  if (setup_.light.any()) light = LightModel::full;
 
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
   reference_ = timed(statistics_.reference_s, [&] { return remembered(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
-  radiance_ =
-      timed(statistics_.render_s, [&] { return render_ir(*projector, rig_, pattern, samples_across_, light, seed); });
+  radiance_ = timed(statistics_.render_s,
+                    [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
   speckle_ = speckle_field(sensor, sensor.noise.pixel_speckle, sensor.ir_width, sensor.ir_height, seed);
-  if (sensor.noise.ambient_dn > 0.0) ambient_ = render_ambient(world, rig_);
+  if (sensor.noise.ambient_dn > 0.0) ambient_ = render_ambient(world, setup_.rig);
 }
 
 Frame Camera::shoot(std::uint64_t frame) {
@@ -71,6 +97,7 @@ Frame Camera::shoot(std::uint64_t frame) {
 }
 
 Frame Camera::shoot_geometric(std::uint64_t frame) {
+  const SensorModel& sensor = setup_.rig.sensor;
   Frame shot;
   shot.disparity_px = Image<float>(truth_.width(), truth_.height());
   Image<float> intensity(truth_.width(), truth_.height());
@@ -78,27 +105,29 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
     const TruePixel& pixel = truth_.pixels()[i];
     intensity.pixels()[i] = static_cast<float>(pixel.intensity);
     if (pixel.apparent_depth)
-      shot.disparity_px.pixels()[i] = static_cast<float>(disparity_of_depth(rig_.sensor, *pixel.apparent_depth));
+      shot.disparity_px.pixels()[i] = static_cast<float>(
+          seen_disparity(sensor, pixel_centre(static_cast<int>(i), truth_.width()), *pixel.apparent_depth));
   }
-  if (rig_.sensor.noise.disparity.present())
-    shot.disparity_px = disparity_with_noise(rig_.sensor, shot.disparity_px, intensity, still_chance_,
-                                             block_chance(rig_.sensor, seed_, frame));
-  add_residue(rig_.sensor, residue_, shot.disparity_px);
-  misread(unit_error(rig_.sensor.unit, frame), shot.disparity_px);
-  shot.depth = depth_image(rig_.sensor, shot.disparity_px);
-  shot.cloud = cloud_of_depth(rig_.sensor, shot.depth, intensity);
+  average(setup_.processing.window_px, shot.disparity_px);
+  if (sensor.noise.disparity.present())
+    shot.disparity_px =
+        disparity_with_noise(sensor, shot.disparity_px, intensity, still_chance_, block_chance(sensor, seed_, frame));
+  add_residue(sensor, residue_, shot.disparity_px);
+  misread(sensor, frame, shot.disparity_px);
+  shot.depth = depth_image(sensor, shot.disparity_px);
+  shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);
   return shot;
 }
 
 Frame Camera::shoot_photometric(std::uint64_t frame) {
-  const SensorModel& sensor = rig_.sensor;
+  const SensorModel& sensor = setup_.rig.sensor;
   Frame shot;
   Image<float> light = radiance_;
   add_speckle(renewed_speckle(sensor, speckle_, seed_, frame), light);
   for (std::size_t i = 0; i < ambient_.size(); ++i) light.pixels()[i] += ambient_.pixels()[i];
   shot.ir = expose(light, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
-  misread(unit_error(sensor.unit, frame), shot.disparity_px);
+  misread(sensor, frame, shot.disparity_px);
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));
   return shot;

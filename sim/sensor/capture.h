@@ -41,6 +41,9 @@ class Camera {
   Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
          LightModel light = LightModel::direct);
 
+  /// What is shot: the set-up with its effects switched on.
+  const Setup& setup() const { return setup_; }
+
   /// The frame of that number; only the noise differs from frame to frame.
   Frame shoot(std::uint64_t frame);
 
@@ -57,7 +60,7 @@ class Camera {
   Frame shoot_geometric(std::uint64_t frame);
   Frame shoot_photometric(std::uint64_t frame);
 
-  Rig rig_;
+  Setup setup_;  ///< with its effects
   CaptureMode mode_;
   std::uint64_t seed_;
   int samples_across_ = 0;

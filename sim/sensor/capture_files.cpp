@@ -85,7 +85,8 @@ void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& tr
              channel("path", truth, [](const TruePixel& p) { return static_cast<int>(p.path); })});
 }
 
-Json run_record(const Setup& setup, const Camera& camera) {
+Json run_record(const Camera& camera) {
+  const Setup& setup = camera.setup();
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
   Json media = Json::object(), cups = Json::object();
   for (std::size_t i = 0; i < setup.scene.cups.size(); ++i) {

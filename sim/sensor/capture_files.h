@@ -27,8 +27,8 @@ void write_device_outputs(const std::filesystem::path& folder, const SensorModel
 /// truth.exr: position.X/Y/Z, apparent.Z, object, path.
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth);
 
-/// The part of run.json that follows from setup and camera: scene, effective sensor, media, objects, approximations,
+/// The part of run.json that follows from what is shot: scene, effective sensor, media, objects, approximations,
 /// timing, rays, threads.
-Json run_record(const Setup& setup, const Camera& camera);
+Json run_record(const Camera& camera);
 
 }  // namespace fathom

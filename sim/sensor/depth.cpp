@@ -8,7 +8,8 @@ namespace {
 
 /// 8 f b [mm]: how many steps of 1/8 px a change of inverse depth by 1/mm makes.
 double steps_per_inverse_mm(const SensorModel& sensor) {
-  return 8.0 * sensor.focal_px * mm_from_metres(sensor.baseline);
+  const Calibration calibration = sensor.calibration();
+  return 8.0 * calibration.focal_px * mm_from_metres(calibration.baseline);
 }
 
 }  // namespace
@@ -28,12 +29,17 @@ int device_code(const SensorModel& sensor, double depth) {
 
 double disparity_of_depth(const SensorModel& sensor, double depth) { return sensor.focal_px * sensor.baseline / depth; }
 
+double depth_of_disparity(const SensorModel& sensor, double disparity_px) {
+  const Calibration calibration = sensor.calibration();
+  return calibration.focal_px * calibration.baseline / disparity_px;
+}
+
 Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px, double unit) {
   Image<float> depth(disparity_px.width(), disparity_px.height());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double disparity = disparity_px.pixels()[i];
     if (disparity <= 0.0) continue;
-    std::optional<double> z = sensor.focal_px * sensor.baseline / disparity;
+    std::optional<double> z = depth_of_disparity(sensor, disparity);
     if (sensor.quantized) z = device_depth(sensor, device_code(sensor, *z), unit);
     if (z && *z >= sensor.near && *z <= sensor.far) depth.pixels()[i] = static_cast<float>(*z);
   }
@@ -51,6 +57,7 @@ Image<std::uint16_t> depth_in_units(const Image<float>& depth, double unit) {
 
 Image<CloudPoint> cloud_of_depth(const SensorModel& sensor, const Image<float>& depth, const Image<float>& intensity) {
   constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+  const Calibration calibration = sensor.calibration();
   Image<CloudPoint> cloud(depth.width(), depth.height());
   for (int y = 0; y < depth.height(); ++y)
     for (int x = 0; x < depth.width(); ++x) {
@@ -58,8 +65,8 @@ Image<CloudPoint> cloud_of_depth(const SensorModel& sensor, const Image<float>& 
       CloudPoint& point = cloud(x, y);
       point = {kInvalid, kInvalid, kInvalid, intensity(x, y)};
       if (z <= 0.0) continue;
-      point.x = static_cast<float>(z * (x + 0.5 - sensor.principal_px.x()) / sensor.focal_px);
-      point.y = static_cast<float>(z * (y + 0.5 - sensor.principal_px.y()) / sensor.focal_px);
+      point.x = static_cast<float>(z * (x + 0.5 - calibration.principal_px.x()) / calibration.focal_px);
+      point.y = static_cast<float>(z * (y + 0.5 - calibration.principal_px.y()) / calibration.focal_px);
       point.z = static_cast<float>(z);
     }
   return cloud;

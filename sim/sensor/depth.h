@@ -20,8 +20,11 @@ std::optional<double> device_depth(const SensorModel& sensor, int code, double u
 /// The code whose exact depth (before truncation to whole mm) is nearest in disparity to `depth` [m].
 int device_code(const SensorModel& sensor, double depth);
 
-/// f b / Z [px] at the depth image's scale.
+/// f b / Z [px] at the depth image's scale, of what is really there.
 double disparity_of_depth(const SensorModel& sensor, double depth);
+
+/// f b / d [m], with what the device takes for f and b.
+double depth_of_disparity(const SensorModel& sensor, double disparity_px);
 
 /// Depth image [m], 0 = invalid, from disparities relative to infinity [px], 0 = invalid: on the device's law or, when
 /// the sensor is not quantized, as it is. Depths outside near … far are invalid.

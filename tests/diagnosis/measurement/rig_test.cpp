@@ -1,4 +1,4 @@
-#include "app/rig.h"
+#include "diagnosis/measurement/rig.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,38 @@
+// The parts of what is seen in a cup and on the desk that are looked at apart. Measured and predicted points alike.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace fathom {
+
+/// Within the radius that heights are taken in: a disc of half of it, and four sectors of the ring around.
+enum class CupRegion { centre, near, far, left, right };
+inline constexpr std::array<std::string_view, 5> kCupRegionNames{"centre", "near", "far", "left", "right"};
+inline constexpr std::string_view kWholeInterior = "interior";
+inline constexpr double kInteriorMargin = 0.010;  ///< [m] from the inner wall, as the heights' definition has it
+
+/// Thirds of the image, row by row.
+inline constexpr std::array<std::string_view, 9> kDeskRegionNames{
+    "top left", "top", "top right", "left", "middle", "right", "bottom left", "bottom", "bottom right"};
+
+/// Shares that a point has in the regions; `from_axis` [m] on the desk. Borders are `soft` [m] wide, so that a few
+/// samples, each standing for an area of that width, cover a region as all points of a cloud do.
+inline std::array<double, 5> shares_of_regions(const Eigen::Vector2d& from_axis, double radius, double soft) {
+  const auto step = [soft](double inside) {
+    return soft > 0.0 ? std::clamp(inside / soft + 0.5, 0.0, 1.0) : (inside > 0.0 ? 1.0 : 0.0);
+  };
+  constexpr double kDiagonal = 0.70710678118654752;
+  const double rho = from_axis.norm();
+  const double within = step(radius - rho), central = std::min(step(0.5 * radius - rho), within);
+  const double ring = within - central;
+  const double one = step(kDiagonal * (from_axis.y() - from_axis.x())),
+               other = step(kDiagonal * (from_axis.y() + from_axis.x()));
+  return {central, ring * (1.0 - one) * (1.0 - other), ring * one * other, ring * one * (1.0 - other),
+          ring * (1.0 - one) * other};
+}
+
+}  // namespace fathom

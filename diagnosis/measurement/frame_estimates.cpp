@@ -1,0 +1,136 @@
+#include "diagnosis/measurement/frame_estimates.h"
+
+#include <Eigen/Cholesky>
+#include <numbers>
+
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kImageWidth = 640.0, kImageHeight = 480.0;   ///< [px] that the thirds are of
+constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
+constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
+constexpr double kFewestPixels = 100.0;
+
+/// Sums for mean and standard deviation.
+struct Sums {
+  double weight = 0.0, first = 0.0, second = 0.0;
+
+  void add(double value, double w) { weight += w, first += w * value, second += w * value * value; }
+  RegionEstimate estimate() const {
+    if (weight <= 0.0) return {};
+    const double mean = first / weight;
+    return {mean, std::sqrt(std::max(second / weight - mean * mean, 0.0)), weight};
+  }
+};
+
+/// Points of the desk in the frame whose origin is the desk below the camera (desk_from_camera).
+struct CupPlace {
+  Eigen::Vector2d centre;
+  double clear_of_cup;  ///< [m] radius around it in which nothing counts as desk
+};
+
+std::optional<CupPlace> place_of(const FrameView& view, const LaboratoryRig& rig) {
+  if (!view.cup) return std::nullopt;
+  constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
+  return CupPlace{*view.cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0), rig.outer_radius_m + kAround};
+}
+
+/// 1/z = q · (x/z, y/z, 1) for the points within `gate` of the plane; q = −n / offset.
+std::optional<Plane> refit(std::span<const SensedPoint> points, const Plane& desk, double gate,
+                           const std::optional<CupPlace>& cup) {
+  const Eigen::Isometry3d to_desk = desk_from_camera(desk);
+  const Eigen::Vector2d axis = cup ? cup->centre : Eigen::Vector2d::Zero();
+  const double clear = cup ? cup->clear_of_cup * cup->clear_of_cup : -1.0;
+  const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
+  const float offset = static_cast<float>(to_desk.translation().z()), within = static_cast<float>(gate);
+  double uu = 0, uv = 0, vv = 0, u1 = 0, v1 = 0, ww = 0, uq = 0, vq = 0, qq = 0;
+  for (const SensedPoint& sensed : points) {
+    const Eigen::Vector3f p = turn * sensed.point;
+    if (std::abs(p.z() + offset) > within) continue;
+    if ((p.head<2>().cast<double>() - axis).squaredNorm() < clear) continue;
+    const double w = sensed.weight, inverse = 1.0 / sensed.point.z();
+    const double u = sensed.point.x() * inverse, v = sensed.point.y() * inverse;
+    uu += w * u * u, uv += w * u * v, vv += w * v * v, u1 += w * u, v1 += w * v, ww += w;
+    uq += w * u * inverse, vq += w * v * inverse, qq += w * inverse;
+  }
+  if (ww < kFewestPixels) return std::nullopt;
+  Eigen::Matrix3d normal;
+  normal << uu, uv, u1, uv, vv, v1, u1, v1, ww;
+  const Eigen::Vector3d q = normal.ldlt().solve(Eigen::Vector3d(uq, vq, qq));
+  if (!(q.norm() > 0.0)) return std::nullopt;
+  return Plane{-q.normalized(), 1.0 / q.norm()};
+}
+
+std::optional<Plane> fit_desk(std::span<const SensedPoint> points, const LaboratoryRig& rig,
+                              const std::optional<CupPlace>& cup) {
+  std::optional<Plane> desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
+  for (const double gate : {0.060, 0.020, 0.008, 0.005, 0.005})
+    if (desk) desk = refit(points, *desk, gate, cup);
+  return desk;
+}
+
+std::size_t third_of_image(const SensedPoint& sensed, double focal_px) {
+  const double column = focal_px * sensed.point.x() / sensed.point.z() / kImageWidth + 0.5,
+               row = focal_px * sensed.point.y() / sensed.point.z() / kImageHeight + 0.5;
+  const auto third = [](double share) { return static_cast<std::size_t>(std::clamp(3.0 * share, 0.0, 2.0)); };
+  return 3 * third(row) + third(column);
+}
+
+}  // namespace
+
+std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
+                                             const FrameView& view) {
+  const std::optional<CupPlace> cup = place_of(view, rig);
+  const std::optional<Plane> desk = fit_desk(points, rig, cup);
+  if (!desk) return std::nullopt;
+  const Eigen::Isometry3d to_desk = desk_from_camera(*desk);
+  const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
+  const Eigen::Vector3f shift = to_desk.translation().cast<float>();
+  const double radius = rig.inner_radius_m - kInteriorMargin, reach = radius + view.soft_m;
+  const double steps_per_inverse = 8.0 * rig.focal_px * rig.baseline_m, two_pi = 2.0 * std::numbers::pi;
+  constexpr float kOnDesk = 0.005f;
+  std::array<Sums, 9> residual;
+  std::array<Sums, 5> height;
+  Sums interior, interior_intensity, desk_intensity;
+  Eigen::Vector2d comb = Eigen::Vector2d::Zero();
+  double millimetres = 0.0;
+  for (const SensedPoint& sensed : points) {
+    const Eigen::Vector3f p = turn * sensed.point + shift;
+    const Eigen::Vector2d from_axis = p.head<2>().cast<double>() - (cup ? cup->centre : Eigen::Vector2d::Zero());
+    const double squared = from_axis.squaredNorm(), w = sensed.weight;
+    if (cup && squared < cup->clear_of_cup * cup->clear_of_cup) {
+      if (squared > reach * reach || p.z() < kLeastHeight || p.z() > kMostHeight) continue;
+      const std::array<double, 5> shares = shares_of_regions(from_axis, radius, view.soft_m);
+      double whole = 0.0;
+      for (std::size_t i = 0; i < shares.size(); ++i)
+        if (shares[i] > 0.0) height[i].add(p.z(), w * shares[i]), whole += shares[i];
+      interior.add(p.z(), w * whole);
+      interior_intensity.add(sensed.intensity, w * whole);
+      continue;
+    }
+    if (std::abs(p.z()) > kOnDesk) continue;
+    residual[third_of_image(sensed, rig.focal_px)].add(p.z(), w);
+    desk_intensity.add(sensed.intensity, w);
+    // Depths are cut to millimetres: what was cut off is half of one in the mean.
+    const double z = sensed.point.z();
+    const double steps = steps_per_inverse * (1.0 / kReference - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;
+    comb += w * Eigen::Vector2d(std::cos(two_pi * steps), std::sin(two_pi * steps));
+    millimetres += w * std::cos(two_pi * mm_from_metres(z));
+  }
+  FrameEstimates estimates;
+  estimates.desk = *desk;
+  for (std::size_t i = 0; i < residual.size(); ++i) estimates.desk_residual[i] = residual[i].estimate();
+  for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = height[i].estimate();
+  estimates.desk_intensity = desk_intensity.estimate();
+  estimates.interior = interior.estimate();
+  estimates.interior_intensity = interior_intensity.estimate();
+  if (desk_intensity.weight > 0.0) {
+    estimates.step_comb = comb / desk_intensity.weight;
+    estimates.millimetre_comb = millimetres / desk_intensity.weight;
+  }
+  return estimates;
+}
+
+}  // namespace fathom

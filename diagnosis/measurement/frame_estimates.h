@@ -1,0 +1,49 @@
+// What one frame says about desk and cup: the same estimators for a cloud's points and for a model's few rays.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "detector/plane.h"
+#include "diagnosis/measurement/cup_regions.h"
+#include "diagnosis/measurement/rig.h"
+
+namespace fathom {
+
+/// A point as the sensor gives it.
+struct SensedPoint {
+  Eigen::Vector3f point;  ///< [m] camera frame
+  float intensity;        ///< [DN]
+  float weight = 1.0f;    ///< pixels that it stands for
+};
+
+/// Mean over points.
+struct RegionEstimate {
+  double mean = 0.0, sd = 0.0;
+  double weight = 0.0;  ///< points
+};
+
+struct FrameEstimates {
+  Plane desk;
+  std::array<RegionEstimate, 9> desk_residual;  ///< [m] heights above the fitted desk, by third of the image
+  RegionEstimate desk_intensity;                ///< [DN]
+  std::array<RegionEstimate, 5> height;         ///< [m] above the fitted desk, by region of the cup
+  RegionEstimate interior;                      ///< the same of all regions together
+  RegionEstimate interior_intensity;            ///< [DN]
+  Eigen::Vector2d step_comb = {0.0, 0.0};       ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
+  double millimetre_comb = 0.0;                 ///< mean cos of 2π · depth in mm, of the desk
+};
+
+/// How the points are looked at.
+struct FrameView {
+  std::optional<Eigen::Vector2d> cup;  ///< [m] world: where the cup should stand; nothing on a bare desk
+  double soft_m = 0.0;                 ///< width of the regions' borders
+};
+
+/// Desk: the plane by least squares in inverse depth, where a plane is linear and disparity's noise is even; from where
+/// the rig puts it, in steps down to the points within 5 mm, apart from the cup's surroundings. Nothing when fewer than
+/// a hundred pixels lie on it.
+std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
+                                             const FrameView& view);
+
+}  // namespace fathom

@@ -1,0 +1,77 @@
+#include "diagnosis/measurement/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::array kColumns{"frame",  "session", "pour",        "placement",  "trial", "time_s",
+                              "liquid", "fill_mm", "distance_mm", "lateral_mm", "cloud"};
+
+int whole_number(const Table& frames, std::size_t row, const char* column) {
+  const double value = frames.number(row, column);
+  if (value < 0.0 || value > 1e9 || value != std::floor(value))
+    frames.fail(row, column, fmt::format("must be a whole number from 0, got '{}'", frames.text(row, column)));
+  return static_cast<int>(value);
+}
+
+/// A cup nearer than its own radius would stand below the sensor's foot: such a distance was written in metres.
+void require_mm(const Table& frames, std::size_t row, const FrameRecord& record, const LaboratoryRig& rig) {
+  if (record.bare_desk()) return;
+  if (record.distance_m > 0.0 && record.distance_m < metres_from_mm(10.0))
+    frames.fail(row, "distance_mm", fmt::format("must be in mm, got '{}'", frames.text(row, "distance_mm")));
+  if (record.fill_m < 0.0 || record.fill_m > rig.cup_height_m - rig.bottom_m)
+    frames.fail(row, "fill_mm",
+                fmt::format("must be from 0 to {:g}, the depth of the cup, got '{}'",
+                            mm_from_metres(rig.cup_height_m - rig.bottom_m), frames.text(row, "fill_mm")));
+}
+
+FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<std::string>& liquids,
+                       const std::filesystem::path& folder) {
+  FrameRecord record;
+  record.frame = frames.text(row, "frame");
+  record.liquid = frames.text(row, "liquid");
+  if (std::find(liquids.begin(), liquids.end(), record.liquid) == liquids.end())
+    frames.fail(row, "liquid", unknown_name("liquid", record.liquid, liquids));
+  record.session = whole_number(frames, row, "session");
+  record.pour = whole_number(frames, row, "pour");
+  record.placement = whole_number(frames, row, "placement");
+  record.trial = whole_number(frames, row, "trial");
+  record.time_s = frames.number(row, "time_s");
+  record.fill_m = metres_from_mm(frames.number(row, "fill_mm"));
+  record.distance_m = metres_from_mm(frames.number(row, "distance_mm"));
+  record.lateral_m = metres_from_mm(frames.number(row, "lateral_mm"));
+  record.cloud = frames.text(row, "cloud");
+  if (!record.cloud.empty() && !std::filesystem::is_regular_file(folder / record.cloud))
+    frames.fail(row, "cloud", fmt::format("there is no file {}", (folder / record.cloud).string()));
+  if (frames.has("height_mm")) record.height_mm = frames.number_if_any(row, "height_mm");
+  if (record.cloud.empty() && !record.bare_desk() && !record.height_mm)
+    frames.fail(row, "cloud", "is empty, and there is no height_mm in its place");
+  return record;
+}
+
+}  // namespace
+
+std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
+                                     const std::filesystem::path& folder) {
+  for (const char* column : kColumns)
+    if (!frames.has(column)) throw Error(frames.file(), "line 1", fmt::format("has no column '{}'", column));
+  if (frames.rows() == 0) throw Error(frames.file(), "has no frames below its header");
+  std::vector<std::string> liquids{"empty", "none"};
+  for (const auto& [name, medium] : rig.liquids) liquids.push_back(name);
+  std::vector<FrameRecord> records;
+  for (std::size_t row = 0; row < frames.rows(); ++row) {
+    records.push_back(read_frame(frames, row, liquids, folder));
+    require_mm(frames, row, records.back(), rig);
+  }
+  return records;
+}
+
+}  // namespace fathom

@@ -1,0 +1,28 @@
+// frames.csv of a measurement directory: one line a shot, checked before the first cloud is read.
+#pragma once
+
+#include <optional>
+
+#include "core/table.h"
+#include "diagnosis/measurement/rig.h"
+
+namespace fathom {
+
+struct FrameRecord {
+  std::string frame;
+  int session = 0, pour = 0, placement = 0, trial = 0;
+  double time_s = 0.0;  ///< since the session began
+  std::string liquid;   ///< "empty", "none" (bare desk), or a liquid of the rig
+  double fill_m = 0.0, distance_m = 0.0, lateral_m = 0.0;
+  std::filesystem::path cloud;      ///< empty: the height stands in the table
+  std::optional<double> height_mm;  ///< as far as the table has it
+
+  bool bare_desk() const { return liquid == "none"; }
+};
+
+/// In the table's order. Throws Error naming line and column: a missing column, an unknown liquid, what is no number,
+/// lengths that must be in another unit, a cloud that is not there, and neither cloud nor height.
+std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
+                                     const std::filesystem::path& folder);
+
+}  // namespace fathom

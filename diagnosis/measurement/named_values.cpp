@@ -1,0 +1,36 @@
+#include "diagnosis/measurement/named_values.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/units.h"
+
+namespace fathom {
+
+std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
+  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0;  // pixels; fewer are no evidence
+  constexpr std::string_view kDesk = "desk";
+  std::vector<NamedValue> values;
+  for (std::size_t i = 0; i < estimates.height.size(); ++i)
+    if (estimates.height[i].weight >= kFewestInside)
+      values.push_back({"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean)});
+  if (estimates.interior.weight >= kFewestInside) {
+    values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});
+    if (estimates.desk_intensity.mean > 0.0)
+      values.push_back({"ir_ratio", kWholeInterior, estimates.interior_intensity.mean / estimates.desk_intensity.mean});
+  }
+  const Eigen::Vector3d& normal = estimates.desk.normal;
+  values.push_back({"desk_height_mm", kDesk, mm_from_metres(estimates.desk.offset)});
+  values.push_back({"desk_pitch_deg", kDesk, deg_from_radians(pitch_above(estimates.desk))});
+  values.push_back({"desk_roll_deg", kDesk, deg_from_radians(std::atan2(-normal.x(), -normal.y()))});
+  for (std::size_t i = 0; i < estimates.desk_residual.size(); ++i)
+    if (estimates.desk_residual[i].weight >= kFewestOnDesk)
+      values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean)});
+  const Eigen::Vector2d& comb = estimates.step_comb;
+  values.push_back({"comb_strength", kDesk, comb.norm()});
+  values.push_back({"comb_phase", kDesk, std::atan2(comb.y(), comb.x()) / (2.0 * std::numbers::pi)});
+  values.push_back({"millimetre_comb", kDesk, estimates.millimetre_comb});
+  return values;
+}
+
+}  // namespace fathom

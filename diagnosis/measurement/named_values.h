@@ -1,0 +1,23 @@
+// A frame's estimates as observations name them: the one list of what measurement and prediction have in common.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/measurement/frame_estimates.h"
+
+namespace fathom {
+
+struct NamedValue {
+  std::string_view observable;  ///< with its unit: "height_mm"
+  std::string_view region;      ///< of the cup or of the desk around it
+  double value;
+};
+
+/// "height_mm" of every region of the cup with at least ten pixels; of the desk "desk_height_mm" (of the camera above
+/// it), "desk_pitch_deg", "desk_roll_deg", "desk_residual_mm" of each third of the image with at least a hundred,
+/// "comb_strength" and "comb_phase" (in steps) of the disparities' fractions, "millimetre_comb"; "ir_ratio", the
+/// brightness inside over that of the desk, and "height_sd_mm" of the whole interior.
+std::vector<NamedValue> named_values(const FrameEstimates& estimates);
+
+}  // namespace fathom

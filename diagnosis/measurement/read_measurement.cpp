@@ -1,0 +1,190 @@
+#include "diagnosis/measurement/read_measurement.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <map>
+#include <tuple>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "detector/read_cloud.h"
+#include "diagnosis/measurement/named_values.h"
+
+namespace fathom {
+namespace {
+
+struct FrameReading {
+  std::vector<NamedValue> values;
+};
+
+std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
+  std::vector<SensedPoint> points;
+  points.reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (cloud.points[i].allFinite() && cloud.points[i].z() > 0.0f)
+      points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
+  return points;
+}
+
+/// Of the pixels whose lines of sight pass through the cup's opening; nothing when there are none.
+std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& rig, const Plane& desk,
+                                     const Eigen::Vector2d& cup) {
+  if (cloud.height <= 1) return std::nullopt;
+  const Eigen::Isometry3d to_desk = desk_from_camera(desk);
+  const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
+  const Eigen::Vector2f axis = (cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0)).cast<float>();
+  const float fall = static_cast<float>(desk.offset - rig.cup_height_m), focal = static_cast<float>(rig.focal_px);
+  const float radius = static_cast<float>(rig.inner_radius_m - kInteriorMargin);
+  int looked = 0, valid = 0;
+  for (int row = 0; row < cloud.height; ++row)
+    for (int column = 0; column < cloud.width; ++column) {
+      const Eigen::Vector3f sight =
+          turn * Eigen::Vector3f((static_cast<float>(column) + 0.5f - 0.5f * static_cast<float>(cloud.width)) / focal,
+                                 (static_cast<float>(row) + 0.5f - 0.5f * static_cast<float>(cloud.height)) / focal,
+                                 1.0f);
+      if (sight.z() >= 0.0f) continue;
+      if ((sight.head<2>() * (fall / -sight.z()) - axis).squaredNorm() > radius * radius) continue;
+      ++looked;
+      valid += cloud.points[static_cast<std::size_t>(row) * cloud.width + column].allFinite();
+    }
+  if (looked == 0) return std::nullopt;
+  return static_cast<double>(valid) / looked;
+}
+
+void require_metres(const std::vector<SensedPoint>& points, const std::filesystem::path& file) {
+  constexpr float kFarthest = 50.0f;  // [m] no sensor of this kind sees farther than 10
+  if (points.empty()) return;
+  const float z = points[points.size() / 2].point.z();
+  if (z > kFarthest) throw Error(file.string(), fmt::format("must be in metres: a point lies {:g} away", z));
+}
+
+FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder) {
+  FrameReading reading;
+  if (frame.cloud.empty()) {
+    if (frame.height_mm) reading.values.push_back({"height_mm", kWholeInterior, *frame.height_mm});
+    return reading;
+  }
+  const Cloud cloud = read_cloud(folder / frame.cloud);
+  const std::vector<SensedPoint> points = sensed_points(cloud);
+  require_metres(points, folder / frame.cloud);
+  FrameView view;
+  if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
+  const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
+  if (!estimates) return reading;
+  reading.values = named_values(*estimates);
+  const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
+    if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
+  };
+  contrast(estimates->desk_intensity, "desk");
+  if (!view.cup) return reading;
+  contrast(estimates->interior_intensity, kWholeInterior);
+  if (const auto valid = valid_fraction(cloud, rig, estimates->desk, *view.cup))
+    reading.values.push_back({"valid_fraction", kWholeInterior, *valid});
+  return reading;
+}
+
+/// Of two frames that cannot be read the first is told of, whichever thread came first.
+std::vector<FrameReading> read_frames_of(const Measurement& measurement, const std::filesystem::path& folder,
+                                         const Table& table) {
+  std::vector<FrameReading> readings(measurement.frames.size());
+  std::vector<std::string> problems(readings.size());
+  parallel_ranges(static_cast<int>(readings.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) try {
+        readings[i] = read_frame(measurement.frames[i], measurement.rig, folder);
+      } catch (const Error& problem) {
+        problems[i] = problem.what();
+      }
+  });
+  for (std::size_t row = 0; row < problems.size(); ++row)
+    if (!problems[row].empty()) table.fail(row, "cloud", problems[row]);
+  return readings;
+}
+
+/// Frames that differ in their trial only.
+using PlacementKey = std::tuple<int, int, int, std::string, double, double, double>;
+PlacementKey key_of(const FrameRecord& f) {
+  return {f.session, f.pour, f.placement, f.liquid, f.fill_m, f.distance_m, f.lateral_m};
+}
+
+/// The values of one observable over the trials, in the order in which frames first name it.
+struct Trials {
+  std::string_view observable, region;
+  std::vector<double> values;
+};
+
+Observation observation_of(const Trials& trials, const FrameRecord& frame, double time_s) {
+  const double n = static_cast<double>(trials.values.size());
+  Observation observation;
+  observation.observable = trials.observable;
+  observation.repeats = static_cast<int>(trials.values.size());
+  Factors& factors = observation.factors;
+  factors.session = frame.session;
+  factors.pour = frame.pour;
+  factors.placement = frame.placement;
+  factors.time_s = time_s;
+  factors.liquid = frame.liquid;
+  factors.fill_mm = mm_from_metres(frame.fill_m);
+  factors.distance_mm = mm_from_metres(frame.distance_m);
+  factors.lateral_mm = mm_from_metres(frame.lateral_m);
+  factors.region = trials.region;
+  for (const double value : trials.values) observation.value += value / n;
+  double squares = 0.0;
+  for (const double value : trials.values) squares += (value - observation.value) * (value - observation.value);
+  if (n > 1.0) observation.repeat_sd = std::sqrt(squares / (n - 1.0));
+  return observation;
+}
+
+void add_observations(const std::vector<std::size_t>& rows, const std::vector<FrameReading>& readings,
+                      Measurement& measurement) {
+  std::vector<Trials> all;
+  double time_s = 0.0;
+  for (const std::size_t row : rows) {
+    time_s += measurement.frames[row].time_s / static_cast<double>(rows.size());
+    for (const NamedValue& named : readings[row].values) {
+      auto same = std::find_if(all.begin(), all.end(), [&](const Trials& trials) {
+        return trials.observable == named.observable && trials.region == named.region;
+      });
+      if (same == all.end()) same = all.insert(all.end(), {named.observable, named.region, {}});
+      same->values.push_back(named.value);
+    }
+  }
+  for (const Trials& trials : all)
+    measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s));
+}
+
+void add_notes(const std::vector<FrameReading>& readings, Measurement& measurement) {
+  std::size_t tables = 0, silent = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const FrameRecord& frame = measurement.frames[i];
+    tables += frame.cloud.empty() && !frame.bare_desk();
+    silent += !frame.cloud.empty() && readings[i].values.empty();
+  }
+  if (tables > 0)
+    measurement.notes.push_back(
+        fmt::format("{} of {} frames have a height and no cloud: only mean heights are compared there, which tell few "
+                    "effects apart",
+                    tables, readings.size()));
+  if (silent > 0)
+    measurement.notes.push_back(
+        fmt::format("{} of {} clouds show no desk where the rig says it is", silent, readings.size()));
+}
+
+}  // namespace
+
+Measurement read_measurement(const std::filesystem::path& folder) {
+  const Table table = read_table(folder / "frames.csv");
+  Measurement measurement;
+  measurement.rig = read_rig(folder / "rig.json");
+  measurement.frames = read_frames(table, measurement.rig, folder);
+  const std::vector<FrameReading> readings = read_frames_of(measurement, folder, table);
+  std::map<PlacementKey, std::vector<std::size_t>> placements;
+  for (std::size_t row = 0; row < measurement.frames.size(); ++row)
+    placements[key_of(measurement.frames[row])].push_back(row);
+  for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
+  add_notes(readings, measurement);
+  return measurement;
+}
+
+}  // namespace fathom

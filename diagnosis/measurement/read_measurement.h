@@ -1,0 +1,22 @@
+// A measurement directory as observations: what every placement's clouds say, over their trials.
+#pragma once
+
+#include "diagnosis/measurement/frames.h"
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+struct Measurement {
+  LaboratoryRig rig;
+  std::vector<FrameRecord> frames;
+  std::vector<Observation> observations;  ///< by session, pour, placement; then as named_values() has them
+  std::vector<std::string> notes;         ///< what limits it, one sentence each: heights without clouds, …
+};
+
+/// Reads rig.json, frames.csv and every cloud once, on all threads. Beside what named_values() lists: "valid_fraction"
+/// of the pixels that look into the cup's opening, "ir_contrast" (deviation over mean of the brightness, where a cloud
+/// has it) inside and on the desk. Placements whose frames hold heights only give "height_mm" of the whole interior.
+/// Throws Error naming file and place.
+Measurement read_measurement(const std::filesystem::path& folder);
+
+}  // namespace fathom

@@ -1,0 +1,219 @@
+#include "diagnosis/predict/cup_optics.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "sim/optics/fresnel.h"
+#include "sim/optics/snell.h"
+#include "sim/scene/cup.h"
+
+namespace fathom {
+namespace {
+
+/// What is left of light on its way down or up, and where that way ends.
+struct Way {
+  Eigen::Vector3d end;
+  Eigen::Vector3d direction;  ///< unit, at the end
+  double transmittance = 1.0;
+  double n = 1.0;  ///< at the end
+};
+
+double height_on(const std::vector<Eigen::Vector2d>& profile, double radius) {
+  for (std::size_t i = 1; i < profile.size(); ++i)
+    if (radius <= profile[i].x() && profile[i].x() > profile[i - 1].x())
+      return std::lerp(profile[i - 1].y(), profile[i].y(),
+                       std::max(radius - profile[i - 1].x(), 0.0) / (profile[i].x() - profile[i - 1].x()));
+  return profile.back().y();
+}
+
+/// Radius of the inside at a height above its bottom's edge.
+double radius_on(const std::vector<Eigen::Vector2d>& profile, double height) {
+  for (std::size_t i = 1; i < profile.size(); ++i)
+    if (height <= profile[i].y() && profile[i].y() > profile[i - 1].y())
+      return std::lerp(profile[i - 1].x(), profile[i].x(),
+                       std::max(height - profile[i - 1].y(), 0.0) / (profile[i].y() - profile[i - 1].y()));
+  return profile.back().x();
+}
+
+Eigen::Vector3d at_height(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double height) {
+  return from + (height - from.z()) / direction.z() * direction;
+}
+
+struct TopHit {
+  Eigen::Vector3d point, normal;
+};
+
+/// Where a ray that goes down meets a layer's top, by Newton's method.
+TopHit meet(const LiquidLayer& layer, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+  Eigen::Vector3d point = at_height(from, direction, layer.at);
+  if (layer.level) return {point, Eigen::Vector3d::UnitZ()};
+  LiquidTop::Height top = layer.top.at(point.head<2>());
+  for (int i = 0; i < 8 && std::abs(top.z - point.z()) > 1e-12; ++i) {
+    const double slope = direction.z() - top.gradient.dot(direction.head<2>());
+    point += (top.z - point.z()) / slope * direction;
+    top = layer.top.at(point.head<2>());
+  }
+  return {point, Eigen::Vector3d(-top.gradient.x(), -top.gradient.y(), 1.0).normalized()};
+}
+
+/// Through the tops of all clear layers; the end is on the last of them, or where it started.
+std::optional<Way> go_down(const CupOptics& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+  Way way{from, direction};
+  double absorption = 0.0;
+  for (const LiquidLayer& layer : cup.layers) {
+    const TopHit hit = meet(layer, way.end, way.direction);
+    const Eigen::Vector2d from_axis = hit.point.head<2>() - cup.axis;
+    const double wall = radius_on(cup.inner, hit.point.z());
+    if (from_axis.squaredNorm() > wall * wall) return std::nullopt;
+    way.transmittance *= transmittance(absorption, (hit.point - way.end).norm());
+    way.end = hit.point;
+    if (layer.opaque) return way;
+    const auto refracted = refract(way.direction, hit.normal, way.n, layer.n);
+    if (!refracted) return std::nullopt;
+    way.transmittance *= 1.0 - fresnel_reflectance(-way.direction.dot(hit.normal), way.n, layer.n);
+    way.direction = *refracted;
+    way.n = layer.n;
+    absorption = layer.absorption;
+  }
+  return way;
+}
+
+double last_absorption(const CupOptics& cup) { return cup.layers.empty() ? 0.0 : cup.layers.back().absorption; }
+
+bool passes_opening(const CupOptics& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+  if (direction.z() >= 0.0) return false;
+  return (at_height(from, direction, cup.rim).head<2>() - cup.axis).squaredNorm() < cup.rim_radius * cup.rim_radius;
+}
+
+/// The bottom's point that the way leads to.
+std::optional<Eigen::Vector3d> meet_bottom(const CupOptics& cup, const Way& way) {
+  Eigen::Vector3d point = at_height(way.end, way.direction, cup.bottom.front().y());
+  const bool flat = cup.bottom.front().y() == cup.bottom.back().y();
+  for (int i = 0; i < (flat ? 0 : 6); ++i)
+    point = at_height(way.end, way.direction, height_on(cup.bottom, (point.head<2>() - cup.axis).norm()));
+  const double edge = cup.bottom.back().x();
+  if ((point.head<2>() - cup.axis).squaredNorm() > edge * edge) return std::nullopt;
+  return point;
+}
+
+/// The projector's light aimed at the height of `target`, refracted on its way there: by Newton's method with the
+/// derivative of where it lands, whose determinant is the spreading of the light.
+std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d& target,
+                                     const Eigen::Vector3d& projector, const Way& seen) {
+  const auto land = [&](const Eigen::Vector2d& aim) -> std::optional<Way> {
+    const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
+    auto way = go_down(cup, projector, straight.normalized());
+    if (!way || way->direction.z() >= 0.0) return std::nullopt;
+    const Eigen::Vector3d end = at_height(way->end, way->direction, target.z());
+    way->transmittance *= transmittance(last_absorption(cup), (end - way->end).norm());
+    way->end = end;
+    return way;
+  };
+  constexpr double kStep = 1e-5;  // [m]
+  Eigen::Vector2d aim = target.head<2>();
+  auto way = land(aim);
+  Eigen::Matrix2d slope;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto beside = land(aim + kStep * Eigen::Vector2d::Unit(axis));
+    if (!way || !beside) return std::nullopt;
+    slope.col(axis) = (beside->end - way->end).head<2>() / kStep;
+  }
+  const Eigen::Matrix2d step = slope.inverse();
+  constexpr double kEnough = 1e-10;  // [m]
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector2d off = (way->end - target).head<2>();
+    if (off.squaredNorm() < kEnough * kEnough) break;
+    aim -= step * off;
+    way = land(aim);
+    if (!way) return std::nullopt;
+  }
+  const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
+  const double distance = straight.norm();
+  const Eigen::Vector3d direction = straight / distance;
+  if (!passes_opening(cup, projector, direction)) return std::nullopt;
+  const double irradiance = -direction.z() / (distance * distance * std::abs(slope.determinant()));
+  const double to_camera = seen.transmittance * transmittance(last_absorption(cup), (target - seen.end).norm());
+  return LitPoint{direction, cup.albedo * irradiance * way->transmittance * to_camera / (seen.n * seen.n)};
+}
+
+/// An opaque liquid's light leaves, in the mean, beyond where it entered (sim/optics/far_centroid.h).
+std::optional<LitPoint> light_surface(const CupOptics& cup, const Way& seen, const Eigen::Vector3d& projector) {
+  const LiquidLayer& layer = cup.layers.back();
+  const Eigen::Vector3d there = seen.end - projector;
+  const double distance = there.norm();
+  const Eigen::Vector3d entry =
+      seen.end - layer.centroid_per_sin / distance * Eigen::Vector3d(there.x(), there.y(), 0.0);
+  const Eigen::Vector3d direction = (entry - projector).normalized();
+  if (!passes_opening(cup, projector, direction)) return std::nullopt;
+  return LitPoint{direction, layer.albedo * -there.z() / (distance * distance * distance) * seen.transmittance};
+}
+
+LiquidLayer layer_of(const Cup& cup, double wavelength_nm) {
+  const CupShape& shape = std::get<CupShape>(cup.shape);
+  const Filling& filling = *cup.filling;
+  const Medium& medium = filling.medium;
+  const double level = liquid_level(cup), n = medium.n(wavelength_nm);
+  LiquidLayer layer{.top = LiquidTop(shape, level, filling.form),
+                    .level = filling.form.level(),
+                    .at = level,
+                    .n = n,
+                    .absorption = medium.absorption,
+                    .opaque = medium.scatters(),
+                    .centroid_per_sin = 0.0,
+                    .albedo = 0.0};
+  layer.top.move(cup.position);
+  if (medium.scatters()) {
+    layer.centroid_per_sin = 1.0 / (n * (medium.reduced_scattering() + 0.35 * medium.absorption));
+    layer.albedo = diffuse_reflectance(medium, n);
+  }
+  return layer;
+}
+
+}  // namespace
+
+std::optional<CupOptics> cup_optics(const Setup& setup) {
+  if (setup.scene.cups.empty()) return std::nullopt;
+  const Cup& cup = setup.scene.cups.front();
+  const auto* shape = std::get_if<CupShape>(&cup.shape);
+  if (!shape || shape->material)
+    throw Error(cup_name(cup), "must be an opaque cup of revolution; light that passes walls is not predicted");
+  CupOptics optics{.axis = cup.position,
+                   .rim = shape->height(),
+                   .rim_radius = shape->inner.back().x(),
+                   .outer_radius = 0.0,
+                   .albedo = shape->albedo,
+                   .bottom = {shape->inner.front()},
+                   .inner = shape->inner,
+                   .layers = {}};
+  for (const Eigen::Vector2d& point : shape->outer) optics.outer_radius = std::max(optics.outer_radius, point.x());
+  for (std::size_t i = 1; i < shape->inner.size(); ++i) {  // the bottom is what rises by less than 45°
+    const Eigen::Vector2d run = shape->inner[i] - shape->inner[i - 1];
+    if (run.y() >= run.x()) break;
+    optics.bottom.push_back(shape->inner[i]);
+  }
+  for (const Cup& layered : setup.scene.cups)
+    if (layered.filling) optics.layers.push_back(layer_of(layered, setup.rig.sensor.wavelength_nm));
+  return optics;
+}
+
+std::optional<LitPoint> look_into(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector) {
+  if (!passes_opening(cup, camera_ray.origin, camera_ray.direction)) return std::nullopt;
+  const auto seen = go_down(cup, camera_ray.origin, camera_ray.direction);
+  if (!seen) return std::nullopt;
+  if (!cup.layers.empty() && cup.layers.back().opaque) return light_surface(cup, *seen, projector);
+  const auto target = meet_bottom(cup, *seen);
+  if (!target) return std::nullopt;
+  return light_bottom(cup, *target, projector, *seen);
+}
+
+bool is_hidden(const CupOptics& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source) {
+  // Below the rim the way runs from the desk's point to `top`; how near that comes to the axis, seen from above.
+  const Eigen::Vector2d start = on_desk.head<2>();
+  const Eigen::Vector2d run = (cup.rim / source.z()) * (source - on_desk).head<2>();
+  const double share = std::clamp((cup.axis - start).dot(run) / std::max(run.squaredNorm(), 1e-12), 0.0, 1.0);
+  return (start + share * run - cup.axis).squaredNorm() < cup.outer_radius * cup.outer_radius;
+}
+
+}  // namespace fathom

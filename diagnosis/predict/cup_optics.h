@@ -1,0 +1,52 @@
+// Direct light in an upright opaque cup, in closed form: what a camera's ray sees there, and the projector's way to it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/pose.h"
+#include "sim/scene/liquid_top.h"
+#include "sim/scene/setup.h"
+
+namespace fathom {
+
+/// A liquid under its surface, down to the next one or the bottom.
+struct LiquidLayer {
+  LiquidTop top;
+  bool level;  ///< whether the top is a plane at the height `at`
+  double at;   ///< [m]
+  double n, absorption;
+  bool opaque;              ///< scatters: nothing below its surface is seen
+  double centroid_per_sin;  ///< [m] of what scatters: how far from its entry light seems to leave, over sin θ
+  double albedo;            ///< of what scatters, as a surface
+};
+
+/// A cup of revolution with opaque walls, and desk and sources around it.
+struct CupOptics {
+  Eigen::Vector2d axis;
+  double rim, rim_radius;  ///< height above the desk, inner radius there
+  double outer_radius;     ///< the greatest
+  double albedo;
+  std::vector<Eigen::Vector2d> bottom;  ///< (radius, height), from the axis to where the wall begins
+  std::vector<Eigen::Vector2d> inner;   ///< the whole inside
+  std::vector<LiquidLayer> layers;      ///< from above
+};
+
+/// Of the cups of a scene that stand at one place: what stands in the first is in all (see sim/effects/stratification).
+/// Nothing without a cup. Throws Error when it is of a glTF file or clear: light that passes walls is not in this
+/// model.
+std::optional<CupOptics> cup_optics(const Setup& setup);
+
+/// The bottom or the opaque surface as a ray from the camera sees it, and the light there.
+struct LitPoint {
+  Eigen::Vector3d projector_direction;  ///< unit, in which the light left the projector
+  double reflected;                     ///< [1/m²] albedo · irradiance · transmittance, as radiance_dn() takes it
+};
+
+/// Nothing where the ray meets a wall, or the projector's light does before it gets there.
+std::optional<LitPoint> look_into(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector);
+
+/// Whether the straight way from a point of the desk to a source passes the cup.
+bool is_hidden(const CupOptics& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source);
+
+}  // namespace fathom

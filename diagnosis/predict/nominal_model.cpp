@@ -1,0 +1,74 @@
+#include "diagnosis/predict/nominal_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "sim/scene/library.h"
+#include "sim/scene/medium_json.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kBandMiddle = 0.045;  // [m] where rigs give a cup's radii
+
+bool is_same(const CupShape& shape, const LaboratoryRig& rig) {
+  constexpr double kSame = 1e-6;  // [m]
+  const auto near = [](double a, double b) { return std::abs(a - b) < kSame; };
+  return near(shape.height(), rig.cup_height_m) && near(shape.bottom(), rig.bottom_m) &&
+         near(shape.inner_radius(kBandMiddle), rig.inner_radius_m) &&
+         near(shape.outer_radius(kBandMiddle), rig.outer_radius_m);
+}
+
+CupShape cup_of(const LaboratoryRig& rig, const std::string& file) {
+  const std::vector<std::string> names = library_names("cups");
+  if (std::find(names.begin(), names.end(), rig.cup_shape) != names.end()) {
+    const Json name = rig.cup_shape;
+    CupShape shape = cup_shape_from_json(JsonReader(name, file, "/cup/shape"));
+    if (is_same(shape, rig)) return shape;
+  }
+  const Json straight = {{"height_mm", mm_from_metres(rig.cup_height_m)},
+                         {"bottom_mm", mm_from_metres(rig.bottom_m)},
+                         {"inner_radius_mm", mm_from_metres(rig.inner_radius_m)},
+                         {"outer_radius_mm", mm_from_metres(rig.outer_radius_m)}};
+  return cup_shape_from_json(JsonReader(straight, file, "/cup"));
+}
+
+}  // namespace
+
+NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file) {
+  NominalModel model;
+  model.laboratory = laboratory;
+  const Json sensor = {{"model", laboratory.sensor_model},
+                       {"height_mm", mm_from_metres(laboratory.height_m)},
+                       {"pitch_deg", deg_from_radians(laboratory.pitch_rad)},
+                       {"roll_deg", deg_from_radians(laboratory.roll_rad)},
+                       {"baseline_mm", mm_from_metres(laboratory.baseline_m)},
+                       {"focal_px", laboratory.focal_px}};
+  model.rig = rig_from_json(JsonReader(sensor, file, "/sensor"));
+  model.rig.sensor.unit.disparity_offset_px = laboratory.disparity_offset_px;
+  model.cup = cup_of(laboratory, file);
+  for (const auto& [name, medium] : laboratory.liquids) {
+    const JsonReader json(medium, file, "/liquids/" + name);
+    model.liquids[name] = medium_from_json(json);
+    require_index(json, model.liquids[name], model.rig.sensor.wavelength_nm);
+  }
+  return model;
+}
+
+Setup setup_of(const NominalModel& model, const Factors& factors) {
+  Setup setup{.scene = {}, .rig = model.rig};
+  setup.circumstances.time_s = factors.time_s;
+  setup.circumstances.liquid = factors.liquid;
+  for (const auto& [name, medium] : model.liquids) setup.circumstances.liquids.push_back(medium);
+  if (factors.liquid == "none") return setup;
+  Cup cup{.shape = model.cup,
+          .position = {metres_from_mm(factors.lateral_mm), metres_from_mm(factors.distance_mm)},
+          .filling = std::nullopt};
+  if (factors.liquid != "empty" && factors.fill_mm > 0.0)
+    cup.filling = Filling{model.liquids.at(factors.liquid), metres_from_mm(factors.fill_mm)};
+  setup.scene.cups.push_back(std::move(cup));
+  return setup;
+}
+
+}  // namespace fathom

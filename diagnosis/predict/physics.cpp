@@ -1,0 +1,198 @@
+#include "diagnosis/predict/physics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "core/units.h"
+#include "sim/effects/registry.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::array<std::string_view, 5> kPredicted{"height_mm", "desk_height_mm", "desk_pitch_deg", "desk_roll_deg",
+                                                     "desk_residual_mm"};
+
+bool is_predicted(const Observation& observation) {
+  return std::find(kPredicted.begin(), kPredicted.end(), observation.observable) != kPredicted.end();
+}
+
+std::vector<Observation> predicted_observations(const Measurement& measurement, const Json& model_effects,
+                                                const std::string& file) {
+  std::vector<Observation> candidates;
+  std::copy_if(measurement.observations.begin(), measurement.observations.end(), std::back_inserter(candidates),
+               is_predicted);
+  const Eigen::VectorXd nominal = Predictor(measurement.rig, candidates, model_effects, file).predict({});
+  std::vector<Observation> predicted;
+  for (std::size_t row = 0; row < candidates.size(); ++row)
+    if (std::isfinite(nominal[row])) predicted.push_back(std::move(candidates[row]));
+  return predicted;
+}
+
+/// Change per unit between two set-ups `low` and `high` of one quantity; 0 where either sees nothing.
+Eigen::VectorXd slope(const Predictor& predictor, const std::function<Change(double)>& at, double low, double high,
+                      const std::vector<std::size_t>& conditions) {
+  Eigen::VectorXd difference =
+      (predictor.predict(at(high), conditions) - predictor.predict(at(low), conditions)) / (high - low);
+  for (double& value : difference)
+    if (!std::isfinite(value)) value = 0.0;
+  return difference;
+}
+
+std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < predictor.conditions().size(); ++i)
+    if (is(predictor.conditions()[i].factors)) found.push_back(i);
+  return found;
+}
+
+bool has_cup(const Factors& factors) { return factors.liquid != "none"; }
+bool has_liquid(const Factors& factors) { return has_cup(factors) && factors.liquid != "empty"; }
+
+/// A value of the rig, moved by the effect that is an error of it.
+struct UncertainValue {
+  const char* key;     ///< of the rig's sigma
+  const char* effect;  ///< with one parameter, in the key's unit
+  double sigma;        ///< when the rig has none
+};
+constexpr std::array kUncertain{UncertainValue{"height_mm", "sensor_height", 0.5},
+                                UncertainValue{"pitch_deg", "sensor_pitch", 0.05},
+                                UncertainValue{"roll_deg", "sensor_roll", 0.05},
+                                UncertainValue{"baseline_mm", "baseline", 0.05},
+                                UncertainValue{"focal_px", "focal_length", 0.4},
+                                UncertainValue{"disparity_offset_px", "disparity_offset", 0.02},
+                                UncertainValue{"bottom_mm", "cup_bottom_height", 0.1}};
+
+std::vector<Nuisance> rig_nuisances(const Predictor& predictor) {
+  const auto all = conditions_where(predictor, [](const Factors&) { return true; });
+  const std::map<std::string, double>& sigmas = predictor.model().laboratory.sigma;
+  std::vector<Nuisance> nuisances;
+  for (const UncertainValue& value : kUncertain) {
+    const auto given = sigmas.find(value.key);
+    const double sigma = given != sigmas.end() ? given->second : value.sigma;
+    if (sigma <= 0.0) continue;
+    const auto at = [&](double x) { return switch_on({{value.effect, {x}}}); };
+    nuisances.push_back({value.key, sigma, slope(predictor, at, -sigma, sigma, all)});
+  }
+  return nuisances;
+}
+
+std::vector<Nuisance> fill_nuisances(const Predictor& predictor) {
+  const double sigma_mm = mm_from_metres(predictor.model().laboratory.fill_sigma_m);
+  std::set<std::pair<int, int>> pours;
+  for (const Condition& condition : predictor.conditions())
+    if (has_liquid(condition.factors)) pours.emplace(condition.factors.session, condition.factors.pour);
+  std::vector<Nuisance> nuisances;
+  if (sigma_mm <= 0.0) return nuisances;
+  const auto at = [](double x) { return switch_on({{"fill_offset", {x}}}); };
+  for (const auto& [session, pour] : pours) {
+    const auto of_pour = conditions_where(predictor, [session = session, pour = pour](const Factors& f) {
+      return has_liquid(f) && f.session == session && f.pour == pour;
+    });
+    nuisances.push_back({"fill of pour " + std::to_string(session) + "/" + std::to_string(pour), sigma_mm,
+                         slope(predictor, at, -sigma_mm, sigma_mm, of_pour)});
+  }
+  return nuisances;
+}
+
+std::vector<Nuisance> place_nuisances(const Predictor& predictor) {
+  const double sigma_mm = mm_from_metres(predictor.model().laboratory.placement_sigma_m);
+  std::vector<Nuisance> nuisances;
+  if (sigma_mm <= 0.0) return nuisances;
+  const auto along = [](int axis) {
+    return [axis](double x) {
+      return switch_on({{"cup_placement", axis == 0 ? std::vector{x, 0.0} : std::vector{0.0, x}}});
+    };
+  };
+  const auto with_cup = conditions_where(predictor, has_cup);
+  for (int axis = 0; axis < 2; ++axis) {
+    const Eigen::VectorXd all = slope(predictor, along(axis), -sigma_mm, sigma_mm, with_cup);
+    for (const std::size_t i : with_cup) {
+      const Condition& condition = predictor.conditions()[i];
+      Eigen::VectorXd own = Eigen::VectorXd::Zero(all.size());
+      for (const std::size_t row : condition.rows) own[row] = all[row];
+      nuisances.push_back({(axis == 0 ? "x of placement " : "y of placement ") +
+                               std::to_string(condition.factors.session) + "/" +
+                               std::to_string(condition.factors.placement),
+                           sigma_mm, std::move(own)});
+    }
+  }
+  return nuisances;
+}
+
+Candidate candidate_of(const Predictor& predictor, const Effect& effect, const std::string& liquid) {
+  const auto touched = conditions_where(predictor, [&](const Factors& f) {
+    return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
+  });
+  Candidate candidate;
+  candidate.effect = std::string(effect.id) + (liquid.empty() ? "" : "@" + liquid);
+  const std::size_t count = effect.parameters.size();
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t i = 0; i < count; ++i) {
+    const EffectParameter& p = effect.parameters[i];
+    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper});
+    const auto at = [&](double x) {
+      std::vector<double> values;
+      for (const EffectParameter& parameter : effect.parameters) values.push_back(parameter.nominal);
+      values[i] = x;
+      return switch_on({{candidate.effect, values}});
+    };
+    columns.push_back(
+        slope(predictor, at, std::max(p.nominal - p.scale, p.lower), std::min(p.nominal + p.scale, p.upper), touched));
+  }
+  candidate.signature.resize(columns.front().size(), static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) candidate.signature.col(static_cast<Eigen::Index>(i)) = columns[i];
+  return candidate;
+}
+
+std::vector<std::string> poured_liquids(const Predictor& predictor) {
+  std::set<std::string> liquids;
+  for (const Condition& condition : predictor.conditions())
+    if (has_liquid(condition.factors)) liquids.insert(condition.factors.liquid);
+  return {liquids.begin(), liquids.end()};
+}
+
+/// What moves every row by less than this at its prior scale moves nothing that could be measured.
+bool moves_anything(const Candidate& candidate) {
+  constexpr double kNothing = 1e-9;
+  double most = 0.0;
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    most = std::max(most, candidate.parameters[i].prior_scale *
+                              candidate.signature.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff());
+  return most > kNothing;
+}
+
+}  // namespace
+
+Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file) {
+  Physics physics;
+  Evidence& evidence = physics.evidence;
+  evidence.observations = predicted_observations(measurement, model_effects, file);
+  const auto predictor = std::make_shared<const Predictor>(measurement.rig, evidence.observations, model_effects, file);
+  evidence.predicted = predictor->predict({});
+  for (const auto nuisances : {rig_nuisances, fill_nuisances, place_nuisances})
+    for (Nuisance& nuisance : nuisances(*predictor)) evidence.nuisances.push_back(std::move(nuisance));
+  const std::vector<std::string> liquids = poured_liquids(*predictor);
+  for (const Effect& effect : effect_registry()) {
+    std::vector<std::string> targets{""};
+    if (effect.of_liquids && liquids.size() > 1) targets.insert(targets.end(), liquids.begin(), liquids.end());
+    for (const std::string& liquid : targets) {
+      Candidate candidate = candidate_of(*predictor, effect, liquid);
+      if (evidence.predicted.size() > 0 && moves_anything(candidate))
+        evidence.candidates.push_back(std::move(candidate));
+      else if (liquid.empty())
+        physics.unseen.emplace_back(effect.id);
+    }
+  }
+  physics.predict = [predictor, nominal = evidence.predicted](const std::vector<EffectValue>& effects) {
+    Eigen::VectorXd values = predictor->predict(switch_on(effects));
+    for (Eigen::Index row = 0; row < values.size(); ++row)
+      if (!std::isfinite(values[row])) values[row] = nominal[row];
+    return values;
+  };
+  return physics;
+}
+
+}  // namespace fathom

@@ -1,0 +1,52 @@
+// All observations of a campaign, for any effects: the model side of a diagnosis.
+#pragma once
+
+#include <functional>
+
+#include "diagnosis/measurement/read_measurement.h"
+#include "diagnosis/predict/nominal_model.h"
+#include "diagnosis/predict/surrogate.h"
+#include "sim/effects/effect.h"
+
+namespace fathom {
+
+/// Frames that differ in nothing that the model knows of: one placement, or the bare desk of a session.
+struct Condition {
+  Factors factors;                ///< without a region
+  std::vector<std::size_t> rows;  ///< its observations
+  SampledPixels pixels;
+};
+
+/// What changes a set-up, at given values.
+using Change = std::function<void(Setup& setup, const Factors& factors)>;
+
+class Predictor {
+ public:
+  /// `observations` must outlive nothing: their factors are copied. Effects of `model_effects` (as in model.json) are
+  /// part of the nominal model. Throws Error on what cannot be modelled.
+  Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects = Json::array(),
+            std::string file = "rig.json");
+
+  /// One value for each observation, NaN where the model sees nothing there or does not predict that observable.
+  Eigen::VectorXd predict(const Change& change) const;
+  /// The same of the conditions listed, all other values 0.
+  Eigen::VectorXd predict(const Change& change, const std::vector<std::size_t>& conditions) const;
+
+  const std::vector<Condition>& conditions() const { return conditions_; }
+  const NominalModel& model() const { return model_; }
+
+ private:
+  void predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const;
+
+  NominalModel model_;
+  Json model_effects_;
+  std::string file_;
+  std::vector<std::string> observables_, regions_;
+  std::vector<Condition> conditions_;
+};
+
+/// Switches effects on, each "id" or "id@liquid". Values outside their bounds are taken at the bound. Throws Error on
+/// an unknown id.
+Change switch_on(const std::vector<EffectValue>& effects);
+
+}  // namespace fathom

@@ -1,0 +1,152 @@
+#include "diagnosis/predict/surrogate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/predict/cup_optics.h"
+#include "sim/render/radiance.h"
+#include "sim/render/truth.h"
+#include "sim/sensor/depth.h"
+#include "sim/sensor/reading.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kWidth = 640.0, kHeight = 480.0;  // [px]
+constexpr double kFarthestDesk = 2.0;              // [m] beyond, a desk is none
+
+Pose believed_pose(const LaboratoryRig& rig) {
+  return camera_pose({0.0, 0.0, rig.height_m}, rig.pitch_rad, 0.0, rig.roll_rad, rig.baseline_m);
+}
+
+/// Light that comes to a pixel.
+struct Seen {
+  Eigen::Vector3d projector_direction;  ///< unit, in which it left the projector
+  double reflected;                     ///< as radiance_dn() takes it
+};
+
+/// What the device makes of it.
+class Reader {
+ public:
+  explicit Reader(const Setup& setup)
+      : rig_(setup.rig), calibration_(setup.rig.sensor.calibration()), window_px_(setup.processing.window_px) {
+    UnitModel unit = rig_.sensor.unit;
+    unit.wander_px = 0.0;
+    error_ = unit_error(unit, 0);
+  }
+
+  /// `look(pixel)` is what is seen there, if anything.
+  template <class Look>
+  std::optional<SensedPoint> operator()(const Eigen::Vector2d& pixel, double weight, const Look& look) const {
+    const std::optional<Seen> seen = look(sight(pixel));
+    if (!seen) return std::nullopt;
+    const auto own = disparity(pixel, *seen);
+    if (!own) return std::nullopt;
+    const double read = read_disparity(rig_.sensor, error_, window_px_ > 1.0 ? window_mean(pixel, *own, look) : *own);
+    if (read <= 0.0) return std::nullopt;
+    constexpr double kCutOff = 0.5 * kMetresPerMm;  // depths are cut to whole millimetres
+    const double z = depth_of_disparity(rig_.sensor, read) - (rig_.sensor.quantized ? kCutOff : 0.0);
+    const Eigen::Vector2d across = z / calibration_.focal_px * (pixel - calibration_.principal_px);
+    return SensedPoint{Eigen::Vector3d(across.x(), across.y(), z).cast<float>(),
+                       static_cast<float>(radiance_dn(rig_.sensor, seen->reflected)), static_cast<float>(weight)};
+  }
+
+ private:
+  Ray sight(const Eigen::Vector2d& pixel) const {
+    return {rig_.camera_in_world(), rig_.direction_in_world(pixel.x(), pixel.y())};
+  }
+
+  std::optional<double> disparity(const Eigen::Vector2d& pixel, const Seen& seen) const {
+    const auto depth = triangulated_depth(rig_, sight(pixel).direction, seen.projector_direction);
+    if (!depth) return std::nullopt;
+    return seen_disparity(rig_.sensor, pixel, *depth);
+  }
+
+  /// By nine places for the square, each a third of its width apart: exact for planes, and for curvature to 1/9.
+  template <class Look>
+  double window_mean(const Eigen::Vector2d& pixel, double own, const Look& look) const {
+    double sum = 0.0;
+    int known = 0;
+    for (int row = -1; row <= 1; ++row)
+      for (int column = -1; column <= 1; ++column) {
+        const Eigen::Vector2d there = pixel + window_px_ / 3.0 * Eigen::Vector2d(column, row);
+        const std::optional<Seen> seen = look(sight(there));
+        const std::optional<double> other = seen ? disparity(there, *seen) : std::nullopt;
+        if (other && std::abs(*other - own) < kOneSurfacePx) sum += *other, ++known;
+      }
+    return sum / known;
+  }
+
+  const Rig& rig_;
+  Calibration calibration_;
+  UnitError error_;
+  double window_px_;
+};
+
+}  // namespace
+
+SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup) {
+  constexpr int kDeskColumns = 24, kDeskRows = 18;
+  SampledPixels pixels;
+  for (int row = 0; row < kDeskRows; ++row)
+    for (int column = 0; column < kDeskColumns; ++column)
+      pixels.desk.emplace_back((column + 0.5) * kWidth / kDeskColumns, (row + 0.5) * kHeight / kDeskRows);
+  pixels.desk_weight = kWidth * kHeight / (kDeskColumns * kDeskRows);
+  if (!cup) return pixels;
+
+  constexpr int kStride = 2;  // some 300 in a cup 0.7 m away
+  const Pose camera_from_world = believed_pose(rig).inverse();
+  Eigen::AlignedBox2d seen;
+  const double radius = rig.inner_radius_m - kInteriorMargin, corner = 1.2 * radius;
+  double depth = 0.0;
+  for (const double height : {0.0, rig.cup_height_m})
+    for (const double x : {-corner, corner})
+      for (const double y : {-corner, corner}) {
+        const Eigen::Vector3d p = camera_from_world * Eigen::Vector3d(cup->x() + x, cup->y() + y, height);
+        if (p.z() <= 0.0) continue;
+        seen.extend(
+            Eigen::Vector2d(rig.focal_px * p.x() / p.z() + 0.5 * kWidth, rig.focal_px * p.y() / p.z() + 0.5 * kHeight));
+        depth = std::max(depth, p.z());
+      }
+  if (seen.isEmpty()) return pixels;
+  const Eigen::Vector2d low = seen.min().cwiseMax(0.0), high = seen.max().cwiseMin(Eigen::Vector2d(kWidth, kHeight));
+  for (double y = std::floor(low.y()) + 0.5; y < high.y(); y += kStride)
+    for (double x = std::floor(low.x()) + 0.5; x < high.x(); x += kStride) pixels.cup.emplace_back(x, y);
+  pixels.cup_weight = kStride * kStride;
+  pixels.soft_m = kStride * depth / rig.focal_px;
+  return pixels;
+}
+
+std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
+                                              const std::optional<Eigen::Vector2d>& place,
+                                              const SampledPixels& pixels) {
+  const std::optional<CupOptics> cup = cup_optics(setup);
+  const Eigen::Vector3d camera = setup.rig.camera_in_world(), projector = setup.rig.projector_in_world();
+  const double desk_albedo = setup.scene.desk ? setup.scene.desk->albedo : 0.0;
+  const Reader read(setup);
+  std::vector<SensedPoint> points;
+  points.reserve(pixels.desk.size() + pixels.cup.size());
+  const auto add = [&](const std::optional<SensedPoint>& point) {
+    if (point) points.push_back(*point);
+  };
+  const auto look_at_desk = [&](const Ray& sight) -> std::optional<Seen> {
+    if (sight.direction.z() >= 0.0) return std::nullopt;
+    const Eigen::Vector3d point = camera - camera.z() / sight.direction.z() * sight.direction;
+    if (point.head<2>().norm() > kFarthestDesk) return std::nullopt;
+    if (cup && (is_hidden(*cup, point, camera) || is_hidden(*cup, point, projector))) return std::nullopt;
+    const Eigen::Vector3d way = point - projector;
+    const double distance = way.norm();
+    return Seen{way / distance, desk_albedo * -way.z() / (distance * distance * distance)};
+  };
+  const auto look_into_cup = [&](const Ray& sight) -> std::optional<Seen> {
+    const auto lit = look_into(*cup, sight, projector);
+    if (!lit) return std::nullopt;
+    return Seen{lit->projector_direction, lit->reflected};
+  };
+  for (const Eigen::Vector2d& pixel : pixels.desk) add(read(pixel, pixels.desk_weight, look_at_desk));
+  if (cup)
+    for (const Eigen::Vector2d& pixel : pixels.cup) add(read(pixel, pixels.cup_weight, look_into_cup));
+  return estimate_frame(points, rig, {place, pixels.soft_m});
+}
+
+}  // namespace fathom

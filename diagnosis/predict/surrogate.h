@@ -1,0 +1,27 @@
+// What a frame of a set-up says in the mean, by some hundred exact rays instead of a picture.
+#pragma once
+
+#include "diagnosis/measurement/frame_estimates.h"
+#include "sim/scene/setup.h"
+
+namespace fathom {
+
+/// Pixels of the depth image that stand for it; fixed by what the laboratory believes, so that set-ups that differ a
+/// little are looked at by the same rays.
+struct SampledPixels {
+  std::vector<Eigen::Vector2d> desk, cup;
+  double desk_weight = 0.0, cup_weight = 0.0;  ///< pixels that each stands for
+  double soft_m = 0.0;                         ///< distance of the cup's on the desk
+};
+
+/// `cup` is where the cup should stand in the world [m]; nothing on a bare desk.
+SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup);
+
+/// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
+/// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
+/// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct
+/// light), walls' points. Nothing when no desk is seen. Throws Error for a clear cup or one of a glTF file.
+std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
+                                              const std::optional<Eigen::Vector2d>& cup, const SampledPixels& pixels);
+
+}  // namespace fathom

@@ -1,0 +1,39 @@
+// An effect: something that the model of a measurement may lack, as a change of what is physically there.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/scene/setup.h"
+
+namespace fathom {
+
+struct EffectParameter {
+  std::string_view name;  ///< with its unit, as a key: "tilt_x_deg"
+  std::string_view meaning;
+  double nominal;  ///< where the effect is absent
+  double scale;    ///< a typical departure from that
+  double lower, upper;
+};
+
+/// The values of an effect's parameters, in their order, and of which liquid.
+struct EffectSetting {
+  std::span<const double> values;
+  std::string_view liquid = {};  ///< the only one that it changes, by its label; empty: all
+};
+
+struct Effect {
+  std::string_view id, family;
+  std::string_view sentence;  ///< one, plain
+  std::vector<EffectParameter> parameters;
+  std::string_view citation;
+  std::vector<std::string_view> twins;  ///< effects that look alike, in some campaigns at least
+  std::string_view discriminated_by;    ///< the measurement that tells them apart
+  /// Changes scene, rig, circumstances or processing; at the nominal values it changes nothing.
+  void (*apply)(Setup& setup, const EffectSetting& setting);
+  bool of_liquids = false;  ///< may be limited to one liquid
+};
+
+}  // namespace fathom

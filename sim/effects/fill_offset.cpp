@@ -1,0 +1,31 @@
+#include <algorithm>
+
+#include "core/units.h"
+#include "sim/effects/changes.h"
+#include "sim/effects/effects.h"
+#include "sim/scene/cup.h"
+
+namespace fathom::effects {
+namespace {
+
+void apply(Setup& setup, const EffectSetting& setting) {
+  for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
+    filling.depth = std::clamp(filling.depth + metres_from_mm(setting.values[0]), 0.0, cup_depth(cup));
+  });
+}
+
+}  // namespace
+
+Effect fill_offset() {
+  return {.id = "fill_offset",
+          .family = "book-keeping",
+          .sentence = "Every pour holds more than was written down, by as much each time.",
+          .parameters = {{"fill_mm", "added to every fill", 0.0, 0.5, -50.0, 50.0}},
+          .citation = "Hara et al. 2014 pour to marks of 10, 20 and 30 mm",
+          .twins = {"cup_bottom_height", "foam", "subsurface_scattering"},
+          .discriminated_by = "weighing the cup, or an empty cup beside it",
+          .apply = apply,
+          .of_liquids = true};
+}
+
+}  // namespace fathom::effects

@@ -1,0 +1,35 @@
+#include <algorithm>
+
+#include "sim/effects/changes.h"
+#include "sim/effects/effects.h"
+
+namespace fathom::effects {
+namespace {
+
+void apply(Setup& setup, const EffectSetting& setting) {
+  const double wavelength_nm = setup.rig.sensor.wavelength_nm;
+  for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
+    Medium& medium = filling.medium;
+    if (setting.values[0] == 0.0) return;
+    medium.index = ConstantIndex{std::max(medium.n(wavelength_nm) + setting.values[0], 1.0)};
+  });
+}
+
+}  // namespace
+
+Effect refractive_index() {
+  return {
+      .id = "refractive_index",
+      .family = "liquid",
+      .sentence = "The liquid bends light more than its table says.",
+      .parameters = {{"index_change", "added to the refractive index at the sensor's wavelength", 0.0, 0.005, -0.3,
+                      0.3}},
+      .citation =
+          "Daimon & Masumura 2007, Applied Optics 46, 3811: water at 830 nm has 1.328, not the 1.333 of visible light",
+      .twins = {"fill_scale", "fill_offset"},
+      .discriminated_by = "several distances and fills of the same liquid: the index acts on depth times obliqueness",
+      .apply = apply,
+      .of_liquids = true};
+}
+
+}  // namespace fathom::effects

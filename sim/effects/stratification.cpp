@@ -1,0 +1,35 @@
+#include "sim/effects/changes.h"
+#include "sim/effects/effects.h"
+
+namespace fathom::effects {
+namespace {
+
+void apply(Setup& setup, const EffectSetting& setting) {
+  const double wavelength_nm = setup.rig.sensor.wavelength_nm;
+  std::vector<Cup> layers;
+  for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
+    if (filling.medium.scatters() || setting.values[0] == 0.0) return;
+    Cup layer = cup;  // where bodies overlap the last wins: the lower half of one cup is another one that stands in it
+    layer.filling->medium.index = ConstantIndex{filling.medium.n(wavelength_nm) + setting.values[0]};
+    layer.filling->depth *= 0.5;
+    layer.filling->form = {};
+    layers.push_back(std::move(layer));
+  });
+  for (Cup& layer : layers) setup.scene.cups.push_back(std::move(layer));
+}
+
+}  // namespace
+
+Effect stratification() {
+  return {.id = "stratification",
+          .family = "liquid",
+          .sentence = "The lower half of the liquid is denser, so it bends light more.",
+          .parameters = {{"index_step", "added to the refractive index of the lower half", 0.0, 0.01, -0.3, 0.3}},
+          .citation = "Born & Wolf, Principles of Optics, section 3.2: rays in stratified media",
+          .twins = {"refractive_index"},
+          .discriminated_by = "the same pour before and after stirring",
+          .apply = apply,
+          .of_liquids = true};
+}
+
+}  // namespace fathom::effects

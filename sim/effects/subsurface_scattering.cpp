@@ -1,0 +1,31 @@
+#include "core/units.h"
+#include "sim/effects/changes.h"
+#include "sim/effects/effects.h"
+
+namespace fathom::effects {
+namespace {
+
+void apply(Setup& setup, const EffectSetting& setting) {
+  for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
+    Medium& medium = filling.medium;
+    if (!medium.scatters()) return;
+    const double length = 1.0 / medium.reduced_scattering() + metres_from_mm(setting.values[0]);
+    medium.scattering = 1.0 / (length * (1.0 - medium.anisotropy));
+  });
+}
+
+}  // namespace
+
+Effect subsurface_scattering() {
+  return {.id = "subsurface_scattering",
+          .family = "liquid",
+          .sentence = "Light enters the liquid before it scatters back, so the surface reads too low.",
+          .parameters = {{"transport_length_mm", "added to 1 / reduced scattering coefficient", 0.0, 1.0, 0.0, 20.0}},
+          .citation = "Wang & Jacques 1995, Applied Optics 34, 2362: oblique-incidence reflectometry",
+          .twins = {"fill_offset"},
+          .discriminated_by = "several laterals: the shift follows the distance from below the projector",
+          .apply = apply,
+          .of_liquids = true};
+}
+
+}  // namespace fathom::effects

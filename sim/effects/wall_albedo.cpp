@@ -1,0 +1,27 @@
+#include <algorithm>
+
+#include "sim/effects/changes.h"
+#include "sim/effects/effects.h"
+
+namespace fathom::effects {
+namespace {
+
+void apply(Setup& setup, const EffectSetting& setting) {
+  for_each_cup(setup,
+               [&](Cup&, CupShape& shape) { shape.albedo = std::clamp(shape.albedo + setting.values[0], 0.0, 1.0); });
+}
+
+}  // namespace
+
+Effect wall_albedo() {
+  return {.id = "wall_albedo",
+          .family = "cup",
+          .sentence = "The cup reflects more infrared light than its model.",
+          .parameters = {{"albedo", "added to the cup's albedo", 0.0, 0.1, -0.7, 0.3}},
+          .citation = "Hara et al. 2014 do not give the cup's colour; 0.70 is assumed",
+          .twins = {"absorption", "wall_multipath"},
+          .discriminated_by = "the empty cup's brightness beside the desk's",
+          .apply = apply};
+}
+
+}  // namespace fathom::effects
