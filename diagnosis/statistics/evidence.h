@@ -52,6 +52,7 @@ struct Evidence {
   Eigen::VectorXd predicted;  ///< by the nominal model, one for each observation
   std::vector<Nuisance> nuisances;
   std::vector<Candidate> candidates;
+  Eigen::VectorXd numerical_sd{};  ///< 1 σ of the predictions' own numerical error; empty: none is stated
 };
 
 /// An effect switched on, with the values of its parameters in their order.

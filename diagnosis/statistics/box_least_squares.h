@@ -1,0 +1,13 @@
+// Linear least squares with bounds, for a handful of unknowns.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fathom {
+
+/// Minimises xᵀ G x / 2 − bᵀ x for lower ≤ x ≤ upper, G positive definite: the free solution if it lies within,
+/// otherwise coordinate by coordinate until nothing moves.
+Eigen::VectorXd box_least_squares(const Eigen::MatrixXd& G, const Eigen::VectorXd& b, const Eigen::VectorXd& lower,
+                                  const Eigen::VectorXd& upper);
+
+}  // namespace fathom

@@ -1,0 +1,16 @@
+// The uncertainty budget of ASME V&V 20-2009, for every condition.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/statistics/covariance.h"
+#include "diagnosis/statistics/diagnosis.h"
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+/// Of the mean over all observations of an observable in a condition: E = measured − predicted, u_D from repeats and
+/// variance components, u_input from the nuisances' priors, u_num of the prediction, u_val from all three.
+std::vector<ConditionBudget> uncertainty_budget(const Evidence& evidence, const Covariance& covariance);
+
+}  // namespace fathom

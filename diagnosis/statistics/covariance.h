@@ -1,0 +1,36 @@
+// The covariance of all observations' errors, and the space in which they are independent and of unit variance.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/variance_components.h"
+
+namespace fathom {
+
+struct Covariance {
+  ErrorBudget errors;
+  Eigen::VectorXd numerical_variance;  ///< of the predictions
+  Eigen::MatrixXd nuisance;            ///< n × nuisances: signatures times prior σ; its square is J P Jᵀ
+  Eigen::MatrixXd total;
+  Eigen::LLT<Eigen::MatrixXd> factor;
+
+  /// L⁻¹ x with total = L Lᵀ: columns of data or signatures in units of their error.
+  Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const { return factor.matrixL().solve(x); }
+};
+
+/// Of measured minus predicted: repeats, prior nuisances, numerical error, and the variance components that the
+/// residual shows.
+Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& residual);
+
+/// The covariance among some of the observations.
+Eigen::MatrixXd part(const Covariance& covariance, const std::vector<Eigen::Index>& rows);
+
+/// Residuals (n × draws, whitened) of campaigns in which the model is right. The covariance is not known exactly: each
+/// draw has its own variance components, within what the data allow, and its own scale of the priors, within what
+/// laboratories know of their σ.
+Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std::uint64_t seed);
+
+}  // namespace fathom

@@ -1,0 +1,325 @@
+#include "diagnosis/statistics/decide.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/statistics/ambiguity.h"
+#include "diagnosis/statistics/budget.h"
+#include "diagnosis/statistics/confirm.h"
+#include "diagnosis/statistics/covariance.h"
+#include "diagnosis/statistics/discovery.h"
+#include "diagnosis/statistics/distributions.h"
+#include "diagnosis/statistics/folds.h"
+#include "diagnosis/statistics/gap_test.h"
+#include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/hygiene.h"
+#include "diagnosis/statistics/limits.h"
+#include "diagnosis/statistics/problem.h"
+#include "diagnosis/statistics/refit.h"
+#include "diagnosis/statistics/screen.h"
+#include "diagnosis/statistics/smooth_score.h"
+#include "diagnosis/statistics/sufficiency.h"
+#include "diagnosis/statistics/unknown.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr int kKept = 20;           // sets of each size that are refitted, …
+constexpr double kHopeless = 25.0;  // … unless that far below the best of their size in log evidence
+constexpr int kVerified = 8;        // sets that are put to the tests, at most
+constexpr int kConfirmationDraws = 300;
+constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
+const double kLogPriorUnknown = std::log(0.1);
+const double kNamedBesideUnknown = std::log(20.0);  // odds that an effect must add to something unknown
+
+/// All that stays the same while sets of effects are weighed.
+struct Case {
+  const Evidence& evidence;
+  const Predict& predict;
+  const DecisionSettings& settings;
+  Covariance covariance;
+  Problem problem;
+  Eigen::MatrixXd draws;  ///< whitened
+  GapShapes shapes;
+  MaximumTail discovery;
+};
+
+Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
+  Eigen::VectorXd residual = -evidence.predicted;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) residual[i] += evidence.observations[i].value;
+  return residual;
+}
+
+Case prepare(const Evidence& evidence, const Predict& predict, const DecisionSettings& settings) {
+  Case c{evidence, predict, settings, estimate_covariance(evidence, measured_minus_predicted(evidence)),
+         {},       {},      {},       {}};
+  c.problem = whitened_problem(evidence, c.covariance);
+  c.draws = pseudo_experiments(c.covariance, settings.pseudo_experiments, settings.seed);
+  c.shapes = gap_shapes(evidence, c.covariance);
+  c.discovery = discovery_tail(c.problem, c.draws);
+  return c;
+}
+
+/// The likeliest sets, fitted with the model itself; the empty one among them, likeliest first.
+std::vector<Refit> fits(const Case& c) {
+  std::vector<Refit> result;
+  const Eigen::Index n = c.problem.residual.size();
+  result.push_back({{{}, Eigen::VectorXd(0), 0.0, 0.0}, Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 0), 0});
+  double best = 0.0;
+  std::size_t size = 0;
+  for (const Hypothesis& hypothesis : screen(c.problem, kKept)) {
+    if (hypothesis.effects.size() != size) best = hypothesis.log_evidence;
+    size = hypothesis.effects.size();
+    if (hypothesis.log_evidence > best - kHopeless)
+      result.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
+  }
+  std::stable_sort(result.begin(), result.end(), [](const Refit& a, const Refit& b) {
+    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
+  });
+  return result;
+}
+
+std::vector<Option> options_of(const Case& c, const std::vector<Refit>& fits) {
+  std::vector<Option> options;
+  for (const Refit& fit : fits) {
+    const Option known{fit.hypothesis.effects, fit.hypothesis.parameters, false, fit.hypothesis.log_evidence,
+                       fit.prediction};
+    options.push_back(known);
+    if (&fit - fits.data() >= static_cast<std::ptrdiff_t>(kWithUnknown) && !known.effects.empty()) continue;
+    Eigen::VectorXd left = c.problem.residual - fit.prediction;
+    Eigen::MatrixXd smooth = c.shapes.smooth;
+    if (fit.jacobian.cols() > 0) {
+      const Eigen::MatrixXd explained = orthonormal(fit.jacobian);
+      left -= explained * (explained.transpose() * left);
+      smooth -= explained * (explained.transpose() * smooth);
+    }
+    Option with_unknown = known;
+    with_unknown.has_unknown = true;
+    with_unknown.log_posterior += kLogPriorUnknown + smooth_log_evidence(smooth, left);
+    options.push_back(std::move(with_unknown));
+  }
+  return options;
+}
+
+LinearFit linear_fit(const Case& c, const Refit& fit) {
+  const auto unwhitened = [&](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(c.covariance.factor.matrixL() * x); };
+  LinearFit linear;
+  linear.jacobian = unwhitened(fit.jacobian);
+  linear.residual = unwhitened(c.problem.residual - fit.prediction + fit.jacobian * fit.hypothesis.parameters);
+  Eigen::Index first = 0;
+  for (const int effect : fit.hypothesis.effects) {
+    linear.columns.emplace_back();
+    for (std::size_t k = 0; k < c.problem.columns[effect].size(); ++k) linear.columns.back().push_back(first++);
+  }
+  return linear;
+}
+
+/// Whether some main stratum becomes significantly worse, by more than its u_val.
+bool worsens(const Case& c, const Refit& fit) {
+  const MaximumTail tail = fit_maximum((c.shapes.stratum_columns.colwise().normalized().transpose() * c.draws)
+                                           .cwiseAbs()
+                                           .colwise()
+                                           .maxCoeff()
+                                           .transpose());
+  for (std::size_t k = 0; k < c.shapes.strata.size(); ++k) {
+    const Eigen::VectorXd column = c.shapes.stratum_columns.col(static_cast<Eigen::Index>(k)).normalized();
+    const double before = std::abs(column.dot(c.problem.residual));
+    const double after = std::abs(column.dot(c.problem.residual - fit.prediction));
+    if (c.shapes.strata[k].is_main && after > before + 1.0 && tail.p(after) < c.settings.p_gap) return true;
+  }
+  return false;
+}
+
+/// The effects of a fit with their evidence, if all of them pass all tests.
+std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit) {
+  const std::vector<double> z = z_beside_others(c.problem, fit.hypothesis, fit.jacobian);
+  // A set of which no effect shows alone was one of many sets, not of many effects.
+  const double sets = static_cast<double>(c.problem.columns.size());
+  bool shows_alone = false;
+  for (const int effect : fit.hypothesis.effects) {
+    const Eigen::MatrixXd basis = orthonormal(c.problem.signatures(Eigen::all, c.problem.columns[effect]));
+    const double alone = equivalent_z((basis.transpose() * c.problem.residual).squaredNorm(), basis.cols());
+    shows_alone |= c.discovery.p(alone) < c.settings.p_discovery;
+  }
+  std::vector<NamedEffect> effects(z.size());
+  for (std::size_t e = 0; e < z.size(); ++e) {
+    effects[e].name = c.evidence.candidates[fit.hypothesis.effects[e]].effect;
+    effects[e].p_discovery = std::min(1.0, c.discovery.p(z[e]) * (shows_alone ? 1.0 : sets));
+    if (effects[e].p_discovery >= c.settings.p_discovery) return std::nullopt;
+  }
+  const Eigen::MatrixXd draws =
+      c.covariance.factor.matrixL() * c.draws.leftCols(std::min<Eigen::Index>(kConfirmationDraws, c.draws.cols()));
+  const std::vector<Confirmation> confirmations =
+      confirm(c.evidence.observations, c.covariance, linear_fit(c, fit), draws, c.discovery.dof, c.settings.seed);
+  for (std::size_t e = 0; e < z.size(); ++e) {
+    const Confirmation& confirmation = confirmations[e];
+    effects[e].p_confirmation = confirmation.p;
+    effects[e].p_sign_flip = confirmation.p_sign_flip;
+    effects[e].folds = confirmation.folds_informative;
+    effects[e].folds_improved = confirmation.folds_improved;
+    const int against = confirmation.folds_informative - confirmation.folds_improved;
+    if (confirmation.p >= c.settings.p_confirmation || against > 1) return std::nullopt;
+  }
+  if (worsens(c, fit)) return std::nullopt;
+  return effects;
+}
+
+struct Choice {
+  Refit fit;
+  std::vector<NamedEffect> effects;
+};
+
+/// The likeliest set that passes all tests, among those that are not much less likely than the first, and its subsets.
+std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
+  const Hypothesis& first = fits.front().hypothesis;
+  int tried = 0;
+  for (const Refit& fit : fits) {
+    const Hypothesis& h = fit.hypothesis;
+    if (h.effects.empty() || tried == kVerified) return std::nullopt;
+    const bool is_subset =
+        std::includes(first.effects.begin(), first.effects.end(), h.effects.begin(), h.effects.end());
+    if (!is_subset && h.log_evidence < first.log_evidence - c.settings.delta) continue;
+    ++tried;
+    Refit differenced = with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
+    if (auto effects = verified(c, differenced)) return Choice{std::move(differenced), std::move(*effects)};
+  }
+  return std::nullopt;
+}
+
+void add_parameters(const Case& c, Choice& choice) {
+  const Eigen::MatrixXd& J = choice.fit.jacobian;
+  const Eigen::MatrixXd covariance = (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+  const double t = student_quantile(0.025, std::max(4.0, c.covariance.errors.residual_dof));
+  Eigen::Index next = 0;
+  for (std::size_t e = 0; e < choice.effects.size(); ++e)
+    for (const Parameter& parameter : c.evidence.candidates[choice.fit.hypothesis.effects[e]].parameters) {
+      const double value = parameter.nominal + parameter.prior_scale * choice.fit.hypothesis.parameters[next];
+      const double half = t * parameter.prior_scale * std::sqrt(covariance(next, next));
+      ++next;
+      NamedParameter named{parameter.name, value, value - half, value + half};
+      if (parameter.lower < parameter.upper) {
+        named.low95 = std::max(named.low95, parameter.lower);
+        named.high95 = std::min(named.high95, parameter.upper);
+      }
+      choice.effects[e].parameters.push_back(std::move(named));
+    }
+}
+
+double rms(const Eigen::VectorXd& values) {
+  return values.size() == 0 ? 0.0 : std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+/// Before: as predicted. After: with the effects, and with nuisances as the (other) data want them within their priors.
+void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
+  std::vector<Eigen::Index> heights;
+  for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
+    if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
+  if (heights.empty()) return;
+  const Eigen::VectorXd before = c.covariance.factor.matrixL() * c.problem.residual;
+  const Eigen::VectorXd left_w = c.problem.residual - fit.prediction;
+  const Eigen::VectorXd left = c.covariance.factor.matrixL() * left_w;
+  const Eigen::VectorXd solved = c.covariance.factor.matrixU().solve(left_w);
+  const Eigen::VectorXd after = left - c.covariance.nuisance * (c.covariance.nuisance.transpose() * solved);
+  const Eigen::VectorXd errors = c.covariance.total.diagonal() - c.covariance.nuisance.rowwise().squaredNorm();
+  diagnosis.train = {rms(before(heights)), rms(after(heights)), std::sqrt(errors(heights).mean())};
+  const HeldOut other =
+      held_out(c.covariance, linear_fit(c, fit), deal_folds(c.evidence.observations, c.settings.seed));
+  diagnosis.held_out = {rms(before(heights)), rms(other.residual(heights)), std::sqrt(other.variance(heights).mean())};
+}
+
+std::vector<std::string> words(const Evidence& evidence, const Option& option) {
+  std::vector<std::string> result;
+  for (const int effect : option.effects) result.push_back(evidence.candidates[effect].effect);
+  if (option.has_unknown) result.emplace_back("unknown");
+  return result;
+}
+
+std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
+  std::vector<Explanation> result;
+  for (std::size_t k = 0; k < set.classes.size(); ++k) {
+    Explanation explanation{words(evidence, set.classes[k].front()), {}, set.probabilities[k]};
+    for (std::size_t i = 1; i < set.classes[k].size(); ++i)
+      explanation.alternatives.push_back(words(evidence, set.classes[k][i]));
+    result.push_back(std::move(explanation));
+  }
+  return result;
+}
+
+double log_posterior(const std::vector<Option>& options, const std::vector<int>& effects, bool has_unknown) {
+  for (const Option& option : options)
+    if (option.effects == effects && option.has_unknown == has_unknown) return option.log_posterior;
+  return -INFINITY;
+}
+
+}  // namespace
+
+Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::vector<Design>& designs,
+                 const DecisionSettings& settings) {
+  Diagnosis diagnosis;
+  diagnosis.missing = missing_for_diagnosis(evidence);
+  if (!diagnosis.missing.empty()) return diagnosis;
+  const Case c = prepare(evidence, predict, settings);
+  const Eigen::Index n = c.problem.residual.size();
+  diagnosis.warnings = hygiene_warnings(evidence, c.covariance);
+  if (!c.covariance.errors.from_replicates)
+    diagnosis.warnings.emplace_back(
+        "hardly any condition was measured twice: errors are taken from what a smooth model leaves");
+  diagnosis.budget = uncertainty_budget(evidence, c.covariance);
+  diagnosis.confusable = confusable_pairs(evidence, c.problem);
+  diagnosis.near_null = near_null_directions(evidence, c.problem);
+
+  const GapTest gap = gap_test(c.shapes, c.problem.residual, c.draws, Eigen::MatrixXd(n, 0));
+  diagnosis.p_gap = gap.p;
+  diagnosis.where =
+      locate(c.shapes.strata, c.shapes.stratum_columns, c.problem.residual, gap.scan_tail, settings.p_confirmation);
+
+  const std::vector<Refit> all = fits(c);
+  std::vector<Option> options = options_of(c, all);
+  std::optional<Choice> choice = choose(c, all);
+  const Refit& fit =
+      choice ? choice->fit
+             : *std::find_if(all.begin(), all.end(), [](const Refit& f) { return f.hypothesis.effects.empty(); });
+  const Eigen::MatrixXd explained = orthonormal(fit.jacobian);
+  Eigen::VectorXd left = c.problem.residual - fit.prediction;
+  if (explained.cols() > 0) left -= explained * (explained.transpose() * left);
+  const double p_rest = choice ? gap_test(c.shapes, left, c.draws, explained).p : gap.p;
+  const bool is_rest = p_rest < settings.p_gap;
+
+  if (choice) std::erase_if(options, [](const Option& o) { return o.effects.empty() && !o.has_unknown; });  // rejected
+  if (!is_rest) std::erase_if(options, [](const Option& o) { return o.has_unknown; });
+  const AmbiguitySet set = ambiguity_set(options, settings.delta);
+  diagnosis.ambiguity_set = explanations(evidence, set);
+  const auto& likeliest = set.classes.front();
+  if (is_rest) {
+    const bool adds = choice && log_posterior(options, fit.hypothesis.effects, true) >
+                                    log_posterior(options, {}, true) + kNamedBesideUnknown;
+    diagnosis.verdict = adds ? Verdict::named_and_unknown : Verdict::unknown;
+  } else if (!choice) {
+    diagnosis.verdict = Verdict::none;
+  } else {
+    const bool is_first = likeliest.front().effects == fit.hypothesis.effects;
+    const bool is_only = set.classes.size() == 1 && likeliest.size() == 1;
+    diagnosis.verdict = is_first && is_only ? Verdict::named : Verdict::ambiguous;
+  }
+  if (is_rest) diagnosis.unknown = describe_unknown(evidence, c.covariance, c.problem, c.shapes, left, explained);
+  diagnosis.unknown.p = p_rest;
+
+  measure_gaps(c, fit, diagnosis);
+  const double threshold = settings.p_discovery;
+  double z = 0.0;
+  while (c.discovery.p(z) > threshold) z += 0.01;
+  diagnosis.upper_limits = upper_limits(evidence, c.problem, fit.hypothesis.effects, left, explained, z);
+  if (choice && diagnosis.verdict != Verdict::unknown) {
+    add_parameters(c, *choice);
+    diagnosis.effects = choice->effects;
+  }
+  if (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none)
+    diagnosis.next = next_measurements(evidence, c.covariance, designs, set);
+  return diagnosis;
+}
+
+}  // namespace fathom

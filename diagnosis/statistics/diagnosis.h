@@ -1,0 +1,106 @@
+// What a diagnosis says: whether model and measurement disagree, where, by which effects, and what stays open.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+enum class Verdict { none, named, ambiguous, unknown, named_and_unknown, insufficient };
+/// As in report.json: "none", "named", …, "named+unknown".
+std::string_view name_of(Verdict verdict);
+
+/// A part of the observations that departs from the prediction.
+struct GapLocation {
+  std::string observable, stratum;  ///< "height_mm", "liquid=milk_tea, distance_mm=400"
+  double mean = 0.0, sigma = 0.0;   ///< in the observable's unit
+  double share_of_gap = 0.0;        ///< of the squared gap in units of its error
+  double p = 1.0;                   ///< with all strata that were looked at
+};
+
+struct NamedParameter {
+  std::string name;
+  double value = 0.0, low95 = 0.0, high95 = 0.0;
+};
+
+struct NamedEffect {
+  std::string name;
+  std::vector<NamedParameter> parameters;
+  double p_discovery = 1.0;     ///< of the largest among all candidates
+  double p_confirmation = 1.0;  ///< in condition groups that had no part in choosing it
+  double p_sign_flip = 1.0;     ///< over pours, without any assumption on the errors but symmetry
+  int folds_improved = 0, folds = 0;
+};
+
+/// Effects that explain the data about as well as the best ones do. `alternatives` cannot be told from them.
+struct Explanation {
+  std::vector<std::string> effects;  ///< none: no effect; "unknown" stands for what no candidate explains
+  std::vector<std::vector<std::string>> alternatives;
+  double probability = 0.0;
+};
+
+/// Root mean square of the heights' residuals.
+struct GapSize {
+  double before_rms_mm = 0.0, after_rms_mm = 0.0, noise_floor_mm = 0.0;
+};
+
+struct UpperLimit {
+  std::string effect, parameter;
+  double limit95 = 0.0;        ///< departure from nominal that would have been seen
+  double smallest_seen = 0.0;  ///< the one that would be named with 50 % probability
+};
+
+struct ConfusablePair {
+  std::string first, second;
+  double angle_deg = 0.0;  ///< between their signatures, after nuisances
+};
+
+/// A combination of effects that the observations hardly see.
+struct NearNullDirection {
+  std::vector<std::string> effects;
+  std::vector<double> weights;  ///< of typical departures, together of length 1
+  double strength = 0.0;        ///< norm of its whitened signature
+};
+
+struct NextMeasurement {
+  std::string measurement;
+  std::vector<std::string> separates;
+  double sigma = 0.0;  ///< by which it would tell them apart
+  double cost = 1.0;
+};
+
+/// ASME V&V 20-2009 for one condition and observable.
+struct ConditionBudget {
+  std::string condition, observable;
+  double comparison_error = 0.0;  ///< E, measured − predicted
+  double u_data = 0.0, u_input = 0.0, u_numerical = 0.0, u_validation = 0.0;
+};
+
+/// What no model can explain: the shape of the rest.
+struct UnknownShape {
+  double p = 1.0;
+  std::string formula;       ///< sparse, in distance, fill and lateral
+  std::string most_similar;  ///< candidate
+  double similarity = 0.0;   ///< cosine of the whitened signatures
+  std::vector<double> map;   ///< smooth part of every observation's residual, in the observable's unit
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::insufficient;
+  std::vector<std::string> missing;   ///< if insufficient: what it lacks
+  std::vector<std::string> warnings;  ///< book-keeping that looks wrong; tests that could not be made
+  double p_gap = 1.0;                 ///< that there is none
+  std::vector<GapLocation> where;
+  std::vector<NamedEffect> effects;
+  std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
+  GapSize train, held_out;
+  std::vector<UpperLimit> upper_limits;
+  std::vector<ConfusablePair> confusable;
+  std::vector<NearNullDirection> near_null;
+  std::vector<NextMeasurement> next;
+  std::vector<ConditionBudget> budget;
+  UnknownShape unknown;  ///< p alone says whether there is something
+};
+
+}  // namespace fathom

@@ -1,0 +1,124 @@
+#include "diagnosis/statistics/diagnosis_json.h"
+
+namespace fathom {
+
+namespace {
+
+Json json_from(const GapLocation& where) {
+  // Heights have their unit in the key, whatever else is observed in its name.
+  const bool is_length = where.observable.ends_with("_mm");
+  return {{"observable", where.observable},
+          {"stratum", where.stratum},
+          {is_length ? "mean_mm" : "mean", where.mean},
+          {is_length ? "sigma_mm" : "sigma", where.sigma},
+          {"share_of_gap", where.share_of_gap},
+          {"p", where.p}};
+}
+
+Json json_from(const NamedEffect& effect) {
+  Json parameters = Json::object();
+  for (const NamedParameter& parameter : effect.parameters)
+    parameters[parameter.name] = {{"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
+  return {{"name", effect.name},
+          {"parameters", parameters},
+          {"p_discovery", effect.p_discovery},
+          {"p_confirmation", effect.p_confirmation},
+          {"p_sign_flip", effect.p_sign_flip},
+          {"folds_improved", effect.folds_improved},
+          {"folds", effect.folds}};
+}
+
+Json json_from(const Explanation& explanation) {
+  Json json{{"effects", explanation.effects}, {"probability", explanation.probability}};
+  if (!explanation.alternatives.empty()) json["indistinguishable"] = explanation.alternatives;
+  return json;
+}
+
+Json json_from(const GapSize& gap) {
+  return {
+      {"before_rms_mm", gap.before_rms_mm}, {"after_rms_mm", gap.after_rms_mm}, {"noise_floor_mm", gap.noise_floor_mm}};
+}
+
+/// "scattering_per_mm" → "per_mm", "height_mm" → "mm": what stands behind a parameter's first word.
+std::string unit_of(const std::string& parameter) {
+  for (const std::string unit : {"_per_mm", "_mm", "_deg", "_px", "_s"})
+    if (parameter.ends_with(unit)) return unit.substr(1);
+  return "1";
+}
+
+Json json_from(const UpperLimit& limit) {
+  return {{"name", limit.effect},
+          {"parameter", limit.parameter},
+          {"limit95", limit.limit95},
+          {"smallest_seen", limit.smallest_seen},
+          {"unit", unit_of(limit.parameter)}};
+}
+
+Json json_from(const ConfusablePair& pair) {
+  return {{"effects", {pair.first, pair.second}}, {"angle_deg", pair.angle_deg}};
+}
+
+Json json_from(const NearNullDirection& direction) {
+  return {{"effects", direction.effects}, {"weights", direction.weights}, {"strength", direction.strength}};
+}
+
+Json json_from(const NextMeasurement& next) {
+  return {{"measurement", next.measurement}, {"separates", next.separates}, {"sigma", next.sigma}, {"cost", next.cost}};
+}
+
+Json json_from(const ConditionBudget& line) {
+  return {{"condition", line.condition}, {"observable", line.observable}, {"E", line.comparison_error},
+          {"u_D", line.u_data},          {"u_input", line.u_input},       {"u_num", line.u_numerical},
+          {"u_val", line.u_validation}};
+}
+
+template <class T>
+Json array_of(const std::vector<T>& items) {
+  Json array = Json::array();
+  for (const T& item : items) array.push_back(json_from(item));
+  return array;
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::none:
+      return "none";
+    case Verdict::named:
+      return "named";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::unknown:
+      return "unknown";
+    case Verdict::named_and_unknown:
+      return "named+unknown";
+    case Verdict::insufficient:
+      return "insufficient";
+  }
+  return {};
+}
+
+Json json_from(const Diagnosis& diagnosis) {
+  Json json;
+  json["verdict"] = name_of(diagnosis.verdict);
+  json["missing"] = diagnosis.missing;
+  json["warnings"] = diagnosis.warnings;
+  json["p_gap"] = diagnosis.p_gap;
+  json["where"] = array_of(diagnosis.where);
+  json["effects"] = array_of(diagnosis.effects);
+  json["ambiguity_set"] = array_of(diagnosis.ambiguity_set);
+  json["gap"] = {{"train", json_from(diagnosis.train)}, {"held_out", json_from(diagnosis.held_out)}};
+  json["unknown"] = {{"p", diagnosis.unknown.p},
+                     {"formula", diagnosis.unknown.formula},
+                     {"most_similar", diagnosis.unknown.most_similar},
+                     {"similarity", diagnosis.unknown.similarity}};
+  json["upper_limits"] = array_of(diagnosis.upper_limits);
+  json["confusable"] = array_of(diagnosis.confusable);
+  json["near_null"] = array_of(diagnosis.near_null);
+  json["next"] = array_of(diagnosis.next);
+  json["budget"] = {{"conditions", array_of(diagnosis.budget)}};
+  return json;
+}
+
+}  // namespace fathom

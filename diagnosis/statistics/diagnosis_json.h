@@ -1,0 +1,11 @@
+// report.json of `diagnose`.
+#pragma once
+
+#include "core/json.h"
+#include "diagnosis/statistics/diagnosis.h"
+
+namespace fathom {
+
+Json json_from(const Diagnosis& diagnosis);
+
+}  // namespace fathom

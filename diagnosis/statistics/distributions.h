@@ -1,0 +1,17 @@
+// Tails of the distributions that tests need, as accurate far out as near the middle.
+#pragma once
+
+namespace fathom {
+
+/// Probability that a standard normal exceeds `z`.
+double normal_tail(double z);
+/// The z that a standard normal exceeds with probability `p`; p below 1e-300 is taken as that.
+double normal_quantile(double p);
+/// Probability that Student's t of `dof` degrees of freedom exceeds `t`.
+double student_tail(double t, double dof);
+double student_quantile(double p, double dof);
+double chi_squared_tail(double x, double dof);
+/// Probability that F of (`dof`, `dof_below`) degrees of freedom exceeds `x`.
+double f_tail(double x, double dof, double dof_below);
+
+}  // namespace fathom

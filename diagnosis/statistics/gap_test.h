@@ -1,0 +1,39 @@
+// Whether anything is left that the errors do not explain: four tests that see different shapes, joined into one p.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "diagnosis/statistics/covariance.h"
+#include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/null_calibration.h"
+#include "diagnosis/statistics/scan.h"
+
+namespace fathom {
+
+/// Whitened columns that the tests project on.
+struct GapShapes {
+  std::vector<Stratum> strata;
+  Eigen::MatrixXd stratum_columns;  ///< of all strata
+  Eigen::MatrixXd smooth_factor;    ///< not whitened
+  Eigen::MatrixXd smooth;
+  Eigen::MatrixXd cells;  ///< orthonormal span of the cells' means; empty where hardly any cell is repeated
+};
+
+GapShapes gap_shapes(const Evidence& evidence, const Covariance& covariance);
+
+struct GapTest {
+  double p = 1.0;                         ///< of the least of those below, calibrated on pseudo-experiments
+  std::optional<double> p_lack_of_fit{};  ///< F of cell means against the scatter within cells
+  double p_strata = 1.0;                  ///< χ² of all main effects
+  double p_scan = 1.0;                    ///< largest single stratum
+  double p_smooth = 1.0;                  ///< score of a Gaussian process
+  MaximumTail scan_tail;
+};
+
+/// All three whitened; `explained` (orthonormal columns, may have none) is projected out of residual, draws and shapes.
+GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const Eigen::MatrixXd& draws,
+                 const Eigen::MatrixXd& explained);
+
+}  // namespace fathom

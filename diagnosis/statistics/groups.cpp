@@ -1,0 +1,68 @@
+#include "diagnosis/statistics/groups.h"
+
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+namespace fathom {
+
+std::vector<std::vector<Eigen::Index>> Groups::members() const {
+  std::vector<std::vector<Eigen::Index>> result(count);
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i] >= 0) result[of[i]].push_back(static_cast<Eigen::Index>(i));
+  return result;
+}
+
+Groups group_by(const std::vector<Observation>& observations,
+                const std::function<std::string(const Observation&)>& key) {
+  Groups groups;
+  std::unordered_map<std::string, int> numbers;
+  for (const Observation& observation : observations) {
+    const std::string name = key(observation);
+    if (name.empty()) {
+      groups.of.push_back(-1);
+      continue;
+    }
+    const auto [entry, is_new] = numbers.emplace(name, groups.count);
+    groups.count += is_new;
+    groups.of.push_back(entry->second);
+  }
+  return groups;
+}
+
+std::string session_key(const Observation& o) { return fmt::format("{}", o.factors.session); }
+
+std::string pour_key(const Observation& o) {
+  return o.factors.liquid == "none" ? "" : fmt::format("{}/{}", o.factors.session, o.factors.pour);
+}
+
+std::string placement_key(const Observation& o) {
+  return fmt::format("{}/{}/{}/{}", o.factors.session, o.factors.pour, o.factors.placement, condition_key(o));
+}
+
+std::string condition_key(const Observation& o) {
+  return fmt::format("{}, {} mm, at ({}, {}) mm", o.factors.liquid, o.factors.fill_mm, o.factors.lateral_mm,
+                     o.factors.distance_mm);
+}
+
+std::string cell_key(const Observation& o) {
+  return fmt::format("{}/{}/{}", condition_key(o), o.observable, o.factors.region);
+}
+
+const std::vector<std::string>& factor_names() {
+  static const std::vector<std::string> names{"liquid", "fill_mm", "distance_mm", "lateral_mm", "region", "session"};
+  return names;
+}
+
+std::string level(const Observation& o, const std::string& factor) {
+  if (factor == "liquid") return o.factors.liquid;
+  if (factor == "fill_mm") return fmt::format("{}", o.factors.fill_mm);
+  if (factor == "distance_mm") return fmt::format("{}", o.factors.distance_mm);
+  if (factor == "lateral_mm") return fmt::format("{}", o.factors.lateral_mm);
+  if (factor == "region") return o.factors.region;
+  return session_key(o);
+}
+
+bool is_height(const Observation& o) { return o.observable.ends_with("height_mm"); }
+
+}  // namespace fathom

@@ -1,0 +1,40 @@
+// Observations that have something in common: a pour, a placement, a level of a factor.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+/// The group of every observation, 0 … count-1 in the order of first appearance; -1: in none.
+struct Groups {
+  std::vector<int> of;
+  int count = 0;
+
+  std::vector<std::vector<Eigen::Index>> members() const;
+};
+
+/// Observations with the same key; those with an empty key are in no group.
+Groups group_by(const std::vector<Observation>& observations,
+                const std::function<std::string(const Observation&)>& key);
+
+/// One pour is one filling in one session, one placement one putting-down of it. Bare desks are never poured.
+std::string session_key(const Observation& observation);
+std::string pour_key(const Observation& observation);
+std::string placement_key(const Observation& observation);
+/// What a repetition with a new pour and placement would have in common: liquid, fill, distance, lateral.
+std::string condition_key(const Observation& observation);
+/// Condition, observable and region: within a cell observations differ by error alone.
+std::string cell_key(const Observation& observation);
+
+/// The factors by which a gap may be localised, and an observation's level of one: "400" of "distance_mm".
+const std::vector<std::string>& factor_names();
+std::string level(const Observation& observation, const std::string& factor);
+
+/// Observables named so are heights: "height_mm", "desk_height_mm".
+bool is_height(const Observation& observation);
+
+}  // namespace fathom

@@ -1,0 +1,162 @@
+#include "diagnosis/statistics/hygiene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/median.h"
+#include "diagnosis/statistics/groups.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr double kFarBetter = 50.0;   // decrease of χ²: ten standard deviations of a change by chance …
+constexpr double kMostOfIt = 0.7;     // … which must be most of what is wrong
+constexpr double kOtherCup_mm = 4.0;  // shift of one pour against the others: no error of filling
+constexpr std::size_t kFewestTwins = 4;
+
+Eigen::VectorXd residual(const Evidence& evidence) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(evidence.observations.size()));
+  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = evidence.observations[i].value - evidence.predicted[i];
+  return result;
+}
+
+void check_unit(const Evidence& evidence, std::vector<std::string>& warnings) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i)
+    if (is_height(evidence.observations[i]) && std::abs(evidence.predicted[static_cast<Eigen::Index>(i)]) > 1.0)
+      ratios.push_back(std::abs(evidence.observations[i].value / evidence.predicted[static_cast<Eigen::Index>(i)]));
+  if (ratios.size() < kFewestTwins) return;
+  const double ratio = median(ratios);
+  for (const double unit : {1e-3, 1e-2, 1e-1, 1.0 / 25.4, 25.4, 10.0, 100.0, 1000.0})
+    if (std::abs(std::log(ratio / unit)) < 0.15)
+      warnings.push_back(fmt::format("heights are {:.3g} times the prediction: another unit?", ratio));
+}
+
+void check_duplicates(const Evidence& evidence, std::vector<std::string>& warnings) {
+  const Groups placements = group_by(evidence.observations, placement_key);
+  const auto members = placements.members();
+  std::map<std::vector<std::pair<double, double>>, int> known;
+  for (int placement = 0; placement < placements.count; ++placement) {
+    if (members[placement].size() < kFewestTwins) continue;
+    std::vector<std::pair<double, double>> numbers;
+    bool has_scatter = false;
+    for (const auto row : members[placement]) {
+      numbers.emplace_back(evidence.observations[row].value, evidence.observations[row].repeat_sd);
+      has_scatter |= evidence.observations[row].repeat_sd > 0.0;
+    }
+    const auto [twin, is_new] = known.emplace(std::move(numbers), placement);
+    if (!is_new && has_scatter)
+      warnings.push_back(fmt::format("'{}' and '{}' have identical numbers: one measured, copied?",
+                                     placement_key(evidence.observations[members[twin->second][0]]),
+                                     placement_key(evidence.observations[members[placement][0]])));
+  }
+}
+
+/// χ² of some rows by the covariance among them.
+double misfit(const Covariance& covariance, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& residual) {
+  return part(covariance, rows).llt().matrixL().solve(residual).squaredNorm();
+}
+
+void check_mirrored(const Evidence& evidence, const Covariance& covariance, std::vector<std::string>& warnings) {
+  const auto mirrored_cell = [](Observation o) {
+    o.factors.lateral_mm = 0.0 - o.factors.lateral_mm;
+    return cell_key(o);
+  };
+  std::map<std::string, double> predictions;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i)
+    predictions.emplace(cell_key(evidence.observations[i]), evidence.predicted[static_cast<Eigen::Index>(i)]);
+  std::vector<Eigen::Index> rows;
+  std::vector<double> as_is, mirrored;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    const Observation& o = evidence.observations[i];
+    const auto other = predictions.find(mirrored_cell(o));
+    if (o.factors.lateral_mm == 0.0 || other == predictions.end()) continue;
+    rows.push_back(static_cast<Eigen::Index>(i));
+    as_is.push_back(o.value - evidence.predicted[static_cast<Eigen::Index>(i)]);
+    mirrored.push_back(o.value - other->second);
+  }
+  if (rows.size() < kFewestTwins) return;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const double before = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(as_is.data(), n));
+  const double after = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(mirrored.data(), n));
+  if (before - after > kFarBetter && before - after > kMostOfIt * (before - static_cast<double>(n)))
+    warnings.emplace_back("left and right fit far better exchanged: a flipped axis?");
+}
+
+/// Two pours whose predictions, condition by condition, fit each other's measurements.
+void check_swapped(const Evidence& evidence, const Covariance& covariance, std::vector<std::string>& warnings) {
+  const Groups pours = group_by(evidence.observations, pour_key);
+  const auto members = pours.members();
+  const auto place = [](const Observation& o) {
+    return fmt::format("{}/{}/{}/{}", o.observable, o.factors.region, o.factors.distance_mm, o.factors.lateral_mm);
+  };
+  std::vector<std::map<std::string, Eigen::Index>> at(pours.count);
+  for (int pour = 0; pour < pours.count; ++pour)
+    for (const auto row : members[pour]) at[pour].emplace(place(evidence.observations[row]), row);
+  for (int a = 0; a < pours.count; ++a)
+    for (int b = a + 1; b < pours.count; ++b) {
+      const Factors& one = evidence.observations[members[a][0]].factors;
+      const Factors& other = evidence.observations[members[b][0]].factors;
+      if (one.liquid == other.liquid && one.fill_mm == other.fill_mm) continue;
+      std::vector<Eigen::Index> rows;
+      std::vector<double> as_is, swapped;
+      const auto add = [&](Eigen::Index row, Eigen::Index partner) {
+        rows.push_back(row);
+        as_is.push_back(evidence.observations[row].value - evidence.predicted[row]);
+        swapped.push_back(evidence.observations[row].value - evidence.predicted[partner]);
+      };
+      for (const auto& [where, row] : at[a])
+        if (const auto partner = at[b].find(where); partner != at[b].end()) {
+          add(row, partner->second);
+          add(partner->second, row);
+        }
+      if (rows.size() < kFewestTwins) continue;
+      const auto n = static_cast<Eigen::Index>(rows.size());
+      const double before = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(as_is.data(), n));
+      const double after = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(swapped.data(), n));
+      if (before - after > kFarBetter && before - after > kMostOfIt * (before - static_cast<double>(n)))
+        warnings.push_back(
+            fmt::format("{} {} mm (pour {}) and {} {} mm (pour {}) fit far better exchanged: labels swapped?",
+                        one.liquid, one.fill_mm, one.pour, other.liquid, other.fill_mm, other.pour));
+    }
+}
+
+void check_other_cup(const Evidence& evidence, std::vector<std::string>& warnings) {
+  const Eigen::VectorXd off = residual(evidence);
+  const Groups pours = group_by(evidence.observations, [](const Observation& o) {
+    return o.observable == "height_mm" ? pour_key(o) : std::string();
+  });
+  if (pours.count < 3) return;
+  std::vector<double> shifts;
+  const auto members = pours.members();
+  for (const auto& rows : members) {
+    const Eigen::VectorXd part_off = off(rows);
+    shifts.push_back(median(std::vector<double>(part_off.data(), part_off.data() + part_off.size())));
+  }
+  const double middle = median(shifts);
+  for (int pour = 0; pour < pours.count; ++pour) {
+    const Factors& factors = evidence.observations[members[pour][0]].factors;
+    if (std::abs(shifts[pour] - middle) > kOtherCup_mm)
+      warnings.push_back(
+          fmt::format("pour {} ({} {} mm) reads {:+.1f} mm where the others read {:+.1f}: another cup or filling?",
+                      factors.pour, factors.liquid, factors.fill_mm, shifts[pour], middle));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> hygiene_warnings(const Evidence& evidence, const Covariance& covariance) {
+  std::vector<std::string> warnings;
+  check_unit(evidence, warnings);
+  check_duplicates(evidence, warnings);
+  check_mirrored(evidence, covariance, warnings);
+  check_swapped(evidence, covariance, warnings);
+  check_other_cup(evidence, warnings);
+  return warnings;
+}
+
+}  // namespace fathom

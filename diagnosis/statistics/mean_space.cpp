@@ -1,0 +1,102 @@
+#include "diagnosis/statistics/mean_space.h"
+
+#include <Eigen/QR>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/statistics/groups.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr Eigen::Index kFewestReplicates = 8;
+
+/// Orthonormal columns; what is already in their span is not added again.
+class Span {
+ public:
+  Span(Eigen::Index rows, Eigen::Index most) : columns_(rows, most) {}
+
+  void add(Eigen::VectorXd column) {
+    const double before = column.norm();
+    if (count_ == columns_.cols() || before == 0.0) return;
+    for (int twice = 0; twice < 2; ++twice)  // for orthogonality to the last digit
+      column -= columns_.leftCols(count_) * (columns_.leftCols(count_).transpose() * column);
+    if (column.norm() < 1e-6 * before) return;
+    columns_.col(count_++) = column.normalized();
+  }
+
+  Eigen::MatrixXd complement() const {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns_.leftCols(count_));
+    const Eigen::MatrixXd all = qr.householderQ() * Eigen::MatrixXd::Identity(columns_.rows(), columns_.rows());
+    return all.rightCols(columns_.rows() - count_);
+  }
+
+ private:
+  Eigen::MatrixXd columns_;
+  Eigen::Index count_ = 0;
+};
+
+std::vector<Observation> at(const std::vector<Observation>& observations, const std::vector<Eigen::Index>& rows) {
+  std::vector<Observation> result;
+  for (const auto row : rows) result.push_back(observations[row]);
+  return result;
+}
+
+Eigen::MatrixXd indicators(const Groups& groups) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups.of.size()), groups.count);
+  for (std::size_t i = 0; i < groups.of.size(); ++i)
+    if (groups.of[i] >= 0) result(static_cast<Eigen::Index>(i), groups.of[i]) = 1.0;
+  return result;
+}
+
+/// Powers of fill, distance and lateral up to the second degree, each from −1 to 1, the constant first.
+Eigen::MatrixXd polynomials(const std::vector<Observation>& observations) {
+  const auto n = static_cast<Eigen::Index>(observations.size());
+  Eigen::MatrixXd x(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Factors& factors = observations[i].factors;
+    x.row(i) << factors.fill_mm, factors.distance_mm, factors.lateral_mm;
+  }
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double low = x.col(k).minCoeff(), high = x.col(k).maxCoeff();
+    x.col(k) = (x.col(k).array() - 0.5 * (low + high)) / std::max(0.5 * (high - low), 1e-12);
+  }
+  constexpr std::array<std::array<int, 2>, 6> kProducts{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+  Eigen::MatrixXd result(n, 10);
+  result << Eigen::VectorXd::Ones(n), x, Eigen::MatrixXd::Zero(n, 6);
+  for (Eigen::Index k = 0; k < 6; ++k) result.col(4 + k) = x.col(kProducts[k][0]).cwiseProduct(x.col(kProducts[k][1]));
+  return result;
+}
+
+}  // namespace
+
+MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
+  const std::vector<Observation> observations = at(evidence.observations, rows);
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const Groups cells = group_by(observations, cell_key);
+  if (n - cells.count >= kFewestReplicates) {
+    Span means(n, cells.count);
+    const Eigen::MatrixXd columns = indicators(cells);
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) means.add(columns.col(k));
+    return {means.complement(), true};
+  }
+  Span means(n, n / 2);
+  const auto add_products = [&](const Eigen::MatrixXd& groups, const Eigen::MatrixXd& shapes) {
+    for (Eigen::Index s = 0; s < shapes.cols(); ++s)
+      for (Eigen::Index g = 0; g < groups.cols(); ++g) means.add(groups.col(g).cwiseProduct(shapes.col(s)));
+  };
+  const Eigen::MatrixXd shapes = polynomials(observations);
+  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
+               shapes.leftCols(1));
+  for (const Candidate& candidate : evidence.candidates)
+    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
+      means.add(Eigen::VectorXd(candidate.signature.col(k))(rows));
+  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
+  add_products(indicators(group_by(observations,
+                                   [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),
+               shapes);
+  return {means.complement(), false};
+}
+
+}  // namespace fathom

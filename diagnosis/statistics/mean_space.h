@@ -1,0 +1,21 @@
+// Which contrasts of the observations are free of any effect, so that error alone is in them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+struct MeanSpace {
+  Eigen::MatrixXd contrasts;    ///< rows × m, orthonormal, orthogonal to all means
+  bool from_replicates = true;  ///< means are those of cells; else a smooth function's
+};
+
+/// For the rows of one observable. Where at least eight contrasts lie within cells (equal conditions, observable and
+/// region), those. Otherwise the mean may be anything that the candidates' signatures and second-degree polynomials in
+/// fill, distance and lateral, for each liquid and region, make: as many of them as leave half of the rows.
+MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& rows);
+
+}  // namespace fathom

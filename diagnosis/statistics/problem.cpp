@@ -1,0 +1,66 @@
+#include "diagnosis/statistics/problem.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+
+namespace fathom {
+
+namespace {
+constexpr double kExpectedEffects = 0.5;
+}
+
+Problem whitened_problem(const Evidence& evidence, const Covariance& covariance) {
+  Eigen::VectorXd measured(static_cast<Eigen::Index>(evidence.observations.size()));
+  for (Eigen::Index i = 0; i < measured.size(); ++i) measured[i] = evidence.observations[i].value;
+  Eigen::Index parameters = 0;
+  for (const Candidate& candidate : evidence.candidates) parameters += candidate.signature.cols();
+  Problem problem;
+  Eigen::MatrixXd signatures(measured.size(), parameters);
+  problem.lower.resize(parameters);
+  problem.upper.resize(parameters);
+  Eigen::Index column = 0;
+  for (const Candidate& candidate : evidence.candidates) {
+    problem.columns.emplace_back();
+    for (const Parameter& parameter : candidate.parameters) {
+      const bool is_bounded = parameter.lower < parameter.upper;
+      const double infinity = std::numeric_limits<double>::infinity();
+      problem.lower[column] = is_bounded ? (parameter.lower - parameter.nominal) / parameter.prior_scale : -infinity;
+      problem.upper[column] = is_bounded ? (parameter.upper - parameter.nominal) / parameter.prior_scale : infinity;
+      const auto k = static_cast<Eigen::Index>(problem.columns.back().size());
+      signatures.col(column) = parameter.prior_scale * candidate.signature.col(k);
+      problem.columns.back().push_back(column++);
+    }
+  }
+  problem.residual = covariance.whiten(measured - evidence.predicted);
+  problem.signatures = covariance.whiten(signatures);
+  return problem;
+}
+
+std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<int>& effects) {
+  std::vector<Eigen::Index> result;
+  for (const int effect : effects)
+    result.insert(result.end(), problem.columns[effect].begin(), problem.columns[effect].end());
+  return result;
+}
+
+double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
+                    const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram) {
+  if (effects.empty()) return 0.0;
+  const double width2 = kPriorWidth * kPriorWidth;
+  const Eigen::MatrixXd widened = Eigen::MatrixXd::Identity(gram.rows(), gram.cols()) + width2 * gram;
+  const double log_det = 2.0 * widened.llt().matrixLLT().diagonal().array().log().sum();
+  const double per_effect = std::log(kExpectedEffects / static_cast<double>(problem.columns.size()));
+  return 0.5 * (gain - parameters.squaredNorm() / width2 - log_det) + per_effect * static_cast<double>(effects.size());
+}
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
+  qr.setThreshold(1e-8);
+  qr.compute(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+}  // namespace fathom

@@ -1,0 +1,116 @@
+#include "diagnosis/statistics/refit.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "diagnosis/statistics/box_least_squares.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr int kSteps = 25;
+constexpr double kEnough = 1e-3;      // of the squared norm, in units of its error: nothing that a test would see
+constexpr double kDifference = 0.02;  // of a typical departure
+
+/// The model with some effects on, in whitened units.
+class Model {
+ public:
+  Model(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const std::vector<int>& effects)
+      : evidence_(evidence), predict_(predict), covariance_(covariance), effects_(effects) {}
+
+  Eigen::VectorXd change(const Eigen::VectorXd& parameters) {
+    std::vector<EffectValue> values;
+    Eigen::Index next = 0;
+    for (const int effect : effects_) {
+      const Candidate& candidate = evidence_.candidates[effect];
+      values.push_back({candidate.effect, {}});
+      for (const Parameter& parameter : candidate.parameters)
+        values.back().values.push_back(parameter.nominal + parameter.prior_scale * parameters[next++]);
+    }
+    ++predictions_;
+    return covariance_.whiten(predict_(values) - evidence_.predicted);
+  }
+
+  /// One-sided towards the inside of the bounds.
+  Eigen::MatrixXd differences(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
+                              const Eigen::VectorXd& upper) {
+    Eigen::MatrixXd jacobian(change_at.size(), at.size());
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      Eigen::VectorXd moved = at;
+      const double step = at[k] + kDifference <= upper[k] ? kDifference : -kDifference;
+      moved[k] += step;
+      jacobian.col(k) = (change(moved) - change_at) / step;
+    }
+    return jacobian;
+  }
+
+  int predictions() const { return predictions_; }
+
+ private:
+  const Evidence& evidence_;
+  const Predict& predict_;
+  const Covariance& covariance_;
+  std::vector<int> effects_;
+  int predictions_ = 0;
+};
+
+}  // namespace
+
+Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
+            const Hypothesis& start) {
+  Model model(evidence, predict, covariance, start.effects);
+  const std::vector<Eigen::Index> columns = columns_of(problem, start.effects);
+  const Eigen::VectorXd lower = problem.lower(columns), upper = problem.upper(columns);
+  const double prior = 1.0 / (kPriorWidth * kPriorWidth);
+  const auto objective = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& change) {
+    return (problem.residual - change).squaredNorm() + prior * x.squaredNorm();
+  };
+  Eigen::MatrixXd jacobian = problem.signatures(Eigen::all, columns);
+  Eigen::VectorXd x = start.parameters, change = model.change(x);
+  double value = objective(x, change), damping = 0.0;
+  bool is_differenced = false;
+  for (int step = 0; step < kSteps; ++step) {
+    Eigen::MatrixXd G = jacobian.transpose() * jacobian;
+    const Eigen::VectorXd b = jacobian.transpose() * (problem.residual - change) - prior * x;
+    G.diagonal() = G.diagonal() * (1.0 + damping) + Eigen::VectorXd::Constant(x.size(), prior);
+    const Eigen::VectorXd move = box_least_squares(G, b, lower - x, upper - x);
+    if (move.isZero(1e-9)) break;
+    const Eigen::VectorXd next_change = model.change(x + move);
+    const double next_value = objective(x + move, next_change);
+    jacobian += ((next_change - change) - jacobian * move) * move.transpose() / move.squaredNorm();
+    if (next_value < value) {
+      const bool is_done = value - next_value < kEnough;
+      x += move;
+      change = next_change;
+      value = next_value;
+      damping *= 0.2;
+      if (is_done) break;
+    } else if (next_value - value < kEnough) {
+      break;
+    } else if (!is_differenced) {
+      jacobian = model.differences(x, change, upper);
+      is_differenced = true;
+    } else {
+      damping = std::max(4.0 * damping, 1e-2);
+    }
+  }
+  Refit result{{start.effects, x, problem.residual.squaredNorm() - (problem.residual - change).squaredNorm(), 0.0},
+               change,
+               std::move(jacobian),
+               model.predictions()};
+  result.hypothesis.log_evidence =
+      log_evidence(problem, result.hypothesis.gain, start.effects, x, result.jacobian.transpose() * result.jacobian);
+  return result;
+}
+
+Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                       const Problem& problem, Refit fit) {
+  Model model(evidence, predict, covariance, fit.hypothesis.effects);
+  const Eigen::VectorXd upper = problem.upper(columns_of(problem, fit.hypothesis.effects));
+  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.prediction, upper);
+  fit.predictions += model.predictions();
+  return fit;
+}
+
+}  // namespace fathom

@@ -1,0 +1,27 @@
+// A set of effects fitted to the data with the model itself, not with its signatures.
+#pragma once
+
+#include "diagnosis/statistics/covariance.h"
+#include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/problem.h"
+
+namespace fathom {
+
+struct Refit {
+  Hypothesis hypothesis;
+  Eigen::VectorXd prediction;  ///< change against the nominal model, whitened
+  Eigen::MatrixXd jacobian;    ///< of it, whitened, n × parameters in prior scales
+  int predictions = 0;         ///< asked for
+};
+
+/// Levenberg and Marquardt's method within the bounds, from the linear solution; nuisances are free within their priors
+/// because the covariance holds them. The Jacobian starts as the signatures and learns from every step (Broyden 1965);
+/// where that fails it is differenced once.
+Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
+            const Hypothesis& start);
+
+/// The same, with the Jacobian differenced at the solution: for intervals and tests.
+Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                       const Problem& problem, Refit fit);
+
+}  // namespace fathom

@@ -1,0 +1,93 @@
+#include "diagnosis/statistics/scan.h"
+
+#include <cmath>
+#include <set>
+
+#include "diagnosis/statistics/groups.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr std::size_t kFewestInPair = 3;
+constexpr int kMostLocations = 12;
+constexpr double kAbsorbed = 0.05;  // share of a column's squared norm below which nothing new is in it
+
+std::vector<Stratum> strata_by(const std::vector<Observation>& observations, const std::string& observable,
+                               const std::vector<std::string>& factors) {
+  std::vector<std::string> names;
+  const Groups groups = group_by(observations, [&](const Observation& o) {
+    std::string name;
+    if (o.observable != observable) return name;
+    for (const std::string& factor : factors) {
+      const std::string value = level(o, factor);
+      if (value.empty()) return std::string();
+      name += (name.empty() ? "" : ", ") + factor + "=" + value;
+    }
+    return name.empty() ? std::string("all") : name;
+  });
+  std::vector<Stratum> result;
+  for (auto& rows : groups.members()) {
+    std::string name;
+    for (const std::string& factor : factors)
+      name += (name.empty() ? "" : ", ") + factor + "=" + level(observations[rows[0]], factor);
+    result.push_back({observable, name.empty() ? "all" : name, factors.size() < 2, std::move(rows)});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
+  std::vector<Stratum> result;
+  std::set<std::vector<Eigen::Index>> known;
+  const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
+  const auto add = [&](std::vector<Stratum> strata, std::size_t fewest) {
+    for (Stratum& stratum : strata)
+      if (stratum.rows.size() >= fewest && known.insert(stratum.rows).second) result.push_back(std::move(stratum));
+  };
+  for (const auto& rows : observables.members()) {
+    const std::string& observable = observations[rows[0]].observable;
+    const auto& factors = factor_names();
+    add(strata_by(observations, observable, {}), 1);
+    for (const std::string& factor : factors) add(strata_by(observations, observable, {factor}), 1);
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      for (std::size_t j = i + 1; j < factors.size(); ++j)
+        add(strata_by(observations, observable, {factors[i], factors[j]}), kFewestInPair);
+  }
+  return result;
+}
+
+Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covariance& covariance) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(covariance.total.rows(), static_cast<Eigen::Index>(strata.size()));
+  for (std::size_t k = 0; k < strata.size(); ++k)
+    for (const auto row : strata[k].rows) columns(row, static_cast<Eigen::Index>(k)) = 1.0;
+  return covariance.whiten(columns);
+}
+
+std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
+                                Eigen::VectorXd residual, const MaximumTail& tail, double level) {
+  std::vector<GapLocation> result;
+  Eigen::MatrixXd left = columns;
+  const Eigen::VectorXd full = columns.colwise().squaredNorm();
+  const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
+  while (static_cast<int>(result.size()) < kMostLocations) {
+    const Eigen::VectorXd squares = left.colwise().squaredNorm();
+    Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
+    z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
+    Eigen::Index best = 0;
+    const double largest = z.cwiseAbs().maxCoeff(&best);
+    const double p = tail.p(largest);
+    if (p >= level) break;
+    const Stratum& stratum = strata[best];
+    const double sigma = 1.0 / std::sqrt(squares[best]);
+    result.push_back(
+        {stratum.observable, stratum.name, z[best] * sigma, sigma, std::min(1.0, largest * largest / gap), p});
+    const Eigen::VectorXd direction = left.col(best).normalized();
+    residual -= direction * direction.dot(residual);
+    left -= direction * (direction.transpose() * left);
+  }
+  return result;
+}
+
+}  // namespace fathom

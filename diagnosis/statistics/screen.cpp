@@ -1,0 +1,78 @@
+#include "diagnosis/statistics/screen.h"
+
+#include <algorithm>
+
+#include "diagnosis/statistics/box_least_squares.h"
+
+namespace fathom {
+
+namespace {
+
+class Screening {
+ public:
+  Screening(const Problem& problem, int keep)
+      : problem_(problem),
+        keep_(keep),
+        gram_(problem.signatures.transpose() * problem.signatures),
+        projections_(problem.signatures.transpose() * problem.residual),
+        best_(kLargestSet) {}
+
+  void extend(std::vector<int>& effects) {
+    const int next = effects.empty() ? 0 : effects.back() + 1;
+    for (int effect = next; effect < static_cast<int>(problem_.columns.size()); ++effect) {
+      effects.push_back(effect);
+      consider(effects);
+      if (effects.size() < kLargestSet) extend(effects);
+      effects.pop_back();
+    }
+  }
+
+  std::vector<Hypothesis> result() const {
+    std::vector<Hypothesis> all;
+    for (const auto& of_size : best_) all.insert(all.end(), of_size.begin(), of_size.end());
+    return all;
+  }
+
+ private:
+  void consider(const std::vector<int>& effects) {
+    const std::vector<Eigen::Index> columns = columns_of(problem_, effects);
+    const Eigen::MatrixXd G = gram_(columns, columns);
+    const Eigen::VectorXd b = projections_(columns);
+    Eigen::MatrixXd with_prior = G;
+    with_prior.diagonal().array() += 1.0 / (kPriorWidth * kPriorWidth);
+    Hypothesis found{effects, box_least_squares(with_prior, b, problem_.lower(columns), problem_.upper(columns))};
+    const Eigen::VectorXd& x = found.parameters;
+    Eigen::Index first = 0;
+    for (const int effect : effects) {
+      const auto count = static_cast<Eigen::Index>(problem_.columns[effect].size());
+      if (x.segment(first, count).isZero(0.0)) return;
+      first += count;
+    }
+    found.gain = x.dot(2.0 * b - G * x);
+    found.log_evidence = log_evidence(problem_, found.gain, effects, x, G);
+    const auto better = [](const Hypothesis& a, const Hypothesis& other) {
+      return a.log_evidence > other.log_evidence;
+    };
+    auto& best = best_[effects.size() - 1];
+    if (static_cast<int>(best.size()) == keep_ && !better(found, best.back())) return;
+    best.insert(std::upper_bound(best.begin(), best.end(), found, better), std::move(found));
+    if (static_cast<int>(best.size()) > keep_) best.pop_back();
+  }
+
+  const Problem& problem_;
+  int keep_;
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd projections_;
+  std::vector<std::vector<Hypothesis>> best_;
+};
+
+}  // namespace
+
+std::vector<Hypothesis> screen(const Problem& problem, int keep) {
+  Screening screening(problem, keep);
+  std::vector<int> effects;
+  screening.extend(effects);
+  return screening.result();
+}
+
+}  // namespace fathom

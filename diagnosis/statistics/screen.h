@@ -1,0 +1,17 @@
+// Every set of up to four effects, from the signatures' Gram matrix alone.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/statistics/problem.h"
+
+namespace fathom {
+
+/// Most effects at once.
+inline constexpr int kLargestSet = 4;
+
+/// The best `keep` sets of each size 1 … kLargestSet by log evidence, each size best first. Sets in which an effect's
+/// best value is none are left out: the smaller set is there.
+std::vector<Hypothesis> screen(const Problem& problem, int keep);
+
+}  // namespace fathom

@@ -1,0 +1,15 @@
+// Whether a campaign can be diagnosed at all.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+/// What is missing, one sentence each; nothing if it is enough. Asked for are eight observations in three conditions,
+/// a candidate, and something that tells how large errors are: repeats, replicates or prior nuisances.
+std::vector<std::string> missing_for_diagnosis(const Evidence& evidence);
+
+}  // namespace fathom

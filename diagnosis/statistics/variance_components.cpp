@@ -1,0 +1,166 @@
+#include "diagnosis/statistics/variance_components.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "core/median.h"
+#include "diagnosis/statistics/mean_space.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr double kPooledDof = 10.0;  // weight of the pooled scatter beside an observation's own
+constexpr double kOutlier = 3.0;     // times the median scatter
+constexpr int kScoringSteps = 30;
+constexpr double kEnough = 1e-4;  // change of a component, relative to all of them, at which scoring stops
+
+/// The components of one observable that can be told apart, over its rows.
+std::vector<VarianceComponent> candidates_of(const std::string& observable,
+                                             const std::vector<Observation>& observations) {
+  std::vector<VarianceComponent> result;
+  const auto add = [&](ErrorLevel level, const std::function<std::string(const Observation&)>& key) {
+    int row = 0;
+    Groups groups = group_by(observations, [&](const Observation& o) {
+      ++row;
+      if (o.observable != observable) return std::string();
+      return level == ErrorLevel::observation ? std::to_string(row) : key(o);
+    });
+    const bool is_known = !result.empty() && result.back().groups.count == groups.count;
+    if (groups.count >= 2 && !is_known) result.push_back({observable, level, 0.0, 0.0, std::move(groups)});
+  };
+  add(ErrorLevel::observation, cell_key);
+  add(ErrorLevel::placement, placement_key);
+  add(ErrorLevel::pour, pour_key);
+  add(ErrorLevel::session, session_key);
+  return result;
+}
+
+/// Z Zᵀ between contrasts K (rows × m), from K's rows summed over each group.
+Eigen::MatrixXd shared(const Groups& groups, const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& contrasts) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(groups.count, contrasts.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (const int group = groups.of[rows[i]]; group >= 0)
+      sums.row(group) += contrasts.row(static_cast<Eigen::Index>(i));
+  return sums.transpose() * sums;
+}
+
+/// Fisher scoring from `variances`, which stay at 0 or above. Sets the standard errors, too.
+void fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known, const std::vector<Eigen::MatrixXd>& shapes,
+         Eigen::VectorXd& variances, Eigen::VectorXd& standard_errors) {
+  const auto count = static_cast<Eigen::Index>(shapes.size());
+  for (int step = 0; step < kScoringSteps; ++step) {
+    Eigen::MatrixXd V = known;
+    for (Eigen::Index k = 0; k < count; ++k) V += variances[k] * shapes[k];
+    const Eigen::LLT<Eigen::MatrixXd> factor(V);
+    const Eigen::VectorXd solved = factor.solve(residual);
+    std::vector<Eigen::MatrixXd> weighted(count);
+    Eigen::VectorXd score(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      weighted[k] = factor.solve(shapes[k]);
+      score[k] = 0.5 * (solved.dot(shapes[k] * solved) - weighted[k].trace());
+    }
+    Eigen::MatrixXd information(count, count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      for (Eigen::Index l = 0; l <= k; ++l)
+        information(k, l) = information(l, k) = 0.5 * weighted[k].cwiseProduct(weighted[l].transpose()).sum();
+    // Components at 0 that want to be negative stay there; the others move.
+    for (Eigen::Index k = 0; k < count; ++k) {
+      standard_errors[k] = 1.0 / std::sqrt(std::max(information(k, k), 1e-300));
+      if (variances[k] > 0.0 || score[k] > 0.0) continue;
+      information.row(k).setZero();
+      information.col(k).setZero();
+      information(k, k) = 1.0;
+      score[k] = 0.0;
+    }
+    const Eigen::VectorXd wanted = variances + information.completeOrthogonalDecomposition().solve(score);
+    const Eigen::VectorXd next = wanted.cwiseMax(0.0);
+    const bool is_done = (next - variances).norm() <= kEnough * (next.norm() + 1e-300);
+    variances = next;
+    if (is_done) break;
+  }
+}
+
+}  // namespace
+
+std::string name_of(ErrorLevel level) {
+  switch (level) {
+    case ErrorLevel::observation:
+      return "observation";
+    case ErrorLevel::placement:
+      return "placement";
+    case ErrorLevel::pour:
+      return "pour";
+    case ErrorLevel::session:
+      return "session";
+  }
+  return {};
+}
+
+Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()));
+  const Groups groups =
+      group_by(observations, [](const Observation& o) { return o.observable + "/" + o.factors.region; });
+  for (const auto& members : groups.members()) {
+    std::vector<double> scatters;
+    for (const auto i : members)
+      if (observations[i].repeats > 1) scatters.push_back(observations[i].repeat_sd);
+    if (scatters.empty()) continue;
+    const double most =
+        median(scatters) > 0.0 ? kOutlier * median(scatters) : *std::max_element(scatters.begin(), scatters.end());
+    double squares = 0.0, dof = 0.0;
+    for (const auto i : members) {
+      const double weight = observations[i].repeats - 1;
+      squares += weight * std::pow(std::min(observations[i].repeat_sd, most), 2.0);
+      dof += weight;
+    }
+    for (const auto i : members) {
+      const double own = observations[i].repeats - 1;
+      const double own_squares = own * std::pow(observations[i].repeat_sd, 2.0);
+      result[i] =
+          (kPooledDof * squares / dof + own_squares) / (kPooledDof + own) / std::max(1, observations[i].repeats);
+    }
+  }
+  return result;
+}
+
+ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
+                            const Eigen::VectorXd& repeat_variance) {
+  ErrorBudget budget;
+  budget.repeat_variance = repeat_variance;
+  const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
+  for (const auto& rows : observables.members()) {
+    const MeanSpace means = mean_space(evidence, rows);
+    const Eigen::MatrixXd& contrasts = means.contrasts;
+    if (contrasts.cols() == 0) continue;
+    budget.residual_dof += static_cast<double>(contrasts.cols());
+    budget.from_replicates = budget.from_replicates && means.from_replicates;
+    std::vector<VarianceComponent> components =
+        candidates_of(evidence.observations[rows[0]].observable, evidence.observations);
+    // What no contrast sees cannot be estimated: a pour that was never repeated stands in its mean.
+    std::vector<Eigen::MatrixXd> shapes;
+    std::erase_if(components, [&](const VarianceComponent& component) {
+      shapes.push_back(shared(component.groups, rows, contrasts));
+      const bool is_seen = shapes.back().trace() > 1e-6 * static_cast<double>(rows.size());
+      if (!is_seen) shapes.pop_back();
+      return !is_seen;
+    });
+    const Eigen::VectorXd left = contrasts.transpose() * residual(rows);
+    const double scale = std::max(left.squaredNorm() / static_cast<double>(left.size()), 1e-300);
+    Eigen::VectorXd variances = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(shapes.size()), 0.3);
+    Eigen::VectorXd standard_errors = variances;
+    const Eigen::MatrixXd known_left = contrasts.transpose() * known(rows, rows) * contrasts / scale;
+    const Eigen::MatrixXd floor = 1e-9 * Eigen::MatrixXd::Identity(left.size(), left.size());
+    fit(left / std::sqrt(scale), known_left + floor, shapes, variances, standard_errors);
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      components[k].variance = scale * variances[static_cast<Eigen::Index>(k)];
+      components[k].standard_error = scale * standard_errors[static_cast<Eigen::Index>(k)];
+      budget.components.push_back(std::move(components[k]));
+    }
+  }
+  return budget;
+}
+
+}  // namespace fathom

@@ -1,0 +1,42 @@
+// How much of the scatter comes with a session, a pour, a placement or a single observation, beyond its repeats.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/groups.h"
+
+namespace fathom {
+
+enum class ErrorLevel { observation, placement, pour, session };
+std::string name_of(ErrorLevel level);
+
+/// A random error that is shared by all observations of one observable in a group.
+struct VarianceComponent {
+  std::string observable;
+  ErrorLevel level = ErrorLevel::observation;
+  double variance = 0.0;        ///< in the observable's unit, squared
+  double standard_error = 0.0;  ///< of the variance
+  Groups groups;                ///< -1 for other observables
+};
+
+struct ErrorBudget {
+  Eigen::VectorXd repeat_variance;  ///< of each mean of repeats
+  std::vector<VarianceComponent> components;
+  double residual_dof = 0.0;    ///< contrasts from which the components were estimated
+  bool from_replicates = true;  ///< of equal conditions; false: from what a smooth model leaves
+};
+
+/// Variance of the mean of each observation's repeats: their own scatter and the one pooled over its observable and
+/// region, weighed by degrees of freedom; outliers among the scatters count no more than three times their median.
+Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations);
+
+/// Restricted maximum likelihood (Patterson & Thompson 1971) by Fisher scoring, for each observable. `known` (n × n) is
+/// what repeats and nuisances explain. Means are free in every cell where cells are repeated, so that no effect can
+/// pass for an error; otherwise a smooth function of the factors and all candidates' signatures are.
+ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
+                            const Eigen::VectorXd& repeat_variance);
+
+}  // namespace fathom
