@@ -14,6 +14,7 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_verify(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_template(CLI::App& app, const CommonOptions& common);
@@ -47,6 +48,11 @@ inline constexpr std::array kCommands{
     Command{"measure",
             "Fills the height columns of a measurement directory: writes heights.csv there, or to the folder of -o",
             "  fathom measure out/paper\n  fathom measure out/paper -o out/heights", define_measure},
+    Command{"diagnose",
+            "Finds where model and measurement disagree, names the effect that explains it, and what is left",
+            "  fathom diagnose out/paper -o out/diagnosis\n"
+            "  fathom diagnose out/paper --model out/diagnosis/model.json -o out/rest",
+            define_diagnose},
     Command{"reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
             "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce fig5 fig14 --trials 10 -o "
             "out/paper_figures",

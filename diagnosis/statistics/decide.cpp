@@ -215,16 +215,19 @@ double rms(const Eigen::VectorXd& values) {
 
 /// Before: as predicted. After: with the effects, and with nuisances as the (other) data want them within their priors.
 void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
-  std::vector<Eigen::Index> heights;
-  for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
-    if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
-  if (heights.empty()) return;
   const Eigen::VectorXd before = c.covariance.factor.matrixL() * c.problem.residual;
   const Eigen::VectorXd left_w = c.problem.residual - fit.prediction;
   const Eigen::VectorXd left = c.covariance.factor.matrixL() * left_w;
   const Eigen::VectorXd solved = c.covariance.factor.matrixU().solve(left_w);
   const Eigen::VectorXd after = left - c.covariance.nuisance * (c.covariance.nuisance.transpose() * solved);
   const Eigen::VectorXd errors = c.covariance.total.diagonal() - c.covariance.nuisance.rowwise().squaredNorm();
+  diagnosis.before.assign(before.begin(), before.end());
+  diagnosis.after.assign(after.begin(), after.end());
+  for (const double variance : errors) diagnosis.error.push_back(std::sqrt(variance));
+  std::vector<Eigen::Index> heights;
+  for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
+    if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
+  if (heights.empty()) return;
   diagnosis.train = {rms(before(heights)), rms(after(heights)), std::sqrt(errors(heights).mean())};
   const HeldOut other =
       held_out(c.covariance, linear_fit(c, fit), deal_folds(c.evidence.observations, c.settings.seed));

@@ -101,6 +101,9 @@ struct Diagnosis {
   std::vector<NextMeasurement> next;
   std::vector<ConditionBudget> budget;
   UnknownShape unknown;  ///< p alone says whether there is something
+  /// Of every observation, in its unit: measured minus predicted; the same with the effects, nuisances at their best
+  /// values; 1 σ of that.
+  std::vector<double> before, after, error;
 };
 
 }  // namespace fathom

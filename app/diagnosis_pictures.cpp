@@ -1,0 +1,159 @@
+#include "app/diagnosis_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "app/gnuplot.h"
+#include "core/table.h"
+#include "diagnosis/measurement/cup_regions.h"
+
+namespace fathom {
+namespace {
+
+/// Heights by liquid, fill, distance and lateral: neighbours in the picture are neighbours in the campaign.
+std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (observations[i].observable == "height_mm") rows.push_back(i);
+  const auto key = [&](std::size_t row) {
+    const Factors& f = observations[row].factors;
+    return std::tie(f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm, f.region, f.session, f.placement);
+  };
+  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return rows;
+}
+
+/// A label in the middle of each liquid's stretch, and a line between two.
+std::string liquid_marks(const std::vector<Observation>& observations, const std::vector<std::size_t>& rows) {
+  std::string marks;
+  for (std::size_t first = 0; first < rows.size();) {
+    const std::string& liquid = observations[rows[first]].factors.liquid;
+    std::size_t end = first;
+    while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
+    std::string words = liquid;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    marks += fmt::format("set label '{}' at {}, graph 0.96 center textcolor rgb ink\n", words,
+                         0.5 * static_cast<double>(first + end - 1));
+    if (first > 0)
+      marks += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
+                           static_cast<double>(first) - 0.5);
+    first = end;
+  }
+  return marks;
+}
+
+struct Mean {
+  double before = 0.0, after = 0.0;
+  int count = 0;
+
+  void add(double was, double is) {
+    before += was;
+    after += is;
+    ++count;
+  }
+};
+
+/// One tile of the map: a third of the image, or a part of a disc.
+struct Tile {
+  double x, y, radius, from_deg, to_deg;
+};
+constexpr std::array<Tile, 5> kCupTiles{{{1.5, 1.5, 0.75, 0, 360},
+                                         {1.5, 1.5, 1.5, 225, 315},
+                                         {1.5, 1.5, 1.5, 45, 135},
+                                         {1.5, 1.5, 1.5, 135, 225},
+                                         {1.5, 1.5, 1.5, -45, 45}}};
+
+std::map<std::string, Mean> means_by_region(const DiagnosedCampaign& campaign, std::string_view observable) {
+  std::map<std::string, Mean> means;
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i)
+    if (campaign.observations[i].observable == observable)
+      means[campaign.observations[i].factors.region].add(campaign.diagnosis.before[i], campaign.diagnosis.after[i]);
+  return means;
+}
+
+}  // namespace
+
+void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  Table table({"observable", "region", "session", "pour", "placement", "liquid", "fill_mm", "distance_mm", "lateral_mm",
+               "measured", "before", "after", "sigma"});
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i) {
+    const Observation& o = campaign.observations[i];
+    const Factors& f = o.factors;
+    table.add({o.observable, f.region, fmt::format("{}", f.session), fmt::format("{}", f.pour),
+               fmt::format("{}", f.placement), f.liquid, fmt::format("{:g}", f.fill_mm),
+               fmt::format("{:g}", f.distance_mm), fmt::format("{:g}", f.lateral_mm), fmt::format("{:.5g}", o.value),
+               fmt::format("{:.5g}", campaign.diagnosis.before[i]), fmt::format("{:.5g}", campaign.diagnosis.after[i]),
+               fmt::format("{:.5g}", campaign.diagnosis.error[i])});
+  }
+  write_table(folder / "residuals.csv", table);
+}
+
+bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  const std::vector<std::size_t> rows = heights_in_order(campaign.observations);
+  if (rows.empty()) return false;
+  Table table({"number", "before_mm", "after_mm", "sigma_mm"});
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    table.add({fmt::format("{}", i), fmt::format("{:.4f}", campaign.diagnosis.before[rows[i]]),
+               fmt::format("{:.4f}", campaign.diagnosis.after[rows[i]]),
+               fmt::format("{:.4f}", campaign.diagnosis.error[rows[i]])});
+  write_table(folder / "heights.csv", table);
+  draw(folder, "heights",
+       fmt::format(R"(
+set title 'Heights in the cup: measured minus model'
+set xlabel 'heights, by liquid, fill, distance and part of the cup'
+set ylabel 'measured − model [mm]'
+set xrange [-1:{}]; set offsets 0, 0, graph 0.12, graph 0.05; set key below; set format x ''
+{}
+plot 0 lc rgb ink notitle, \
+     'heights.csv' using 'number':'before_mm' with points pt 7 ps 0.6 lc rgb orange title 'before', \
+     '' using 'number':'after_mm':'sigma_mm' with yerrorbars pt 7 ps 0.6 lc rgb blue title 'after, with 1 σ')",
+                   rows.size(), liquid_marks(campaign.observations, rows)));
+  return true;
+}
+
+bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  const auto desk = means_by_region(campaign, "desk_residual_mm"), cup = means_by_region(campaign, "height_mm");
+  constexpr double kAfter = 8.0, kDesk = 3.5;  // where the right pair begins, and the second of each pair
+  Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"});
+  for (const bool after : {false, true}) {
+    const double left = after ? kAfter : 0.0;
+    const auto value = [after](const Mean& mean) {
+      return fmt::format("{:.4f}", (after ? mean.after : mean.before) / mean.count);
+    };
+    for (std::size_t i = 0; i < kDeskRegionNames.size(); ++i)
+      if (const auto found = desk.find(std::string(kDeskRegionNames[i])); found != desk.end())
+        tiles.add({fmt::format("{}", left + kDesk + 0.5 + static_cast<double>(i % 3)),
+                   fmt::format("{}", 2.5 - static_cast<double>(i / 3)), value(found->second)});
+    // The centre last: it lies on the ring's sectors.
+    for (const std::size_t i : {1U, 2U, 3U, 4U, 0U})
+      if (const auto found = cup.find(std::string(kCupRegionNames[i])); found != cup.end()) {
+        const Tile& t = kCupTiles[i];
+        sectors.add({fmt::format("{}", left + t.x), fmt::format("{}", t.y), fmt::format("{}", t.radius),
+                     fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg), value(found->second)});
+      }
+  }
+  if (tiles.rows() == 0 || sectors.rows() == 0) return false;
+  write_table(folder / "map_desk.csv", tiles);
+  write_table(folder / "map_cup.csv", sectors);
+  draw(folder, "map", R"(
+set title 'Mean of measured minus model, by part of the cup and third of the image of the desk'
+unset border; unset xtics; unset ytics; unset grid; unset key
+set size ratio -1; set xrange [-0.3:14.8]; set yrange [-0.6:4]
+set cblabel 'measured − model [mm]'; set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00')
+stats 'map_cup.csv' using 'mean_mm' name 'cup' nooutput
+stats 'map_desk.csv' using 'mean_mm' name 'desk' nooutput
+largest(a, b) = a > b ? a : b
+most = largest(largest(abs(cup_min), abs(cup_max)), largest(abs(desk_min), abs(desk_max)))
+set cbrange [-most:most]
+set label 'before: cup' at 1.5, 3.4 center; set label 'desk' at 5, 3.4 center
+set label 'after: cup' at 9.5, 3.4 center; set label 'desk' at 13, 3.4 center
+plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb ink fillcolor palette, \
+     'map_cup.csv' using 'x':'y':'radius':'from_deg':'to_deg':'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)");
+  return true;
+}
+
+}  // namespace fathom

@@ -1,0 +1,17 @@
+// What the model leaves of a campaign, before and after effects were added: as a table and as pictures.
+#pragma once
+
+#include "app/diagnosis_report.h"
+
+namespace fathom {
+
+/// residuals.csv: every observation with its factors, measured minus predicted, and 1 σ of that.
+void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+/// heights.png: the heights' residuals over the campaign, liquid by liquid. False when there are no heights.
+bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+/// map.png: mean residual in each region of the cup and of the desk. False when heights are all there is.
+bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+}  // namespace fathom

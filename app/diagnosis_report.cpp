@@ -1,0 +1,137 @@
+#include "app/diagnosis_report.h"
+
+#include <fmt/format.h>
+
+#include "app/diagnosis_pictures.h"
+#include "app/diagnosis_words.h"
+#include "app/html.h"
+#include "core/files.h"
+#include "sim/effects/registry.h"
+
+namespace fathom {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string paragraph(const std::string& text) { return fmt::format("<p>{}</p>\n", html_escaped(text)); }
+std::string heading(const char* text) { return fmt::format("<h2>{}</h2>\n", text); }
+
+std::string list(const std::vector<std::string>& items) {
+  std::string html = "<ul>\n";
+  for (const std::string& item : items) html += fmt::format("<li>{}</li>\n", html_escaped(item));
+  return html + "</ul>\n";
+}
+
+std::string where_html(const Diagnosis& diagnosis) {
+  if (diagnosis.where.empty()) return paragraph("No part of the measurements departs from the model for sure.");
+  Rows rows;
+  for (const GapLocation& where : diagnosis.where)
+    rows.push_back({stratum_words(where), fmt::format("{:+.3g} ± {:.2g}", where.mean, where.sigma),
+                    fmt::format("{:.0f} %", 100 * where.share_of_gap), fmt::format("{:.1g}", where.p)});
+  return html_table({"where", "measured − model", "share of the gap", "p"}, rows);
+}
+
+std::string effects_html(const Diagnosis& diagnosis) {
+  std::string html;
+  for (const NamedEffect& named : diagnosis.effects) {
+    const Effect* effect = find_effect(effect_name(named.name).id);
+    std::vector<std::string> lines;
+    for (const NamedParameter& parameter : named.parameters) lines.push_back(parameter_words(parameter));
+    lines.push_back(
+        fmt::format("p = {:.1g} among all candidates; {:.1g} in conditions that had no part in choosing it; "
+                    "it improves {} of {} groups of conditions",
+                    named.p_discovery, named.p_confirmation, named.folds_improved, named.folds));
+    if (effect && !effect->citation.empty()) lines.emplace_back(effect->citation);
+    html += fmt::format("<h3>{}</h3>\n", html_escaped(effect_words(named.name)));
+    if (effect) html += paragraph(std::string(effect->sentence));
+    html += list(lines);
+  }
+  return html;
+}
+
+std::string gap_html(const Diagnosis& diagnosis) {
+  const auto row = [](const char* name, const GapSize& gap) {
+    return std::vector<std::string>{name, fmt::format("{:.3f}", gap.before_rms_mm),
+                                    fmt::format("{:.3f}", gap.after_rms_mm), fmt::format("{:.3f}", gap.noise_floor_mm)};
+  };
+  return html_table(
+      {"heights, root mean square [mm]", "before", "after", "expected of errors alone"},
+      {row("all conditions", diagnosis.train), row("each group of conditions, fitted without it", diagnosis.held_out)},
+      true);
+}
+
+std::string rivals_html(const Diagnosis& diagnosis) {
+  Rows rows;
+  for (const Explanation& explanation : diagnosis.ambiguity_set) {
+    std::string twins;
+    for (const auto& twin : explanation.alternatives) twins += (twins.empty() ? "" : "; ") + effects_words(twin);
+    rows.push_back({effects_words(explanation.effects), twins, fmt::format("{:.3f}", explanation.probability)});
+  }
+  return html_table({"explanation", "cannot be told from", "probability"}, rows);
+}
+
+std::string limits_html(const Diagnosis& diagnosis) {
+  Rows rows;
+  for (const UpperLimit& limit : diagnosis.upper_limits)
+    rows.push_back({effect_words(limit.effect), limit.parameter, fmt::format("{:.3g}", limit.limit95),
+                    fmt::format("{:.3g}", limit.smallest_seen)});
+  return html_table({"effect", "parameter", "departs by less than (95 %)", "would be named half the time at"}, rows);
+}
+
+std::string confusable_html(const Diagnosis& diagnosis) {
+  Rows rows;
+  for (const ConfusablePair& pair : diagnosis.confusable)
+    rows.push_back({effect_words(pair.first), effect_words(pair.second), fmt::format("{:.1f}°", pair.angle_deg)});
+  std::string html = html_table({"effect", "looks like", "angle"}, rows);
+  for (const NearNullDirection& direction : diagnosis.near_null)
+    html += paragraph(fmt::format("Together nearly invisible: {}.", effects_words(direction.effects)));
+  return html;
+}
+
+std::string next_html(const Diagnosis& diagnosis) {
+  Rows rows;
+  for (const NextMeasurement& next : diagnosis.next)
+    rows.push_back({next.measurement, effects_words(next.separates), fmt::format("{:.1f} σ", next.sigma)});
+  return html_table({"measure", "to tell apart", "by"}, rows);
+}
+
+std::string budget_html(const Diagnosis& diagnosis) {
+  Rows rows;
+  for (const ConditionBudget& line : diagnosis.budget)
+    rows.push_back({line.condition, line.observable, fmt::format("{:+.3f}", line.comparison_error),
+                    fmt::format("{:.3f}", line.u_data), fmt::format("{:.3f}", line.u_input),
+                    fmt::format("{:.3f}", line.u_numerical), fmt::format("{:.3f}", line.u_validation)});
+  return fmt::format(
+      "<details><summary>{} conditions (ASME V&amp;V 20: E = measured − model, its uncertainty u_val of "
+      "data, inputs and numerics)</summary>{}</details>\n",
+      rows.size(), html_table({"condition", "observable", "E", "u_D", "u_input", "u_num", "u_val"}, rows, true));
+}
+
+}  // namespace
+
+void write_diagnosis_report(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  const Diagnosis& diagnosis = campaign.diagnosis;
+  std::string html = fmt::format("<h1>Where model and measurement differ: {}</h1>\n<p class=\"answer\">{}</p>\n",
+                                 html_escaped(campaign.name), html_escaped(answer(diagnosis)));
+  if (!diagnosis.warnings.empty()) html += heading("Look at this first") + list(diagnosis.warnings);
+  if (!campaign.notes.empty()) html += heading("What limits this") + list(campaign.notes);
+  if (diagnosis.verdict == Verdict::insufficient) {
+    write_text(folder / "report.html", html_page("Fathom: diagnosis", html));
+    return;
+  }
+  html += heading("Where") + where_html(diagnosis);
+  if (draw_map(folder, campaign)) html += html_picture(folder / "map.png", "Mean difference by region");
+  if (!diagnosis.effects.empty()) html += heading("What the model lacked") + effects_html(diagnosis);
+  html += heading("Before and after");
+  if (draw_heights(folder, campaign)) html += html_picture(folder / "heights.png", "Heights: measured minus model");
+  html += gap_html(diagnosis);
+  html += heading("What else it could be") + rivals_html(diagnosis) + confusable_html(diagnosis);
+  html += heading("What could still hide") + limits_html(diagnosis);
+  if (!diagnosis.next.empty()) html += heading("What to measure next") + next_html(diagnosis);
+  html += heading("Uncertainty budget") + budget_html(diagnosis);
+  write_residuals(folder, campaign);
+  html += "<p>Every observation: <code>residuals.csv</code>.</p>\n";
+  write_text(folder / "report.html", html_page("Fathom: diagnosis", html));
+}
+
+}  // namespace fathom

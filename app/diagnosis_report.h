@@ -1,0 +1,24 @@
+// report.html of a diagnosis: the sentence first, then where, before and after, what else it could be, what could still
+// hide, and what to measure next.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "diagnosis/statistics/diagnosis.h"
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+struct DiagnosedCampaign {
+  std::string name;  ///< of its folder
+  std::vector<Observation> observations;
+  std::vector<std::string> notes;  ///< what limits the measurement or the model of it, one sentence each
+  Diagnosis diagnosis;
+};
+
+/// Writes residuals.csv, heights.png, map.png (and their .gp and .svg) and report.html, which holds the pictures.
+void write_diagnosis_report(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+}  // namespace fathom

@@ -1,0 +1,160 @@
+#include "app/diagnosis_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/effects/registry.h"
+
+namespace fathom {
+namespace {
+
+std::string spaced(std::string_view words) {
+  std::string text(words);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+struct Unit {
+  std::string_view ending, words;
+};
+constexpr Unit kUnits[] = {{"_per_mm", " per mm"}, {"_per_min", " per min"}, {"_mm", " mm"}, {"_deg", "°"},
+                           {"_px", " px"},         {"_degC", " °C"},         {"_s", " s"},   {"_min", " min"}};
+
+/// "tilt_x_deg" → "tilt x" and "°".
+std::pair<std::string, std::string_view> without_unit(std::string_view name) {
+  for (const Unit& unit : kUnits)
+    if (name.ends_with(unit.ending)) return {spaced(name.substr(0, name.size() - unit.ending.size())), unit.words};
+  return {spaced(name), ""};
+}
+
+std::string joined(const std::vector<std::string>& words, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? fmt::format(" {} ", last) : ", ") + words[i];
+  return text;
+}
+
+/// "height of milk tea reads 1.40 mm too low": where the gap is largest.
+std::string where_sentence(const Diagnosis& diagnosis) {
+  if (diagnosis.where.empty()) return {};
+  const GapLocation& where = diagnosis.where.front();
+  const auto [what, unit] = without_unit(where.observable);
+  std::string place = stratum_words(where);
+  place.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(place.front())));
+  return fmt::format("{} reads {:.3g}{} too {}. ", place, std::abs(where.mean), unit, where.mean < 0 ? "low" : "high");
+}
+
+std::string gap_words(const GapSize& gap) {
+  return fmt::format("{:.2f} mm instead of {:.2f} mm (errors of the measurement: {:.2f} mm)", gap.after_rms_mm,
+                     gap.before_rms_mm, gap.noise_floor_mm);
+}
+
+std::string named_sentence(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const NamedEffect& effect : diagnosis.effects) {
+    const Effect* known = find_effect(effect_name(effect.name).id);
+    std::vector<std::string> values;
+    for (const NamedParameter& parameter : effect.parameters) values.push_back(parameter_words(parameter));
+    text += fmt::format("{} Adding {} with {} ", known ? known->sentence : "", effect_words(effect.name),
+                        joined(values, "and"));
+    text += &effect == &diagnosis.effects.back() ? "" : "helps. ";
+  }
+  return text + fmt::format("leaves {} of the heights' differences. ", gap_words(diagnosis.train));
+}
+
+std::string ambiguous_sentence(const Diagnosis& diagnosis) {
+  std::vector<std::string> rivals;
+  for (const Explanation& explanation : diagnosis.ambiguity_set) {
+    rivals.push_back(fmt::format("{} ({:.0f} %)", effects_words(explanation.effects), 100 * explanation.probability));
+    for (const auto& twin : explanation.alternatives) rivals.push_back(effects_words(twin));
+  }
+  std::string text = fmt::format("These explain it about equally well: {}. ", joined(rivals, "or"));
+  if (diagnosis.next.empty()) return text;
+  const NextMeasurement& next = diagnosis.next.front();
+  return text + (next.sigma >= 3.0 ? fmt::format("To tell, measure {} ({:.1f} σ). ", next.measurement, next.sigma)
+                                   : "None of the measurements that were considered will settle it. ");
+}
+
+std::string unknown_sentence(const Diagnosis& diagnosis) {
+  const UnknownShape& unknown = diagnosis.unknown;
+  std::string text = fmt::format("{} is there that no effect in the list explains (p = {:.1g})",
+                                 diagnosis.effects.empty() ? "Something" : "Something else", unknown.p);
+  if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
+  if (!unknown.most_similar.empty())
+    text +=
+        fmt::format(", and is most like {} (cosine {:.2f})", effect_words(unknown.most_similar), unknown.similarity);
+  return text + ". ";
+}
+
+}  // namespace
+
+EffectName effect_name(std::string_view name) {
+  const std::size_t at = name.find('@');
+  if (at == std::string_view::npos) return {std::string(name), ""};
+  return {std::string(name.substr(0, at)), std::string(name.substr(at + 1))};
+}
+
+std::string effect_words(const std::string& name) {
+  const EffectName effect = effect_name(name);
+  return spaced(effect.id) + (effect.liquid.empty() ? "" : " of " + spaced(effect.liquid));
+}
+
+std::string effects_words(const std::vector<std::string>& effects) {
+  if (effects.empty()) return "nothing";
+  std::vector<std::string> words;
+  for (const std::string& effect : effects) words.push_back(effect_words(effect));
+  return joined(words, "and");
+}
+
+std::string stratum_words(const GapLocation& where) {
+  std::string text = without_unit(where.observable).first;
+  std::string_view rest = where.stratum;
+  bool first = true;
+  while (!rest.empty()) {
+    const std::size_t comma = rest.find(", ");
+    const std::string_view factor = rest.substr(0, comma);
+    rest = comma == std::string_view::npos ? "" : rest.substr(comma + 2);
+    const std::size_t equals = factor.find('=');
+    text += first ? " where " : " and ";
+    first = false;
+    if (equals == std::string_view::npos) {
+      text += factor;
+      continue;
+    }
+    const auto [name, unit] = without_unit(factor.substr(0, equals));
+    text += fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit);
+  }
+  return text;
+}
+
+std::string parameter_words(const NamedParameter& parameter) {
+  const auto [name, unit] = without_unit(parameter.name);
+  return fmt::format("{} = {:.3g}{} (95 %: {:.3g} to {:.3g})", name, parameter.value, unit, parameter.low95,
+                     parameter.high95);
+}
+
+std::string answer(const Diagnosis& diagnosis) {
+  switch (diagnosis.verdict) {
+    case Verdict::none:
+      return fmt::format(
+          "Model and measurement agree within their errors (p = {:.2g}): the heights differ by {:.2f} mm, {:.2f} mm "
+          "are "
+          "to be expected.",
+          diagnosis.p_gap, diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
+    case Verdict::insufficient:
+      return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.missing, "and"));
+    case Verdict::named:
+      return where_sentence(diagnosis) + named_sentence(diagnosis);
+    case Verdict::ambiguous:
+      return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
+    case Verdict::unknown:
+      return where_sentence(diagnosis) + unknown_sentence(diagnosis);
+    case Verdict::named_and_unknown:
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + unknown_sentence(diagnosis);
+  }
+  return {};
+}
+
+}  // namespace fathom

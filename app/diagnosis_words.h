@@ -1,0 +1,26 @@
+// What a diagnosis says, in sentences.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/statistics/diagnosis.h"
+
+namespace fathom {
+
+/// An effect of a diagnosis: "subsurface_scattering@milk_tea" is the effect of that id in that liquid only.
+struct EffectName {
+  std::string id, liquid;  ///< no liquid: in all
+};
+EffectName effect_name(std::string_view name);
+
+std::string effect_words(const std::string& name);             ///< "subsurface scattering of milk tea"
+std::string effects_words(const std::vector<std::string>&);    ///< "foam and surface tilt", "nothing"
+std::string stratum_words(const GapLocation& where);           ///< "height of milk tea at 400 mm"
+std::string parameter_words(const NamedParameter& parameter);  ///< "scattering = 2.1 per mm (1.9 to 2.4)"
+
+/// The answer in one to three sentences.
+std::string answer(const Diagnosis& diagnosis);
+
+}  // namespace fathom
