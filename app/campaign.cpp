@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "app/campaign_spec.h"
@@ -15,6 +16,7 @@
 #include "core/rows.h"
 #include "core/table.h"
 #include "core/units.h"
+#include "sim/effects/effects_json.h"
 
 namespace fathom {
 namespace {
@@ -23,19 +25,22 @@ namespace fs = std::filesystem;
 
 struct CampaignOptions {
   fs::path spec;
-  fs::path truth;
+  fs::path truth, model;
   int spp = kDefaultSamplesPerPixel;
 };
 
 /// What randomness is for, so that no two uses share a stream.
-enum class Draw : std::uint64_t { fill = 1, place = 2, camera = 3 };
+enum class Draw : std::uint64_t { fill = 1, place = 2, camera = 3, rig = 4 };
 
-/// The cup, put down once: its trials follow. `number` counts from 0 over the campaign, as `pour` does.
+/// The cup, put down once, or the bare desk: its trials follow. `number` counts from 0 over the campaign's cups, as
+/// `pour` does.
 struct Placement {
-  int number, pour;
-  const CampaignFilling* filling;
+  int session, number, pour;
+  const CampaignFilling* filling;             ///< none: the bare desk
   double true_fill;                           ///< [m]
   Eigen::Vector2d nominal_place, true_place;  ///< [m] (lateral, distance)
+  double time_s = 0.0;                        ///< of its first shot
+  int first_frame = 0, trials = 0;
 };
 
 double poured(const CampaignSpec& spec, const CampaignFilling& filling, int pour, std::uint64_t seed) {
@@ -50,75 +55,145 @@ Eigen::Vector2d put_down(const CampaignSpec& spec, const Eigen::Vector2d& nomina
   return nominal + spec.nominal.placement_sigma_m * Eigen::Vector2d(x, y);
 }
 
+/// Adds to a plan in the order of time.
+class Planner {
+ public:
+  Planner(const CampaignSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
+
+  void begin_session(int session) {
+    session_ = session;
+    time_s_ = 0.0;
+    if (spec_.bare_desk_views > 0)
+      add({session_, 0, 0, nullptr, 0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, spec_.bare_desk_views);
+  }
+
+  void pour(const CampaignFilling& filling) {
+    const double fill = poured(spec_, filling, pours_, seed_);
+    time_s_ += spec_.pour_s;
+    for (const double distance : spec_.distances)
+      for (const double lateral : spec_.laterals)
+        for (int j = 0; j < spec_.placements; ++j, ++cups_) {
+          const Eigen::Vector2d nominal(lateral, distance);
+          time_s_ += spec_.placement_s;
+          add({session_, cups_, pours_, &filling, fill, nominal, put_down(spec_, nominal, cups_, seed_)}, spec_.trials);
+        }
+    ++pours_;
+  }
+
+  std::vector<Placement> take() { return std::move(placements_); }
+
+ private:
+  void add(Placement placement, int trials) {
+    placement.time_s = time_s_;
+    placement.first_frame = frames_;
+    placement.trials = trials;
+    frames_ += trials;
+    time_s_ += trials * spec_.frame_s;
+    placements_.push_back(placement);
+  }
+
+  const CampaignSpec& spec_;
+  std::uint64_t seed_;
+  int session_ = 0, pours_ = 0, cups_ = 0, frames_ = 0;
+  double time_s_ = 0.0;
+  std::vector<Placement> placements_;
+};
+
 std::vector<Placement> plan(const CampaignSpec& spec, std::uint64_t seed) {
-  std::vector<Placement> placements;
-  int pour = 0;
-  for (const CampaignFilling& filling : spec.fillings)
-    for (int i = 0; i < spec.pours; ++i, ++pour) {
-      const double fill = poured(spec, filling, pour, seed);
-      for (const double distance : spec.distances)
-        for (const double lateral : spec.laterals)
-          for (int j = 0; j < spec.placements; ++j) {
-            const int number = static_cast<int>(placements.size());
-            const Eigen::Vector2d nominal(lateral, distance);
-            placements.push_back({number, pour, &filling, fill, nominal, put_down(spec, nominal, number, seed)});
-          }
-    }
-  return placements;
+  Planner planner(spec, seed);
+  for (int session = 0; session < spec.sessions; ++session) {
+    planner.begin_session(session);
+    for (const CampaignFilling& filling : spec.fillings)
+      for (int i = 0; i < spec.pours; ++i) planner.pour(filling);
+  }
+  return planner.take();
 }
 
-fs::path cloud_file(const CampaignSpec& spec, const Placement& placement, int trial) {
-  return fs::path("clouds") / fmt::format("{:06}.pcd", placement.number * spec.trials + trial);
+/// What the laboratory's numbers are off by, as effects.
+Json rig_errors(const CampaignSpec& spec, std::uint64_t seed) {
+  struct RigError {
+    const char *key, *effect, *parameter;
+  };
+  constexpr std::array kErrors{RigError{"height_mm", "sensor_height", "height_mm"},
+                               Error{"pitch_deg", "sensor_pitch", "pitch_deg"},
+                               RigError{"roll_deg", "sensor_roll", "roll_deg"},
+                               RigError{"baseline_mm", "baseline", "baseline_mm"},
+                               RigError{"focal_px", "focal_length", "focal_px"},
+                               RigError{"disparity_offset_px", "disparity_offset", "offset_px"},
+                               RigError{"bottom_mm", "cup_bottom_height", "height_mm"}};
+  Json errors = Json::array();
+  for (std::size_t i = 0; i < kErrors.size(); ++i) {
+    const auto sigma = spec.nominal.sigma.find(kErrors[i].key);
+    if (sigma == spec.nominal.sigma.end()) continue;
+    Rng rng(seed, Draw::rig, i);
+    errors.push_back({{"name", kErrors[i].effect}, {kErrors[i].parameter, sigma->second * rng.normal()}});
+  }
+  return errors;
 }
 
-Setup setup_of(const CampaignSpec& spec, const Placement& placement) {
+fs::path cloud_file(const Placement& placement, int trial) {
+  return fs::path("clouds") / fmt::format("{:06}.pcd", placement.first_frame + trial);
+}
+
+Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json& effects, const std::string& file) {
+  Setup setup{
+      .scene = {.desk = spec.desk, .cups = {}, .objects = {}}, .rig = spec.rig, .file = file, .effects = effects};
+  UnitModel& unit = setup.rig.sensor.unit;
+  unit.on_for_s += placement.time_s;
+  unit.frame_interval_s = spec.frame_s;
+  setup.circumstances.time_s = placement.time_s;
+  setup.circumstances.liquids = spec.media;
+  if (!placement.filling) return setup;
+  setup.circumstances.liquid = placement.filling->liquid;
   Cup cup{.shape = spec.cup, .position = placement.true_place, .filling = std::nullopt};
   if (placement.true_fill > 0.0) cup.filling = Filling{placement.filling->medium, placement.true_fill};
-  return {.scene = {.desk = spec.desk, .cups = {std::move(cup)}, .objects = {}}, .rig = spec.rig, .source = {}};
+  setup.scene.cups.push_back(std::move(cup));
+  return setup;
 }
 
 /// Shoots the trials whose clouds are not there yet, or not whole: somebody may have copied the folder halfway.
-int shoot(const CampaignSpec& spec, const Placement& placement, const CampaignOptions& options,
+int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& setup, const CampaignOptions& options,
           const CommonOptions& common) {
   std::vector<int> missing;
   const SensorModel& sensor = spec.rig.sensor;
-  for (int trial = 0; trial < spec.trials; ++trial)
-    if (!is_whole_pcd(common.output / cloud_file(spec, placement, trial), sensor.width, sensor.height))
+  for (int trial = 0; trial < placement.trials; ++trial)
+    if (!is_whole_pcd(common.output / cloud_file(placement, trial), sensor.width, sensor.height))
       missing.push_back(trial);
   if (missing.empty()) return 0;
-  const std::uint64_t seed = Rng(common.seed, Draw::camera, placement.number).bits();
-  Camera camera(setup_of(spec, placement), spec.mode, options.spp, seed);
+  const std::uint64_t seed = placement.filling ? Rng(common.seed, Draw::camera, placement.number).bits()
+                                               : Rng(common.seed, Draw::camera, placement.session, -1).bits();
+  Camera camera(setup, spec.mode, options.spp, seed);
   for (const int trial : missing)
-    write_pcd(common.output / cloud_file(spec, placement, trial),
-              camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
+    write_pcd(common.output / cloud_file(placement, trial), camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
   return static_cast<int>(missing.size());
 }
 
-/// One shot a second, one session.
 Table frames_table(const CampaignSpec& spec, const std::vector<Placement>& placements) {
   Table table({"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm", "distance_mm",
                "lateral_mm", "cloud"});
   for (const Placement& p : placements)
-    for (int trial = 0; trial < spec.trials; ++trial) {
-      const std::string frame = fmt::format("{}", p.number * spec.trials + trial);
-      table.add({frame, "0", fmt::format("{}", p.pour), fmt::format("{}", p.number), fmt::format("{}", trial), frame,
-                 p.filling->liquid, fmt::format("{:g}", mm_from_metres(p.filling->fill)),
+    for (int trial = 0; trial < p.trials; ++trial)
+      table.add({fmt::format("{}", p.first_frame + trial), fmt::format("{}", p.session), fmt::format("{}", p.pour),
+                 fmt::format("{}", p.number), fmt::format("{}", trial),
+                 fmt::format("{:g}", p.time_s + trial * spec.frame_s), p.filling ? p.filling->liquid : "none",
+                 fmt::format("{:g}", p.filling ? mm_from_metres(p.filling->fill) : 0.0),
                  fmt::format("{:g}", mm_from_metres(p.nominal_place.y())),
-                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(spec, p, trial).string()});
-    }
+                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(p, trial).string()});
   return table;
 }
 
-Json truth_json(const std::vector<Placement>& placements) {
+Json truth_json(const std::vector<Placement>& placements, const Json& effects) {
   Json list = Json::array();
-  for (const Placement& p : placements)
+  for (const Placement& p : placements) {
+    if (!p.filling) continue;
     list.push_back({{"placement", p.number},
                     {"pour", p.pour},
                     {"liquid", p.filling->liquid},
                     {"fill_mm", mm_from_metres(p.true_fill)},
                     {"distance_mm", mm_from_metres(p.true_place.y())},
                     {"lateral_mm", mm_from_metres(p.true_place.x())}});
-  return {{"placements", list}};
+  }
+  return {{"effects", effects}, {"placements", list}};
 }
 
 /// campaign.json says what the folder belongs to; clouds of anything else are never mixed in.
@@ -151,17 +226,22 @@ void require_truth_outside(const fs::path& truth, const fs::path& folder) {
 void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   if (!options.truth.empty()) require_truth_outside(options.truth, common.output);
   const CampaignSpec spec = read_campaign_spec(options.spec);
-  const Json identity = {
-      {"fathom", FATHOM_VERSION}, {"seed", common.seed}, {"spp", options.spp}, {"spec", spec.source}};
+  Json identity = {{"fathom", FATHOM_VERSION}, {"seed", common.seed}, {"spp", options.spp}, {"spec", spec.source}};
+  Json effects = spec.effects;
+  if (!options.model.empty())
+    for (const Json& effect : identity["model_effects"] = effects_of_model(options.model)) effects.push_back(effect);
+  for (const Json& error : rig_errors(spec, common.seed)) effects.push_back(error);
   const std::vector<Placement> placements = plan(spec, common.seed);
+  const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
+  with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
   check_folder(common.output, identity);
-  if (!options.truth.empty()) write_json(options.truth, truth_json(placements));
+  if (!options.truth.empty()) write_json(options.truth, truth_json(placements, effects));
   claim_folder(common.output, identity);
   write_json(common.output / "rig.json", json_from_laboratory_rig(spec.nominal));
   Progress progress("placement", placements.size(), common.quiet);
   int shot = 0;
   for (const Placement& placement : placements) {
-    shot += shoot(spec, placement, options, common);
+    shot += shoot(spec, placement, setup(placement), options, common);
     progress.step();
   }
   const Table frames = frames_table(spec, placements);
@@ -179,6 +259,8 @@ std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common
   app.add_option("spec", options->spec, "Campaign file (*.json), see scenes/campaigns")->required()->type_name("SPEC");
   app.add_option("--truth", options->truth, "Where to write the true fills and places, which the folder never holds")
       ->type_name("T.json");
+  app.add_option("--model", options->model, "Model of a diagnosis, whose effects are there as well")
+      ->type_name("M.json");
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();

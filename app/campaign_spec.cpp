@@ -20,6 +20,7 @@ std::map<std::string, Medium> media_from_json(const JsonReader& json, double wav
     if (name == "empty" || name == "none") json.fail_at(name, "is a reserved name and no liquid");
     if (name.find_first_of(",\"\n") != std::string::npos) json.fail_at(name, "must be a name without , and \"");
     media[name] = medium_from_json(json.at(name));
+    media[name].name = name;  // effects of a liquid go by its label
     require_index(json.at(name), media[name], wavelength_nm);
   }
   return media;
@@ -63,6 +64,13 @@ double sigma(const JsonReader& json, std::string_view key, double otherwise_m, d
   return json.metres_or(key, otherwise_m, {0.0, mm_from_metres(most)});
 }
 
+/// How well the laboratory knows its rig, as in the file that it writes.
+void read_rig_sigma(const JsonReader& json, std::map<std::string, double>& sigma) {
+  json.allow_only(
+      {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "bottom_mm"});
+  for (const auto& [key, value] : json.value().items()) sigma[key] = json.number(key, kNonNegative);
+}
+
 }  // namespace
 
 CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
@@ -71,14 +79,34 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   CampaignSpec spec;
   spec.source = read_json(path);
   const JsonReader json(spec.source, path.string());
-  json.allow_only({"sensor", "desk", "cup", "liquids", "fillings", "distance_mm", "lateral_mm", "pours", "placements",
-                   "trials", "mode", "fill_sigma_mm", "placement_sigma_mm"});
+  json.allow_only({"$schema",
+                   "sensor",
+                   "desk",
+                   "cup",
+                   "liquids",
+                   "fillings",
+                   "distance_mm",
+                   "lateral_mm",
+                   "sessions",
+                   "bare_desk_views",
+                   "pours",
+                   "placements",
+                   "trials",
+                   "frame_s",
+                   "placement_s",
+                   "pour_s",
+                   "mode",
+                   "fill_sigma_mm",
+                   "placement_sigma_mm",
+                   "rig_sigma",
+                   "effects"});
   spec.rig = rig_from_json(json.at("sensor"));
   spec.desk = scene_from_json(json).desk;
   if (!spec.desk) json.fail_at("desk", "is what heights are measured from and cannot be null");
   json.at("cup").allow_only({"shape"});
   spec.cup = cup_shape_from_json(json.at("cup").at("shape"));
   const std::map<std::string, Medium> media = media_from_json(json.at("liquids"), spec.rig.sensor.wavelength_nm);
+  for (const auto& [name, medium] : media) spec.media.push_back(medium);
   for (const JsonReader& item : json.at("fillings").items())
     spec.fillings.push_back(filling_from_json(item, media, spec.deepest_fill()));
   if (spec.fillings.empty()) json.fail_at("fillings", "must hold at least one filling");
@@ -86,6 +114,12 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
                         high = spec.desk->centre + 0.5 * spec.desk->size;
   spec.distances = places(json.at("distance_mm"), low.y(), high.y());
   spec.laterals = json.has("lateral_mm") ? places(json.at("lateral_mm"), low.x(), high.x()) : std::vector<double>{0.0};
+  spec.sessions = json.integer_or("sessions", spec.sessions, 1, kMany);
+  spec.bare_desk_views = json.integer_or("bare_desk_views", spec.bare_desk_views, 0, kMany);
+  spec.frame_s = json.number_or("frame_s", spec.frame_s, kPositive);
+  spec.placement_s = json.number_or("placement_s", spec.placement_s, kNonNegative);
+  spec.pour_s = json.number_or("pour_s", spec.pour_s, kNonNegative);
+  for (const JsonReader& effect : json.items_or_none("effects")) spec.effects.push_back(effect.value());
   spec.pours = json.integer_or("pours", spec.pours, 1, kMany);
   spec.placements = json.integer_or("placements", spec.placements, 1, kMany);
   spec.trials = json.integer_or("trials", spec.trials, 1, kMany);
@@ -95,6 +129,7 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   // `measure` looks for a cup no farther than its radius from where it should stand.
   spec.nominal.placement_sigma_m =
       sigma(json, "placement_sigma_mm", spec.nominal.placement_sigma_m, spec.nominal.outer_radius_m);
+  if (json.has("rig_sigma")) read_rig_sigma(json.at("rig_sigma"), spec.nominal.sigma);
   for (const auto& [name, medium] : spec.source["liquids"].items()) spec.nominal.liquids[name] = medium;
   return spec;
 }

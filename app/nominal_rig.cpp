@@ -60,6 +60,7 @@ Json json_from_laboratory_rig(const LaboratoryRig& rig) {
               {"inner_radius_mm", tidy_mm(rig.inner_radius_m)},
               {"outer_radius_mm", tidy_mm(rig.outer_radius_m)},
               {"bottom_mm", tidy_mm(rig.bottom_m)}};
+  for (const auto& [key, sigma] : rig.sigma) (key == "bottom_mm" ? cup : sensor)["sigma"][key] = sigma;
   Json liquids = Json::object();
   for (const auto& [name, medium] : rig.liquids) liquids[name] = medium;
   return {{"sensor", sensor},

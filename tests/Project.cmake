@@ -4,6 +4,11 @@ add_test(NAME layers COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}
 add_test(NAME layers_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/layers_test.py)
 set_tests_properties(layers layers_test PROPERTIES LABELS architecture)
 
+if(FATHOM_SIMULATOR)
+  add_test(NAME effects_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/effects-page --check $<TARGET_FILE:fathom>)
+  set_tests_properties(effects_page PROPERTIES LABELS architecture)
+endif()
+
 find_program(FATHOM_CLANG_FORMAT clang-format-14)
 if(FATHOM_CLANG_FORMAT)
   add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/scripts/format --check)

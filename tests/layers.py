@@ -21,7 +21,7 @@ LAYERS = {
     "diagnosis/statistics": ["core"],
     "diagnosis/measurement": ["core", "detector", "diagnosis/statistics"],
     "diagnosis/predict": ["core", "sim/*", "theory", "diagnosis/statistics", "diagnosis/measurement"],
-    "examples": ["core", "detector"],
+    "examples": ["core", "detector", "sim/*"],
     "app": EVERYTHING,
     "bench": EVERYTHING,
     "tests": EVERYTHING,

@@ -12,6 +12,7 @@ constexpr double kImageWidth = 640.0, kImageHeight = 480.0;   ///< [px] that the
 constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
 constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
 constexpr double kFewestPixels = 100.0;
+constexpr std::size_t kCombEvery = 7;  ///< points of which combs are taken: ten thousands are enough, cosines are dear
 
 /// Sums for mean and standard deviation.
 struct Sums {
@@ -95,8 +96,9 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   std::array<Sums, 5> height;
   Sums interior, interior_intensity, desk_intensity;
   Eigen::Vector2d comb = Eigen::Vector2d::Zero();
-  double millimetres = 0.0;
-  for (const SensedPoint& sensed : points) {
+  double millimetres = 0.0, combed = 0.0;
+  for (std::size_t number = 0; number < points.size(); ++number) {
+    const SensedPoint& sensed = points[number];
     const Eigen::Vector3f p = turn * sensed.point + shift;
     const Eigen::Vector2d from_axis = p.head<2>().cast<double>() - (cup ? cup->centre : Eigen::Vector2d::Zero());
     const double squared = from_axis.squaredNorm(), w = sensed.weight;
@@ -113,8 +115,10 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     if (std::abs(p.z()) > kOnDesk) continue;
     residual[third_of_image(sensed, rig.focal_px)].add(p.z(), w);
     desk_intensity.add(sensed.intensity, w);
+    if (number % kCombEvery != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.point.z();
+    combed += w;
     const double steps = steps_per_inverse * (1.0 / kReference - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;
     comb += w * Eigen::Vector2d(std::cos(two_pi * steps), std::sin(two_pi * steps));
     millimetres += w * std::cos(two_pi * mm_from_metres(z));
@@ -126,9 +130,9 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   estimates.desk_intensity = desk_intensity.estimate();
   estimates.interior = interior.estimate();
   estimates.interior_intensity = interior_intensity.estimate();
-  if (desk_intensity.weight > 0.0) {
-    estimates.step_comb = comb / desk_intensity.weight;
-    estimates.millimetre_comb = millimetres / desk_intensity.weight;
+  if (combed > 0.0) {
+    estimates.step_comb = comb / combed;
+    estimates.millimetre_comb = millimetres / combed;
   }
   return estimates;
 }

@@ -27,7 +27,7 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     if (estimates.desk_residual[i].weight >= kFewestOnDesk)
       values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean)});
   const Eigen::Vector2d& comb = estimates.step_comb;
-  values.push_back({"comb_strength", kDesk, comb.norm()});
+  values.push_back({"comb_strength", kDesk, comb.x()});
   values.push_back({"comb_phase", kDesk, std::atan2(comb.y(), comb.x()) / (2.0 * std::numbers::pi)});
   values.push_back({"millimetre_comb", kDesk, estimates.millimetre_comb});
   return values;

@@ -135,7 +135,7 @@ std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d
   if (!passes_opening(cup, projector, direction)) return std::nullopt;
   const double irradiance = -direction.z() / (distance * distance * std::abs(slope.determinant()));
   const double to_camera = seen.transmittance * transmittance(last_absorption(cup), (target - seen.end).norm());
-  return LitPoint{direction, cup.albedo * irradiance * way->transmittance * to_camera / (seen.n * seen.n)};
+  return LitPoint{target, direction, cup.albedo * irradiance * way->transmittance * to_camera / (seen.n * seen.n)};
 }
 
 /// An opaque liquid's light leaves, in the mean, beyond where it entered (sim/optics/far_centroid.h).
@@ -147,7 +147,8 @@ std::optional<LitPoint> light_surface(const CupOptics& cup, const Way& seen, con
       seen.end - layer.centroid_per_sin / distance * Eigen::Vector3d(there.x(), there.y(), 0.0);
   const Eigen::Vector3d direction = (entry - projector).normalized();
   if (!passes_opening(cup, projector, direction)) return std::nullopt;
-  return LitPoint{direction, layer.albedo * -there.z() / (distance * distance * distance) * seen.transmittance};
+  return LitPoint{seen.end, direction,
+                  layer.albedo * -there.z() / (distance * distance * distance) * seen.transmittance};
 }
 
 LiquidLayer layer_of(const Cup& cup, double wavelength_nm) {

@@ -39,6 +39,7 @@ std::optional<CupOptics> cup_optics(const Setup& setup);
 
 /// The bottom or the opaque surface as a ray from the camera sees it, and the light there.
 struct LitPoint {
+  Eigen::Vector3d point;                ///< [m] world
   Eigen::Vector3d projector_direction;  ///< unit, in which the light left the projector
   double reflected;                     ///< [1/m²] albedo · irradiance · transmittance, as radiance_dn() takes it
 };

@@ -51,6 +51,7 @@ NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& f
   for (const auto& [name, medium] : laboratory.liquids) {
     const JsonReader json(medium, file, "/liquids/" + name);
     model.liquids[name] = medium_from_json(json);
+    model.liquids[name].name = name;  // effects of a liquid go by its label
     require_index(json, model.liquids[name], model.rig.sensor.wavelength_nm);
   }
   return model;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/predict/cup_optics.h"
 #include "sim/render/radiance.h"
 #include "sim/render/truth.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/reading.h"
+#include "theory/raised_bottom.h"
 
 namespace fathom {
 namespace {
@@ -83,6 +85,42 @@ class Reader {
   double window_px_;
 };
 
+/// Samples lie where they lie, but a frame's noise spreads its points over many steps and millimetres. Of the law's
+/// depths, cut to whole millimetres, the cut is even over one, which is k steps: the mean cosine of that is sinc k.
+void set_combs(const std::vector<SensedPoint>& points, const SensorModel& sensor, FrameEstimates& estimates) {
+  estimates.step_comb.setZero();
+  estimates.millimetre_comb = sensor.quantized ? 1.0 : 0.0;
+  if (!sensor.quantized) return;
+  const Calibration believed = sensor.calibration();
+  double sum = 0.0, weight = 0.0;
+  for (const SensedPoint& sensed : points) {
+    const double steps =
+        8.0 * believed.focal_px * believed.baseline * kMetresPerMm / (sensed.point.z() * sensed.point.z());
+    sum += sensed.weight * std::sin(std::numbers::pi * steps) / (std::numbers::pi * steps);
+    weight += sensed.weight;
+  }
+  estimates.step_comb.x() = sum / weight;
+}
+
+/// In which direction light would have left the projector, if the raised bottom lay, by this share, where the paper's
+/// Eq. 7 has it for the bottom's point: that of the place at that height on the line of sight.
+Eigen::Vector3d by_closed_form(const Rig& rig, const LiquidLayer& liquid, const Ray& sight, const LitPoint& lit,
+                               double share) {
+  const auto depth = triangulated_depth(rig, sight.direction, lit.projector_direction);
+  if (!depth) return lit.projector_direction;
+  const double exact =
+      sight.origin.z() + *depth / rig.world_from_camera.linear().col(2).dot(sight.direction) * sight.direction.z();
+  const Eigen::Vector3d from_sensor = lit.point - 0.5 * (rig.camera_in_world() + rig.projector_in_world());
+  const double raised =
+      lit.point.z() +
+      theory::raised_height_at(
+          liquid.at - lit.point.z(),
+          {.h = -from_sensor.z(), .b = rig.sensor.baseline, .d = from_sensor.head<2>().norm(), .n = liquid.n});
+  const double height = std::lerp(exact, raised, share);
+  const Eigen::Vector3d place = sight.origin + (height - sight.origin.z()) / sight.direction.z() * sight.direction;
+  return (place - rig.projector_in_world()).normalized();
+}
+
 }  // namespace
 
 SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup) {
@@ -141,12 +179,17 @@ std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const Laborato
   const auto look_into_cup = [&](const Ray& sight) -> std::optional<Seen> {
     const auto lit = look_into(*cup, sight, projector);
     if (!lit) return std::nullopt;
-    return Seen{lit->projector_direction, lit->reflected};
+    const double share = setup.processing.bisector;
+    const bool reduced = share > 0.0 && cup->layers.size() == 1 && !cup->layers.front().opaque;
+    return Seen{reduced ? by_closed_form(setup.rig, cup->layers.front(), sight, *lit, share) : lit->projector_direction,
+                lit->reflected};
   };
   for (const Eigen::Vector2d& pixel : pixels.desk) add(read(pixel, pixels.desk_weight, look_at_desk));
   if (cup)
     for (const Eigen::Vector2d& pixel : pixels.cup) add(read(pixel, pixels.cup_weight, look_into_cup));
-  return estimate_frame(points, rig, {place, pixels.soft_m});
+  std::optional<FrameEstimates> estimates = estimate_frame(points, rig, {place, pixels.soft_m});
+  if (estimates) set_combs(points, setup.rig.sensor, *estimates);
+  return estimates;
 }
 
 }  // namespace fathom

@@ -20,7 +20,8 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
 /// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct
-/// light), walls' points. Nothing when no desk is seen. Throws Error for a clear cup or one of a glTF file.
+/// light), walls' points. Combs are those of even mixtures of steps. Nothing when no desk is seen. Throws Error for a
+/// clear cup or one of a glTF file.
 std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
                                               const std::optional<Eigen::Vector2d>& cup, const SampledPixels& pixels);
 

@@ -144,6 +144,56 @@ TEST_F(CampaignCommand, AFolderHoldsOneCampaign) {
   EXPECT_FALSE(fs::exists(folder / "out" / "clouds/000008.pcd"));
 }
 
+TEST_F(CampaignCommand, SessionsBeginWithTheBareDeskAndTheirTimeAtZero) {
+  Json spec = kSpec;
+  spec.update({{"sessions", 2}, {"bare_desk_views", 1}, {"distance_mm", {300}}, {"trials", 1}});
+  spec.update({{"frame_s", 2}, {"placement_s", 10}, {"pour_s", 60}});
+  ASSERT_EQ(campaign(spec, "out").exit_code, 0);
+  const Table frames = read_table(folder / "out" / "frames.csv");
+  const struct {
+    const char *session, *pour, *placement, *time_s, *liquid;
+  } expected[] = {{"0", "0", "0", "0", "none"}, {"0", "0", "0", "72", "empty"}, {"0", "1", "1", "144", "water"},
+                  {"1", "0", "0", "0", "none"}, {"1", "2", "2", "72", "empty"}, {"1", "3", "3", "144", "water"}};
+  ASSERT_EQ(frames.rows(), std::size(expected));
+  for (std::size_t row = 0; row < frames.rows(); ++row) {
+    EXPECT_EQ(frames.text(row, "frame"), std::to_string(row));
+    EXPECT_EQ(frames.text(row, "session"), expected[row].session) << row;
+    EXPECT_EQ(frames.text(row, "pour"), expected[row].pour) << row;
+    EXPECT_EQ(frames.text(row, "placement"), expected[row].placement) << row;
+    EXPECT_EQ(frames.text(row, "time_s"), expected[row].time_s) << row;
+    EXPECT_EQ(frames.text(row, "liquid"), expected[row].liquid) << row;
+  }
+  EXPECT_EQ(run_fathom("measure " + (folder / "out").string()).exit_code, 0);
+}
+
+TEST_F(CampaignCommand, EffectsAreInTheCloudsAndTheTruthAlone) {
+  Json spec = kSpec;
+  spec.update({{"distance_mm", {300}}, {"trials", 1}, {"fillings", {{{"liquid", "empty"}}}}});
+  ASSERT_EQ(campaign(spec, "plain").exit_code, 0);
+  spec["effects"] = {{{"name", "cup_bottom_height"}, {"height_mm", 5}}};
+  spec["rig_sigma"] = {{"height_mm", 0.5}};
+  const std::string model = (folder / "model.json").string(), truth = (folder / "truth.json").string();
+  write_json(model, {{"effects", {{{"name", "cup_bottom_height"}, {"height_mm", 3}}}}});
+  ASSERT_EQ(campaign(spec, "raised", "--model " + model + " --truth " + truth).exit_code, 0);
+  const auto height_mm = [&](const char* name) {
+    EXPECT_EQ(run_fathom("measure " + (folder / name).string()).exit_code, 0);
+    return read_table(folder / name / "heights.csv").number(0, "height_mm");
+  };
+  EXPECT_NEAR(height_mm("raised") - height_mm("plain"), 8.0, 0.4);  // steps of the depth, over some hundred points
+  EXPECT_EQ(read_json(truth)["effects"].size(), 3u);  // that of the spec, the model's, the sensor's height
+  const Json rig = read_json(folder / "raised" / "rig.json");
+  EXPECT_EQ(rig["sensor"]["sigma"]["height_mm"], 0.5);
+  EXPECT_EQ(rig["cup"], read_json(folder / "plain" / "rig.json")["cup"]);
+}
+
+TEST_F(CampaignCommand, ItsSchemaHasTheKeysOfItsReader) {
+  const std::string error = error_of(Json{{"no_such_key", 0}});
+  std::string keys;
+  const Json schema = read_json(data_directory() / "campaign_schema.json");
+  for (const auto& [key, value] : schema["properties"].items()) keys += (keys.empty() ? "" : ", ") + key;
+  EXPECT_EQ(error, "/no_such_key: unknown key 'no_such_key', choose from " + keys + "\n");
+}
+
 TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   const auto with = [](const std::string& pointer, const Json& value) {
     Json spec = kSpec;
@@ -171,6 +221,7 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   EXPECT_EQ(error_of(with("/distance_mm", Json::array())), "/distance_mm: must hold at least one length\n");
   EXPECT_EQ(error_of(with("/sensor/aim_mm", {50, 400, 0})),
             "/sensor/aim_mm: must lie straight ahead (x = 0, y ≥ 0): a measurement's rig knows no yaw\n");
+  EXPECT_EQ(error_of(with("/effects", {{{"name", "foma"}}})).rfind("/effects/0/name: unknown effect 'foma', ", 0), 0u);
   EXPECT_EQ(error_of(with("/liquids/empty", "water")), "/liquids/empty: is a reserved name and no liquid\n");
 }
 

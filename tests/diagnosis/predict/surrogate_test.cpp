@@ -4,24 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/units.h"
 #include "diagnosis/measurement/named_values.h"
-#include "diagnosis/predict/nominal_model.h"
 #include "sim/effects/effects_json.h"
 #include "sim/sensor/capture.h"
+#include "tests/diagnosis/predict/paper_laboratory.h"
 
 namespace fathom {
 namespace {
-
-LaboratoryRig paper_laboratory() {
-  LaboratoryRig rig;
-  rig.sensor_model = "xtion_pro_live";
-  rig.height_m = 0.650;
-  rig.pitch_rad = radians_from_deg(58.4);
-  rig.focal_px = 1200.0 / (2 * 1.052);
-  rig.liquids = {{"water", "water"}, {"milk", {{"index", 1.336}, {"scattering_per_mm", 1000.0}}}};
-  return rig;
-}
 
 struct Case {
   const char* liquid;

@@ -1,0 +1,144 @@
+// What a measurement directory must be, and what its clouds say.
+#include "diagnosis/measurement/read_measurement.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/cloud_file.h"
+#include "core/files.h"
+#include "core/units.h"
+#include "tests/core/expect_error.h"
+#include "tests/core/temporary_folder.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHeader = "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud";
+constexpr double kHeight = 0.650, kFocal = 570.342, kPitchDeg = 58.4;
+
+/// A desk whose camera stands `height` above it, and in it a disc of the radius 40 mm at (37.5 mm, 300 mm) of the
+/// camera's foot that rises to `disc` + `slope` · y: what an ideal sensor sees of a cup without walls.
+Image<CloudPoint> ideal_cloud(double height, double disc, double slope = 0.0, float scale = 1.0f) {
+  const double pitch = radians_from_deg(kPitchDeg);
+  Image<CloudPoint> cloud(640, 480);
+  for (int y = 0; y < 480; ++y)
+    for (int x = 0; x < 640; ++x) {
+      const double u = (x + 0.5 - 320.0) / kFocal, v = (y + 0.5 - 240.0) / kFocal;
+      // Ahead and down per unit of depth.
+      const double ahead = std::cos(pitch) - v * std::sin(pitch), down = std::sin(pitch) + v * std::cos(pitch);
+      double z = height / down;
+      const double in_disc = (height - disc + slope * 0.3) / (down + slope * ahead);
+      if (std::hypot(in_disc * u - 0.0375, in_disc * ahead - 0.3) < 0.040) z = in_disc;
+      cloud(x, y) = {scale * static_cast<float>(z * u), scale * static_cast<float>(z * v),
+                     scale * static_cast<float>(z), 100.0f};
+    }
+  return cloud;
+}
+
+struct MeasurementFolder : testing::Test {
+  TemporaryFolder folder;
+
+  void SetUp() override {
+    make_directory(folder / "clouds");
+    write_text(folder / "rig.json",
+               fmt::format(R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": {}}},
+                   "cup": {{}}, "liquids": {{"water": "water"}}}})",
+                           kPitchDeg));
+    write_pcd(folder / "clouds/a.pcd", ideal_cloud(kHeight, 0.020));
+    write_pcd(folder / "clouds/b.pcd", ideal_cloud(kHeight + 0.001, 0.022));
+    write_pcd(folder / "clouds/tilted.pcd", ideal_cloud(kHeight, 0.020, 0.1));
+    write_pcd(folder / "clouds/mm.pcd", ideal_cloud(kHeight, 0.020, 0.0, 1000.0f));
+  }
+  Measurement read(const std::string& rows, const std::string& header = kHeader) {
+    write_text(folder / "frames.csv", header + "\n" + rows);
+    return read_measurement(folder / "");
+  }
+  void expect_refused(const std::string& rows, const std::string& what, const std::string& header = kHeader) {
+    expect_error([&] { read(rows, header); }, {(folder / "frames.csv").string() + ": " + what});
+  }
+};
+
+const Observation* find(const Measurement& measurement, const char* observable, const char* region) {
+  for (const Observation& observation : measurement.observations)
+    if (observation.observable == observable && observation.factors.region == region) return &observation;
+  return nullptr;
+}
+
+TEST_F(MeasurementFolder, HeightsAreThoseOfTheRegionsOverTheTrials) {
+  const Measurement measurement = read(
+      "0,0,3,5,0,10,water,20,300,0,clouds/a.pcd\n"
+      "1,0,3,5,1,14,water,20,300,0,clouds/b.pcd\n");
+  constexpr double kRounding = 2e-3;  // mm: clouds are of floats, and pixels step over a region's border
+  for (const char* region : {"centre", "near", "far", "left", "right"}) {
+    const Observation* height = find(measurement, "height_mm", region);
+    ASSERT_TRUE(height) << region;
+    EXPECT_NEAR(height->value, 21.0, kRounding) << region;
+    EXPECT_NEAR(height->repeat_sd, std::sqrt(2.0), kRounding) << region;
+    EXPECT_EQ(height->repeats, 2);
+    EXPECT_EQ(height->factors.time_s, 12.0);
+    EXPECT_EQ(height->factors.pour, 3);
+    EXPECT_EQ(height->factors.placement, 5);
+  }
+  EXPECT_NEAR(find(measurement, "desk_height_mm", "desk")->value, 650.5, kRounding);
+  EXPECT_NEAR(find(measurement, "desk_pitch_deg", "desk")->value, kPitchDeg, 1e-4);
+  EXPECT_NEAR(find(measurement, "desk_roll_deg", "desk")->value, 0.0, 1e-4);
+  EXPECT_NEAR(find(measurement, "desk_residual_mm", "middle")->value, 0.0, kRounding);
+  EXPECT_EQ(find(measurement, "valid_fraction", "interior")->value, 1.0);
+  EXPECT_NEAR(find(measurement, "ir_ratio", "interior")->value, 1.0, 1e-6);
+  EXPECT_NEAR(find(measurement, "ir_contrast", "desk")->value, 0.0, 1e-6);
+  EXPECT_LT(find(measurement, "comb_strength", "desk")->value, 0.05);  // even depths have no comb
+}
+
+TEST_F(MeasurementFolder, RegionsAreTurnedAsTheirNamesSay) {
+  const Measurement measurement = read("0,0,0,0,0,0,water,20,300,0,clouds/tilted.pcd\n");
+  // Rises by a tenth away from the sensor: the sectors' centroids are 21.0 mm from the axis.
+  constexpr double kPixels = 0.15;  // mm: a pixel is 1.3 mm, a sector some 20 wide
+  EXPECT_NEAR(find(measurement, "height_mm", "far")->value, 22.1, kPixels);
+  EXPECT_NEAR(find(measurement, "height_mm", "near")->value, 17.9, kPixels);
+  EXPECT_NEAR(find(measurement, "height_mm", "left")->value, 20.0, kPixels);
+  EXPECT_NEAR(find(measurement, "height_mm", "right")->value, 20.0, kPixels);
+}
+
+TEST_F(MeasurementFolder, ABareDeskHasNoCup) {
+  const Measurement measurement = read("0,0,0,0,0,0,none,0,0,0,clouds/a.pcd\n");
+  EXPECT_TRUE(find(measurement, "desk_height_mm", "desk"));
+  EXPECT_FALSE(find(measurement, "height_mm", "centre"));
+}
+
+TEST_F(MeasurementFolder, ATableOfHeightsWorksAndSaysWhatItLacks) {
+  const Measurement measurement =
+      read("0,0,0,0,0,0,water,20,300,0,,12.5\n1,0,0,0,1,1,water,20,300,0,,12.7\n", kHeader + std::string(",height_mm"));
+  ASSERT_EQ(measurement.observations.size(), 1u);
+  EXPECT_EQ(measurement.observations[0].factors.region, "interior");
+  EXPECT_NEAR(measurement.observations[0].value, 12.6, 1e-12);
+  ASSERT_EQ(measurement.notes.size(), 1u);
+  EXPECT_EQ(measurement.notes[0].rfind("2 of 2 frames have a height and no cloud", 0), 0u);
+}
+
+TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
+  expect_refused("", "has no frames below its header");
+  expect_refused("0,0\n", "line 1: has no column 'session'", "frame,liquid");
+  expect_refused("0,0,0,0,0,0,wine,0,300,0,clouds/a.pcd\n",
+                 "line 2, column 'liquid': unknown liquid 'wine', choose from empty, none, water");
+  expect_refused("0,0,0.5,0,0,0,water,0,300,0,clouds/a.pcd\n",
+                 "line 2, column 'pour': must be a whole number from 0, got '0.5'");
+  expect_refused("0,0,0,0,0,0,water,0,300,0,clouds/none.pcd\n", "line 2, column 'cloud': there is no file ");
+  expect_refused("0,0,0,0,0,0,water,20,0.3,0,clouds/a.pcd\n", "line 2, column 'distance_mm': must be in mm, got '0.3'");
+  expect_refused("0,0,0,0,0,0,water,200,300,0,clouds/a.pcd\n",
+                 "line 2, column 'fill_mm': must be from 0 to 80, the depth of the cup, got '200'");
+  expect_refused("0,0,0,0,0,0,water,20,300,0,,nan\n", "line 2, column 'height_mm': must be a finite number, got 'nan'",
+                 kHeader + std::string(",height_mm"));
+  expect_refused(
+      "0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/mm.pcd\n",
+      "line 3, column 'cloud': " + (folder / "clouds/mm.pcd").string() + ": must be in metres: a point lies ");
+  write_text(folder / "clouds/bad.pcd", "hello\n");
+  expect_refused("0,0,0,0,0,0,water,20,300,0,clouds/bad.pcd\n",
+                 "line 2, column 'cloud': " + (folder / "clouds/bad.pcd").string() + ": is neither PCD nor PLY");
+}
+
+}  // namespace
+}  // namespace fathom
