@@ -115,7 +115,7 @@ Json rig_errors(const CampaignSpec& spec, std::uint64_t seed) {
     const char *key, *effect, *parameter;
   };
   constexpr std::array kErrors{RigError{"height_mm", "sensor_height", "height_mm"},
-                               Error{"pitch_deg", "sensor_pitch", "pitch_deg"},
+                               RigError{"pitch_deg", "sensor_pitch", "pitch_deg"},
                                RigError{"roll_deg", "sensor_roll", "roll_deg"},
                                RigError{"baseline_mm", "baseline", "baseline_mm"},
                                RigError{"focal_px", "focal_length", "focal_px"},

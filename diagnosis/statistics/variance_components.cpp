@@ -153,7 +153,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     Eigen::VectorXd standard_errors = variances;
     const Eigen::MatrixXd known_left = contrasts.transpose() * known(rows, rows) * contrasts / scale;
     const Eigen::MatrixXd floor = 1e-9 * Eigen::MatrixXd::Identity(left.size(), left.size());
-    fit(left / std::sqrt(scale), known_left + floor, shapes, variances, standard_errors);
+    if (!shapes.empty()) fit(left / std::sqrt(scale), known_left + floor, shapes, variances, standard_errors);
     for (std::size_t k = 0; k < components.size(); ++k) {
       components[k].variance = scale * variances[static_cast<Eigen::Index>(k)];
       components[k].standard_error = scale * standard_errors[static_cast<Eigen::Index>(k)];

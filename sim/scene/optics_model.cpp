@@ -6,11 +6,14 @@ namespace fathom {
 
 Eigen::Vector2d OpticsModel::undistorted(const Eigen::Vector2d& seen_at) const {
   // Fixed point: for the distortions that are allowed each round leaves less than a third of the error.
-  constexpr int kRounds = 20;
+  constexpr int kRounds = 40;
+  constexpr double kExact = 1e-16;
   Eigen::Vector2d direction = seen_at;
   for (int round = 0; round < kRounds; ++round) {
     const double squared = direction.squaredNorm();
-    direction = seen_at / (1.0 + squared * (camera_k1 + squared * camera_k2));
+    const Eigen::Vector2d next = seen_at / (1.0 + squared * (camera_k1 + squared * camera_k2));
+    if ((next - direction).squaredNorm() <= kExact * kExact) return next;
+    direction = next;
   }
   return direction;
 }
