@@ -8,11 +8,12 @@
 namespace fathom {
 
 std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
-  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0;  // pixels; fewer are no evidence
+  // Pixels; fewer are no evidence, and of a region no more than the edge of a shadow.
+  constexpr double kFewestInside = 10.0, kFewestInRegion = 60.0, kFewestOnDesk = 100.0;
   constexpr std::string_view kDesk = "desk";
   std::vector<NamedValue> values;
   for (std::size_t i = 0; i < estimates.height.size(); ++i)
-    if (estimates.height[i].weight >= kFewestInside)
+    if (estimates.height[i].weight >= kFewestInRegion)
       values.push_back({"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean)});
   if (estimates.interior.weight >= kFewestInside) {
     values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});

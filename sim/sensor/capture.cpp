@@ -41,7 +41,8 @@ void misread(const SensorModel& sensor, std::uint64_t frame, Image<float>& dispa
     if (value > 0.0f) value = static_cast<float>(std::max(read_disparity(sensor, error, value), 0.0));
 }
 
-/// Every disparity becomes the mean of those in a square of this width [px] around it that are of its own surface.
+/// Every disparity becomes the mean of those in a square of this width [px] around it that are of its own surface; at
+/// the image's border of a narrower one, as a one-sided mean would be that of another place.
 void average(double width_px, Image<float>& disparity) {
   const int reach = static_cast<int>(std::lround(0.5 * (width_px - 1.0)));
   if (reach < 1) return;
@@ -50,10 +51,11 @@ void average(double width_px, Image<float>& disparity) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < own.width(); ++x) {
         if (own(x, y) <= 0.0f) continue;
+        const int across = std::min({reach, x, own.width() - 1 - x}), down = std::min({reach, y, own.height() - 1 - y});
         double sum = 0.0;
         int known = 0;
-        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, own.height() - 1); ++v)
-          for (int u = std::max(x - reach, 0); u <= std::min(x + reach, own.width() - 1); ++u)
+        for (int v = y - down; v <= y + down; ++v)
+          for (int u = x - across; u <= x + across; ++u)
             if (own(u, v) > 0.0f && std::abs(own(u, v) - own(x, y)) < kOneSurfacePx) sum += own(u, v), ++known;
         disparity(x, y) = static_cast<float>(sum / known);
       }
