@@ -155,7 +155,9 @@ struct ModelError {
   bool by_liquid;
 };
 constexpr std::array kModelErrors{
-    ModelError{"height_mm", 0.05, true},          // against whole frames
+    ModelError{"height_mm", 0.05, true},        // against whole frames
+    ModelError{"desk_height_mm", 0.05, false},  // against whole frames
+    ModelError{"desk_pitch_deg", 0.005, false},  ModelError{"desk_roll_deg", 0.005, false},
     ModelError{"desk_residual_mm", 0.10, false},  // a matcher's bias by place; a Kinect's desk has -0.3 to 0.7 mm
     ModelError{"comb_strength", 0.05, false},     // depths are no even mixture of steps
     ModelError{"millimetre_comb", 0.02, false}};
