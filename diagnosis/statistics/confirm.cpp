@@ -93,7 +93,8 @@ double sign_flip(const std::vector<Observation>& observations, const Covariance&
 }  // namespace
 
 std::vector<Confirmation> confirm(const std::vector<Observation>& observations, const Covariance& covariance,
-                                  const LinearFit& fit, const Eigen::MatrixXd& draws, double dof, std::uint64_t seed) {
+                                  const LinearFit& fit, const Eigen::MatrixXd& draws, const std::vector<double>& dof,
+                                  std::uint64_t seed) {
   const std::vector<int> folds = deal_folds(observations, seed);
   const std::size_t effects = fit.columns.size();
   std::vector<Confirmation> result(effects);
@@ -118,7 +119,7 @@ std::vector<Confirmation> confirm(const std::vector<Observation>& observations, 
     const Eigen::VectorXd z = sums[e] / std::sqrt(weights[e]);
     const Eigen::VectorXd null = z.tail(draws.cols());
     const double sd = std::sqrt((null.array() - null.mean()).square().mean());
-    result[e].p = student_tail((z[0] - null.mean()) / sd, dof);
+    result[e].p = student_tail((z[0] - null.mean()) / sd, dof[e]);
   }
 
   const Eigen::MatrixXd none(fit.residual.size(), 0);

@@ -27,9 +27,10 @@ struct Confirmation {
 /// For each effect. Thirds of the condition groups take turns: on two the effects are fitted (discovery), on the third
 /// each effect is tested along the fitted shape with the others free (confirmation), and the three z are put together
 /// by their information. `draws`: pseudo-experiments, not whitened, that say how wide this sum is when nothing is
-/// there; `dof` is that of their tails.
+/// there; `dof` of each effect's variance.
 std::vector<Confirmation> confirm(const std::vector<Observation>& observations, const Covariance& covariance,
-                                  const LinearFit& fit, const Eigen::MatrixXd& draws, double dof, std::uint64_t seed);
+                                  const LinearFit& fit, const Eigen::MatrixXd& draws, const std::vector<double>& dof,
+                                  std::uint64_t seed);
 
 /// Fits of the parameters without some rows, with everything needed to predict these: for gaps on held-out groups.
 struct HeldOut {

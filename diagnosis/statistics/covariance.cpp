@@ -1,5 +1,6 @@
 #include "diagnosis/statistics/covariance.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -37,12 +38,21 @@ void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
       for (const auto j : members) covariance(i, j) += component.variance;
 }
 
-/// A variance that the data might as well have come from: scaled inverse χ² where it is known to a few degrees of
-/// freedom, half a normal where it is hardly above 0.
-double redrawn(const VarianceComponent& component, Rng& rng) {
-  const double dof = 2.0 * std::pow(component.variance / std::max(component.standard_error, 1e-300), 2.0);
-  if (dof > 4.0) return component.variance * dof / rng.gamma(0.5 * dof, 2.0);
-  return std::max(0.0, component.variance + component.standard_error * rng.normal());
+/// Variances that the data might as well have come from.
+Eigen::VectorXd redrawn(const ObservableErrors& errors, const Eigen::MatrixXd& root, Rng& rng) {
+  Eigen::VectorXd variances(root.rows());
+  Eigen::VectorXd normals(root.cols());
+  for (double& normal : normals) normal = rng.normal();
+  variances = root * normals;
+  for (Eigen::Index k = 0; k < variances.size(); ++k)
+    variances[k] = std::max(0.0, variances[k] + errors.components[k].variance);
+  return variances;
+}
+
+/// R with R Rᵀ = a covariance that may be singular.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 }  // namespace
@@ -59,7 +69,8 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
   covariance.total = covariance.nuisance * covariance.nuisance.transpose();
   covariance.total.diagonal() += repeats + covariance.numerical_variance;
   covariance.errors = estimate_errors(evidence, residual, covariance.total, repeats);
-  for (const VarianceComponent& component : covariance.errors.components) add(component, covariance.total);
+  for (const ObservableErrors& errors : covariance.errors.observables)
+    for (const VarianceComponent& component : errors.components) add(component, covariance.total);
   covariance.factor.compute(covariance.total);
   return covariance;
 }
@@ -68,22 +79,51 @@ Eigen::MatrixXd part(const Covariance& covariance, const std::vector<Eigen::Inde
   return covariance.total(rows, rows);
 }
 
+Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::MatrixXd& columns) {
+  constexpr double kMost = 1e4;
+  const Eigen::MatrixXd weights = covariance.factor.matrixU().solve(columns);
+  const Eigen::VectorXd total = columns.colwise().squaredNorm().transpose().array().max(1e-300);
+  const Eigen::VectorXd from_priors = (covariance.nuisance.transpose() * weights).colwise().squaredNorm();
+  // Variance of the variance, relative to its square.
+  Eigen::ArrayXd relative = 2.0 / kPriorDof * (from_priors.array() / total.array()).square();
+  for (const ObservableErrors& errors : covariance.errors.observables) {
+    Eigen::MatrixXd shares(static_cast<Eigen::Index>(errors.components.size()), columns.cols());
+    for (std::size_t k = 0; k < errors.components.size(); ++k) {
+      const Groups& groups = errors.components[k].groups;
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(groups.count, columns.cols());
+      for (Eigen::Index i = 0; i < weights.rows(); ++i)
+        if (const int group = groups.of[i]; group >= 0) sums.row(group) += weights.row(i);
+      shares.row(static_cast<Eigen::Index>(k)) = sums.colwise().squaredNorm().array() / total.transpose().array();
+    }
+    if (shares.rows() > 0)
+      relative += shares.cwiseProduct(errors.covariance * shares).colwise().sum().transpose().array();
+  }
+  return (2.0 / relative.max(2.0 / kMost)).max(3.0).matrix();
+}
+
 Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std::uint64_t seed) {
   const Eigen::Index n = covariance.total.rows();
   const Eigen::VectorXd independent = (covariance.errors.repeat_variance + covariance.numerical_variance).cwiseSqrt();
   Eigen::MatrixXd nuisances(covariance.nuisance.cols(), draws);
   Eigen::MatrixXd residuals(n, draws);
+  std::vector<Eigen::MatrixXd> roots;
+  for (const ObservableErrors& errors : covariance.errors.observables) roots.push_back(root_of(errors.covariance));
   for (int draw = 0; draw < draws; ++draw) {
     Rng rng(seed, draw);
     const double prior_scale = std::sqrt(kPriorDof / rng.gamma(0.5 * kPriorDof, 2.0));
     for (Eigen::Index k = 0; k < nuisances.rows(); ++k) nuisances(k, draw) = prior_scale * rng.normal();
     for (Eigen::Index i = 0; i < n; ++i) residuals(i, draw) = independent[i] * rng.normal();
-    for (const VarianceComponent& component : covariance.errors.components) {
-      const double sd = std::sqrt(redrawn(component, rng));
-      std::vector<double> shared(component.groups.count);
-      for (double& value : shared) value = sd * rng.normal();
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (const int group = component.groups.of[i]; group >= 0) residuals(i, draw) += shared[group];
+    for (std::size_t o = 0; o < covariance.errors.observables.size(); ++o) {
+      const ObservableErrors& errors = covariance.errors.observables[o];
+      const Eigen::VectorXd variances = redrawn(errors, roots[o], rng);
+      for (std::size_t k = 0; k < errors.components.size(); ++k) {
+        const Groups& groups = errors.components[k].groups;
+        const double sd = std::sqrt(variances[static_cast<Eigen::Index>(k)]);
+        std::vector<double> shared(groups.count);
+        for (double& value : shared) value = sd * rng.normal();
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (const int group = groups.of[i]; group >= 0) residuals(i, draw) += shared[group];
+      }
     }
   }
   residuals += covariance.nuisance * nuisances;

@@ -28,6 +28,10 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
 /// The covariance among some of the observations.
 Eigen::MatrixXd part(const Covariance& covariance, const std::vector<Eigen::Index>& rows);
 
+/// How well the variance along each whitened column is known, as degrees of freedom (Satterthwaite 1946): that of the
+/// variance components and of the priors, each by its share in it.
+Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::MatrixXd& columns);
+
 /// Residuals (n × draws, whitened) of campaigns in which the model is right. The covariance is not known exactly: each
 /// draw has its own variance components, within what the data allow, and its own scale of the priors, within what
 /// laboratories know of their σ.

@@ -45,7 +45,8 @@ struct Case {
   Problem problem;
   Eigen::MatrixXd draws;  ///< whitened
   GapShapes shapes;
-  MaximumTail discovery;
+  std::vector<CandidateSpace> spaces;
+  MaximumTail discovery, scan;
 };
 
 Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
@@ -55,12 +56,13 @@ Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
 }
 
 Case prepare(const Evidence& evidence, const Predict& predict, const DecisionSettings& settings) {
-  Case c{evidence, predict, settings, estimate_covariance(evidence, measured_minus_predicted(evidence)),
-         {},       {},      {},       {}};
+  Case c{evidence, predict, settings, estimate_covariance(evidence, measured_minus_predicted(evidence)), {}, {}, {},
+         {},       {},      {}};
   c.problem = whitened_problem(evidence, c.covariance);
   c.draws = pseudo_experiments(c.covariance, settings.pseudo_experiments, settings.seed);
   c.shapes = gap_shapes(evidence, c.covariance);
-  c.discovery = discovery_tail(c.problem, c.draws);
+  c.spaces = candidate_spaces(c.problem, c.covariance);
+  c.discovery = discovery_tail(c.spaces, c.draws);
   return c;
 }
 
@@ -120,42 +122,38 @@ LinearFit linear_fit(const Case& c, const Refit& fit) {
 
 /// Whether some main stratum becomes significantly worse, by more than its u_val.
 bool worsens(const Case& c, const Refit& fit) {
-  const MaximumTail tail = fit_maximum((c.shapes.stratum_columns.colwise().normalized().transpose() * c.draws)
-                                           .cwiseAbs()
-                                           .colwise()
-                                           .maxCoeff()
-                                           .transpose());
   for (std::size_t k = 0; k < c.shapes.strata.size(); ++k) {
-    const Eigen::VectorXd column = c.shapes.stratum_columns.col(static_cast<Eigen::Index>(k)).normalized();
-    const double before = std::abs(column.dot(c.problem.residual));
-    const double after = std::abs(column.dot(c.problem.residual - fit.prediction));
-    if (c.shapes.strata[k].is_main && after > before + 1.0 && tail.p(after) < c.settings.p_gap) return true;
+    const auto column = static_cast<Eigen::Index>(k);
+    const Eigen::VectorXd direction = c.shapes.stratum_columns.col(column).normalized();
+    const double before = std::abs(direction.dot(c.problem.residual));
+    const double after = std::abs(direction.dot(c.problem.residual - fit.prediction));
+    const double p_after = c.scan.p(normal_score(after, c.shapes.stratum_dof[column]));
+    if (c.shapes.strata[k].is_main && after > before + 1.0 && p_after < c.settings.p_gap) return true;
   }
   return false;
 }
 
 /// The effects of a fit with their evidence, if all of them pass all tests.
 std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit) {
-  const std::vector<double> z = z_beside_others(c.problem, fit.hypothesis, fit.jacobian);
+  const std::vector<EffectSize> sizes = sizes_beside_others(c.problem, c.covariance, fit.hypothesis, fit.jacobian);
   // A set of which no effect shows alone was one of many sets, not of many effects.
   const double sets = static_cast<double>(c.problem.columns.size());
   bool shows_alone = false;
-  for (const int effect : fit.hypothesis.effects) {
-    const Eigen::MatrixXd basis = orthonormal(c.problem.signatures(Eigen::all, c.problem.columns[effect]));
-    const double alone = equivalent_z((basis.transpose() * c.problem.residual).squaredNorm(), basis.cols());
-    shows_alone |= c.discovery.p(alone) < c.settings.p_discovery;
-  }
-  std::vector<NamedEffect> effects(z.size());
-  for (std::size_t e = 0; e < z.size(); ++e) {
+  for (const int effect : fit.hypothesis.effects)
+    shows_alone |= c.discovery.p(z_alone(c.spaces[effect], c.problem.residual)) < c.settings.p_discovery;
+  std::vector<NamedEffect> effects(sizes.size());
+  for (std::size_t e = 0; e < sizes.size(); ++e) {
     effects[e].name = c.evidence.candidates[fit.hypothesis.effects[e]].effect;
-    effects[e].p_discovery = std::min(1.0, c.discovery.p(z[e]) * (shows_alone ? 1.0 : sets));
+    effects[e].p_discovery = std::min(1.0, c.discovery.p(sizes[e].z) * (shows_alone ? 1.0 : sets));
     if (effects[e].p_discovery >= c.settings.p_discovery) return std::nullopt;
   }
+  std::vector<double> dof;
+  for (const EffectSize& size : sizes) dof.push_back(size.dof);
   const Eigen::MatrixXd draws =
       c.covariance.factor.matrixL() * c.draws.leftCols(std::min<Eigen::Index>(kConfirmationDraws, c.draws.cols()));
   const std::vector<Confirmation> confirmations =
-      confirm(c.evidence.observations, c.covariance, linear_fit(c, fit), draws, c.discovery.dof, c.settings.seed);
-  for (std::size_t e = 0; e < z.size(); ++e) {
+      confirm(c.evidence.observations, c.covariance, linear_fit(c, fit), draws, dof, c.settings.seed);
+  for (std::size_t e = 0; e < sizes.size(); ++e) {
     const Confirmation& confirmation = confirmations[e];
     effects[e].p_confirmation = confirmation.p;
     effects[e].p_sign_flip = confirmation.p_sign_flip;
@@ -265,7 +263,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::ve
   Diagnosis diagnosis;
   diagnosis.missing = missing_for_diagnosis(evidence);
   if (!diagnosis.missing.empty()) return diagnosis;
-  const Case c = prepare(evidence, predict, settings);
+  Case c = prepare(evidence, predict, settings);
   const Eigen::Index n = c.problem.residual.size();
   diagnosis.warnings = hygiene_warnings(evidence, c.covariance);
   if (!c.covariance.errors.from_replicates)
@@ -277,8 +275,9 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::ve
 
   const GapTest gap = gap_test(c.shapes, c.problem.residual, c.draws, Eigen::MatrixXd(n, 0));
   diagnosis.p_gap = gap.p;
-  diagnosis.where =
-      locate(c.shapes.strata, c.shapes.stratum_columns, c.problem.residual, gap.scan_tail, settings.p_confirmation);
+  c.scan = gap.scan_tail;
+  diagnosis.where = locate(c.shapes.strata, c.shapes.stratum_columns, c.shapes.stratum_dof, c.problem.residual,
+                           gap.scan_tail, settings.p_confirmation);
 
   const std::vector<Refit> all = fits(c);
   std::vector<Option> options = options_of(c, all);
@@ -312,10 +311,8 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::ve
   diagnosis.unknown.p = p_rest;
 
   measure_gaps(c, fit, diagnosis);
-  const double threshold = settings.p_discovery;
-  double z = 0.0;
-  while (c.discovery.p(z) > threshold) z += 0.01;
-  diagnosis.upper_limits = upper_limits(evidence, c.problem, fit.hypothesis.effects, left, explained, z);
+  diagnosis.upper_limits = upper_limits(evidence, c.problem, fit.hypothesis.effects, left, explained,
+                                        c.discovery.quantile(settings.p_discovery));
   if (choice && diagnosis.verdict != Verdict::unknown) {
     add_parameters(c, *choice);
     diagnosis.effects = choice->effects;

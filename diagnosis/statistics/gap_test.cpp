@@ -57,8 +57,13 @@ Eigen::VectorXd sum_of_squares(const Eigen::MatrixXd& projected, const Eigen::Ma
   return projected.colwise().squaredNorm();
 }
 
-Eigen::VectorXd largest(const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) {
-  return projected.cwiseAbs().colwise().maxCoeff();
+/// Largest |z| in each column, each row with its own degrees of freedom.
+Eigen::VectorXd largest(const Eigen::MatrixXd& projected, const Eigen::VectorXd& dof) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(projected.cols());
+  for (Eigen::Index draw = 0; draw < projected.cols(); ++draw)
+    for (Eigen::Index k = 0; k < projected.rows(); ++k)
+      result[draw] = std::max(result[draw], normal_score(projected(k, draw), dof[k]));
+  return result;
 }
 
 /// p of the data, and z for every draw as if it were the data: what joins tests of different kinds.
@@ -76,6 +81,7 @@ GapShapes gap_shapes(const Evidence& evidence, const Covariance& covariance) {
   GapShapes shapes;
   shapes.strata = list_strata(evidence.observations);
   shapes.stratum_columns = stratum_columns(shapes.strata, covariance);
+  shapes.stratum_dof = degrees_of_freedom(covariance, shapes.stratum_columns);
   shapes.smooth_factor = smooth_factor(evidence, covariance);
   shapes.smooth = covariance.whiten(shapes.smooth_factor);
   shapes.cells = cell_space(evidence, covariance);
@@ -97,7 +103,9 @@ GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const
   const auto quadratic = [&](const Statistic& s) { return calibrate(s, fit_quadratic(s.draws), largest_z, data_z); };
   test.p_strata = quadratic(statistic(orthonormal(strata(Eigen::all, main_effects)), left, draws_left, sum_of_squares));
   test.p_smooth = quadratic(statistic(without(shapes.smooth, explained), left, draws_left, sum_of_squares));
-  const Statistic scan = statistic(strata, left, draws_left, largest);
+  const Statistic scan = statistic(
+      strata, left, draws_left,
+      [&](const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) { return largest(projected, shapes.stratum_dof); });
   test.scan_tail = fit_maximum(scan.draws);
   test.p_scan = calibrate(scan, test.scan_tail, largest_z, data_z);
   if (shapes.cells.cols() > 0) {
@@ -111,7 +119,7 @@ GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const
                                  ((squares - explained_squares).array() / within));
         }));
   }
-  test.p = fit_maximum(largest_z.cwiseMax(0.0)).p(std::max(data_z, 0.0));
+  test.p = fit_maximum(largest_z).p(data_z);
   return test;
 }
 

@@ -16,6 +16,7 @@ namespace fathom {
 struct GapShapes {
   std::vector<Stratum> strata;
   Eigen::MatrixXd stratum_columns;  ///< of all strata
+  Eigen::VectorXd stratum_dof;      ///< of their variances
   Eigen::MatrixXd smooth_factor;    ///< not whitened
   Eigen::MatrixXd smooth;
   Eigen::MatrixXd cells;  ///< orthonormal span of the cells' means; empty where hardly any cell is repeated

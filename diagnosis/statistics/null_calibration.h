@@ -12,12 +12,18 @@ struct QuadraticTail {
 };
 QuadraticTail fit_quadratic(const Eigen::VectorXd& draws);
 
-/// The largest of many correlated |z|, as if there were `tests` independent ones of Student's t: the trials factor of
-/// Gross & Vitells (2010), with tails as thick as an uncertain covariance makes them.
+/// The largest of many correlated normals, as if there were `tests` independent ones: the trials factor of Gross &
+/// Vitells (2010).
 struct MaximumTail {
-  double tests = 1.0, dof = 1e3;
+  double tests = 1.0;
   double p(double statistic) const;
+  /// The statistic that has this p.
+  double quantile(double p) const;
 };
 MaximumTail fit_maximum(const Eigen::VectorXd& draws);
+
+/// The standard normal |z| with the tail that Student's |t| of `dof` degrees of freedom has (Wallace 1959; within 0.01
+/// from 5 degrees of freedom on).
+double normal_score(double t, double dof);
 
 }  // namespace fathom

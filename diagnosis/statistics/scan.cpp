@@ -66,7 +66,8 @@ Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covari
 }
 
 std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                Eigen::VectorXd residual, const MaximumTail& tail, double level) {
+                                const Eigen::VectorXd& dof, Eigen::VectorXd residual, const MaximumTail& tail,
+                                double level) {
   std::vector<GapLocation> result;
   Eigen::MatrixXd left = columns;
   const Eigen::VectorXd full = columns.colwise().squaredNorm();
@@ -76,13 +77,13 @@ std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen:
     Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
     z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
     Eigen::Index best = 0;
-    const double largest = z.cwiseAbs().maxCoeff(&best);
+    const double largest = z.binaryExpr(dof, &normal_score).maxCoeff(&best);
     const double p = tail.p(largest);
     if (p >= level) break;
     const Stratum& stratum = strata[best];
     const double sigma = 1.0 / std::sqrt(squares[best]);
     result.push_back(
-        {stratum.observable, stratum.name, z[best] * sigma, sigma, std::min(1.0, largest * largest / gap), p});
+        {stratum.observable, stratum.name, z[best] * sigma, sigma, std::min(1.0, z[best] * z[best] / gap), p});
     const Eigen::VectorXd direction = left.col(best).normalized();
     residual -= direction * direction.dot(residual);
     left -= direction * (direction.transpose() * left);

@@ -27,8 +27,10 @@ std::vector<Stratum> list_strata(const std::vector<Observation>& observations);
 Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covariance& covariance);
 
 /// Strata with a significant mean, one after the other: the most significant is taken out before the next is sought
-/// (so a main effect does not return as ten interactions), until none has p < `level` by `tail`.
+/// (so a main effect does not return as ten interactions), until none has p < `level` by `tail`. `dof` is that of the
+/// columns' variances.
 std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                Eigen::VectorXd residual, const MaximumTail& tail, double level);
+                                const Eigen::VectorXd& dof, Eigen::VectorXd residual, const MaximumTail& tail,
+                                double level);
 
 }  // namespace fathom

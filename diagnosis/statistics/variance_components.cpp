@@ -29,7 +29,7 @@ std::vector<VarianceComponent> candidates_of(const std::string& observable,
       return level == ErrorLevel::observation ? std::to_string(row) : key(o);
     });
     const bool is_known = !result.empty() && result.back().groups.count == groups.count;
-    if (groups.count >= 2 && !is_known) result.push_back({observable, level, 0.0, 0.0, std::move(groups)});
+    if (groups.count >= 2 && !is_known) result.push_back({observable, level, 0.0, std::move(groups)});
   };
   add(ErrorLevel::observation, cell_key);
   add(ErrorLevel::placement, placement_key);
@@ -47,10 +47,11 @@ Eigen::MatrixXd shared(const Groups& groups, const std::vector<Eigen::Index>& ro
   return sums.transpose() * sums;
 }
 
-/// Fisher scoring from `variances`, which stay at 0 or above. Sets the standard errors, too.
-void fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known, const std::vector<Eigen::MatrixXd>& shapes,
-         Eigen::VectorXd& variances, Eigen::VectorXd& standard_errors) {
+/// Fisher scoring from `variances`, which stay at 0 or above. Returns the covariance of the estimates.
+Eigen::MatrixXd fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
+                    const std::vector<Eigen::MatrixXd>& shapes, Eigen::VectorXd& variances) {
   const auto count = static_cast<Eigen::Index>(shapes.size());
+  Eigen::MatrixXd covariance;
   for (int step = 0; step < kScoringSteps; ++step) {
     Eigen::MatrixXd V = known;
     for (Eigen::Index k = 0; k < count; ++k) V += variances[k] * shapes[k];
@@ -66,9 +67,9 @@ void fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known, const st
     for (Eigen::Index k = 0; k < count; ++k)
       for (Eigen::Index l = 0; l <= k; ++l)
         information(k, l) = information(l, k) = 0.5 * weighted[k].cwiseProduct(weighted[l].transpose()).sum();
+    covariance = information.completeOrthogonalDecomposition().pseudoInverse();
     // Components at 0 that want to be negative stay there; the others move.
     for (Eigen::Index k = 0; k < count; ++k) {
-      standard_errors[k] = 1.0 / std::sqrt(std::max(information(k, k), 1e-300));
       if (variances[k] > 0.0 || score[k] > 0.0) continue;
       information.row(k).setZero();
       information.col(k).setZero();
@@ -81,6 +82,7 @@ void fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known, const st
     variances = next;
     if (is_done) break;
   }
+  return covariance;
 }
 
 }  // namespace
@@ -150,15 +152,15 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     const Eigen::VectorXd left = contrasts.transpose() * residual(rows);
     const double scale = std::max(left.squaredNorm() / static_cast<double>(left.size()), 1e-300);
     Eigen::VectorXd variances = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(shapes.size()), 0.3);
-    Eigen::VectorXd standard_errors = variances;
     const Eigen::MatrixXd known_left = contrasts.transpose() * known(rows, rows) * contrasts / scale;
     const Eigen::MatrixXd floor = 1e-9 * Eigen::MatrixXd::Identity(left.size(), left.size());
-    if (!shapes.empty()) fit(left / std::sqrt(scale), known_left + floor, shapes, variances, standard_errors);
-    for (std::size_t k = 0; k < components.size(); ++k) {
+    ObservableErrors errors;
+    if (!shapes.empty())
+      errors.covariance = scale * scale * fit(left / std::sqrt(scale), known_left + floor, shapes, variances);
+    for (std::size_t k = 0; k < components.size(); ++k)
       components[k].variance = scale * variances[static_cast<Eigen::Index>(k)];
-      components[k].standard_error = scale * standard_errors[static_cast<Eigen::Index>(k)];
-      budget.components.push_back(std::move(components[k]));
-    }
+    errors.components = std::move(components);
+    budget.observables.push_back(std::move(errors));
   }
   return budget;
 }

@@ -17,14 +17,19 @@ std::string name_of(ErrorLevel level);
 struct VarianceComponent {
   std::string observable;
   ErrorLevel level = ErrorLevel::observation;
-  double variance = 0.0;        ///< in the observable's unit, squared
-  double standard_error = 0.0;  ///< of the variance
-  Groups groups;                ///< -1 for other observables
+  double variance = 0.0;  ///< in the observable's unit, squared
+  Groups groups;          ///< -1 for other observables
+};
+
+/// The components of one observable, estimated together: a large pour goes with a small placement.
+struct ObservableErrors {
+  std::vector<VarianceComponent> components;
+  Eigen::MatrixXd covariance;  ///< of the variances' estimates
 };
 
 struct ErrorBudget {
   Eigen::VectorXd repeat_variance;  ///< of each mean of repeats
-  std::vector<VarianceComponent> components;
+  std::vector<ObservableErrors> observables;
   double residual_dof = 0.0;    ///< contrasts from which the components were estimated
   bool from_replicates = true;  ///< of equal conditions; false: from what a smooth model leaves
 };

@@ -1,0 +1,110 @@
+#include "bench/diagnosis_baselines.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/statistics/groups.h"
+
+namespace fathom {
+
+namespace {
+
+struct Scaled {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd signatures;  ///< unit columns
+  Eigen::VectorXd norms;
+};
+
+Scaled scaled(const Evidence& evidence) {
+  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
+  Scaled s{-evidence.predicted, Eigen::MatrixXd(n, static_cast<Eigen::Index>(evidence.candidates.size())), {}};
+  for (Eigen::Index i = 0; i < n; ++i) s.residual[i] += evidence.observations[i].value;
+  for (Eigen::Index k = 0; k < s.signatures.cols(); ++k) s.signatures.col(k) = evidence.candidates[k].signature.col(0);
+  const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
+  const Groups cells = group_by(evidence.observations, cell_key);
+  const auto members = cells.members();
+  std::vector<double> squares(observables.count, 0.0), dof(observables.count, 0.0);
+  for (const auto& rows : members) {
+    const double mean = s.residual(rows).mean();
+    const int observable = observables.of[rows[0]];
+    squares[observable] += (s.residual(rows).array() - mean).square().sum();
+    dof[observable] += static_cast<double>(rows.size()) - 1.0;
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double sd = std::sqrt(squares[observables.of[i]] / dof[observables.of[i]]);
+    s.residual[i] /= sd;
+    s.signatures.row(i) /= sd;
+  }
+  s.norms = s.signatures.colwise().norm();
+  s.signatures = s.signatures.colwise().normalized().eval();
+  return s;
+}
+
+/// χ² + k log n of the least-squares fit of some columns.
+double bic(const Scaled& s, const std::vector<int>& effects) {
+  double chi2 = s.residual.squaredNorm();
+  if (!effects.empty()) {
+    const Eigen::MatrixXd X = s.signatures(Eigen::all, effects);
+    chi2 = (s.residual - X * X.colPivHouseholderQr().solve(s.residual)).squaredNorm();
+  }
+  return chi2 + static_cast<double>(effects.size()) * std::log(static_cast<double>(s.residual.size()));
+}
+
+}  // namespace
+
+std::vector<int> greedy_bic(const Evidence& evidence) {
+  const Scaled s = scaled(evidence);
+  std::vector<int> chosen;
+  double best = bic(s, chosen);
+  for (bool grows = true; grows;) {
+    grows = false;
+    std::vector<int> next = chosen;
+    for (int k = 0; k < s.signatures.cols(); ++k) {
+      if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) continue;
+      std::vector<int> tried = chosen;
+      tried.push_back(k);
+      if (const double value = bic(s, tried); value < best) {
+        best = value;
+        next = tried;
+        grows = true;
+      }
+    }
+    chosen = next;
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+std::vector<int> lasso_bic(const Evidence& evidence) {
+  const Scaled s = scaled(evidence);
+  const Eigen::MatrixXd G = s.signatures.transpose() * s.signatures;
+  const Eigen::VectorXd b = s.signatures.transpose() * s.residual;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
+  std::vector<int> chosen;
+  double best = bic(s, {});
+  for (double penalty = b.cwiseAbs().maxCoeff(); penalty > 0.01 * b.cwiseAbs().maxCoeff(); penalty *= 0.85) {
+    for (int sweep = 0; sweep < 200; ++sweep)
+      for (Eigen::Index k = 0; k < x.size(); ++k) {
+        const double free = b[k] - G.row(k).dot(x) + x[k];
+        x[k] = std::copysign(std::max(0.0, std::abs(free) - penalty), free);
+      }
+    std::vector<int> active;
+    for (int k = 0; k < x.size(); ++k)
+      if (x[k] != 0.0) active.push_back(k);
+    if (const double value = bic(s, active); value < best) {
+      best = value;
+      chosen = active;
+    }
+  }
+  return chosen;
+}
+
+std::vector<int> largest_correlation(const Evidence& evidence) {
+  const Scaled s = scaled(evidence);
+  Eigen::Index best = 0;
+  const double z = (s.signatures.transpose() * s.residual).cwiseAbs().maxCoeff(&best);
+  return z > 3.0 ? std::vector<int>{static_cast<int>(best)} : std::vector<int>{};
+}
+
+}  // namespace fathom

@@ -1,0 +1,118 @@
+// Mistakes of the laboratory that observations and predictions show, and what to measure next.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/hygiene.h"
+#include "diagnosis/statistics/next_measurement.h"
+#include "diagnosis/statistics/problem.h"
+#include "diagnosis/statistics/screen.h"
+#include "tests/diagnosis/statistics/small_campaign.h"
+
+namespace fathom {
+namespace {
+
+std::vector<std::string> warnings(const Evidence& evidence) {
+  return hygiene_warnings(evidence, estimate_covariance(evidence, residual_of(evidence)));
+}
+
+TEST(Hygiene, IsQuietAboutACleanCampaign) {
+  const World world(small_design());
+  EXPECT_TRUE(warnings(world.measure({}, {}, 1)).empty());
+}
+
+TEST(Hygiene, SeesHeightsInAnotherUnit) {
+  const World world(small_design());
+  Evidence evidence = world.measure({}, {}, 1);
+  for (Observation& o : evidence.observations)
+    if (is_height(o)) o.value /= 1000.0;
+  const auto found = warnings(evidence);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                          [](const std::string& w) { return w.find("unit") != std::string::npos; }));
+}
+
+TEST(Hygiene, SeesExchangedLabels) {
+  const World world(small_design());
+  const Evidence evidence = world.measure({}, {}, 1);
+  // Pour 2 is 10 mm of water, pour 3 is 40 mm; their values change places.
+  Evidence swapped = evidence;
+  std::vector<std::size_t> two, three;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    if (evidence.observations[i].factors.pour == 2) two.push_back(i);
+    if (evidence.observations[i].factors.pour == 3) three.push_back(i);
+  }
+  ASSERT_EQ(two.size(), three.size());
+  for (std::size_t k = 0; k < two.size(); ++k)
+    std::swap(swapped.observations[two[k]].value, swapped.observations[three[k]].value);
+  const auto found = warnings(swapped);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                          [](const std::string& w) { return w.find("swapped") != std::string::npos; }));
+}
+
+TEST(Hygiene, SeesACopiedPlacement) {
+  const World world(small_design());
+  Evidence evidence = world.measure({}, {}, 1);
+  std::vector<std::size_t> one, other;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    if (evidence.observations[i].factors.placement == 7) one.push_back(i);
+    if (evidence.observations[i].factors.placement == 8) other.push_back(i);
+  }
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    evidence.observations[other[k]].value = evidence.observations[one[k]].value;
+    evidence.observations[other[k]].repeat_sd = evidence.observations[one[k]].repeat_sd;
+  }
+  const auto found = warnings(evidence);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                          [](const std::string& w) { return w.find("identical") != std::string::npos; }));
+}
+
+TEST(Screen, FindsAPlantedTripleAmongAllSets) {
+  const World world(small_design());
+  const std::vector<std::string> names{"radial_distortion", "meniscus", "wall_albedo"};
+  std::vector<EffectValue> truth;
+  std::vector<int> planted;
+  for (const std::string& name : names) {
+    truth.push_back(world.at_strength(name, 20.0, 1.0));
+    planted.push_back(world.candidate(name));
+  }
+  std::sort(planted.begin(), planted.end());
+  const Evidence evidence = world.measure(truth, {}, 6);
+  const Problem problem = whitened_problem(evidence, estimate_covariance(evidence, residual_of(evidence)));
+  const std::vector<Hypothesis> sets = screen(problem, 5);
+  const Hypothesis* best = &sets.front();
+  for (const Hypothesis& set : sets)
+    if (set.log_evidence > best->log_evidence) best = &set;
+  EXPECT_EQ(best->effects, planted);
+}
+
+TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
+  const World world(small_design());
+  const Evidence evidence = world.measure({}, {}, 1);
+  const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
+  const int bottom = world.candidate("cup_bottom_height"), coaster = world.candidate("cup_on_coaster");
+  // A gauge block at the rim sees a coaster, which lifts the whole cup, but no bottom.
+  Design gauge{"gauge block", 1.0, Eigen::VectorXd::Constant(1, 0.05), {}, {}, {}};
+  for (const Candidate& candidate : evidence.candidates)
+    gauge.signatures.push_back(Eigen::MatrixXd::Constant(1, 1, candidate.effect == "cup_on_coaster" ? 0.5 : 0.0));
+  gauge.nuisances = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(evidence.nuisances.size()));
+  gauge.own_nuisances = Eigen::MatrixXd::Zero(1, 0);
+  Design blind = gauge;
+  blind.name = "another look at nothing";
+  blind.signatures[coaster].setZero();
+
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(residual_of(evidence).size());
+  const Option is_bottom{{bottom}, Eigen::VectorXd::Constant(1, 1.0), false, 0.0, none};
+  const Option is_coaster{{coaster}, Eigen::VectorXd::Constant(1, 2.0), false, 0.0, none};
+  EXPECT_NEAR(t_criterion(evidence, covariance, blind, is_bottom, is_coaster), 0.0, 1e-6);
+  // 1 mm seen with 0.05 mm, less what the campaign leaves uncertain of the size.
+  EXPECT_GT(t_criterion(evidence, covariance, gauge, is_bottom, is_coaster), 3.0);
+
+  const AmbiguitySet set{{{is_bottom, is_coaster}}, {1.0}};
+  const auto next = next_measurements(evidence, covariance, {blind, gauge}, set);
+  ASSERT_EQ(next.size(), 1U);
+  EXPECT_EQ(next[0].measurement, "gauge block");
+}
+
+}  // namespace
+}  // namespace fathom

@@ -1,0 +1,163 @@
+// What a diagnosis promises, on campaigns of which the truth is known. Rates over many sets:
+// bench/diagnosis_statistics.
+#include "diagnosis/statistics/decide.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/statistics/diagnosis_json.h"
+#include "tests/diagnosis/statistics/small_campaign.h"
+
+namespace fathom {
+namespace {
+
+bool has(const std::vector<std::string>& warnings, const std::string& word) {
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const std::string& w) { return w.find(word) != std::string::npos; });
+}
+
+TEST(Decide, NamesNothingWhereNothingIsWrong) {
+  const World world(small_design());
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed)
+    alarms += decide(world.measure({}, {}, seed), world.predict()).verdict != Verdict::none;
+  // At a rate of 1 %, two or more of 25 come once in 40 times.
+  EXPECT_LE(alarms, 1);
+}
+
+TEST(Decide, NamesNothingWhereErrorsAreLargerThanStatedOrHeavyTailed) {
+  const World world(small_design());
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    alarms += decide(world.measure({}, {1.2}, seed), world.predict()).verdict != Verdict::none;
+    alarms += decide(world.measure({}, {1.0, true}, seed), world.predict()).verdict != Verdict::none;
+  }
+  // At a rate of 2 %, three or more of 24 come once in 80 times.
+  EXPECT_LE(alarms, 2);
+}
+
+TEST(Decide, NamesOneStrongEffectWithItsSizeAndClosesTheGap) {
+  const World world(small_design());
+  int named = 0, covered = 0;
+  const std::vector<std::string> effects{"radial_distortion", "subsurface_scattering", "meniscus", "wall_multipath"};
+  for (const std::string& effect : effects) {
+    const EffectValue truth = world.at_strength(effect, 15.0, 1.0);
+    const Diagnosis diagnosis = decide(world.measure({truth}, {}, 11), world.predict());
+    if (diagnosis.verdict != Verdict::named || diagnosis.effects.size() != 1 || diagnosis.effects[0].name != effect)
+      continue;
+    ++named;
+    const NamedParameter& parameter = diagnosis.effects[0].parameters[0];
+    covered += parameter.low95 <= truth.values[0] && truth.values[0] <= parameter.high95;
+    // Held-out groups are predicted as well as their errors allow; 40 heights scatter by 11 %.
+    EXPECT_LT(diagnosis.held_out.after_rms_mm, 1.35 * diagnosis.held_out.noise_floor_mm) << effect;
+  }
+  EXPECT_EQ(named, static_cast<int>(effects.size()));
+  EXPECT_GE(covered, 3);  // of four 95 % intervals two or more miss once in 70 times
+}
+
+TEST(Decide, RefitsWithTheModelItself) {
+  const World world(small_design());
+  // Its response bends by a tenth at a typical departure: the signature alone would overstate it by half.
+  const EffectValue truth{"absorption", {5.0}};
+  const Diagnosis diagnosis = decide(world.measure({truth}, {}, 3), world.predict());
+  ASSERT_EQ(diagnosis.effects.size(), 1U);
+  EXPECT_NEAR(diagnosis.effects[0].parameters[0].value, 5.0, 0.3);
+}
+
+TEST(Decide, LeavesTwinsOpen) {
+  const World world(small_design());
+  const EffectValue truth = world.at_strength("cup_bottom_height", 12.0, 1.0);
+  const Diagnosis diagnosis = decide(world.measure({truth}, {}, 4), world.predict());
+  EXPECT_EQ(diagnosis.verdict, Verdict::ambiguous);
+  ASSERT_FALSE(diagnosis.ambiguity_set.empty());
+  std::vector<std::string> both = diagnosis.ambiguity_set[0].effects;
+  for (const auto& other : diagnosis.ambiguity_set[0].alternatives) both.insert(both.end(), other.begin(), other.end());
+  EXPECT_TRUE(has(both, "cup_bottom_height") && has(both, "cup_on_coaster"));
+  ASSERT_FALSE(diagnosis.confusable.empty());
+  EXPECT_NEAR(diagnosis.confusable[0].angle_deg, 0.0, 1e-4);
+}
+
+TEST(Decide, ProbabilitiesSumToOne) {
+  const World world(small_design());
+  for (const double strength : {0.0, 4.0, 12.0}) {
+    const Diagnosis diagnosis =
+        decide(world.measure({world.at_strength("fill_scale", strength, 1.0)}, {}, 9), world.predict());
+    double sum = 0.0;
+    for (const Explanation& explanation : diagnosis.ambiguity_set) sum += explanation.probability;
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+  }
+}
+
+TEST(Decide, SaysUnknownWhereNoCandidateExplains) {
+  const World world(small_design());
+  int flagged = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Diagnosis diagnosis = decide(world.measure({}, {}, seed, world.escaping(20.0, seed)), world.predict());
+    flagged += diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown;
+    if (diagnosis.verdict == Verdict::unknown) {
+      EXPECT_FALSE(diagnosis.unknown.formula.empty());
+    }
+  }
+  EXPECT_EQ(flagged, 4);  // at twice the escape that is to be flagged in 98 of 100
+}
+
+TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {
+  const World world(small_design());
+  Evidence evidence = world.measure({{"radial_distortion", {1.5}}}, {0.0, false, true}, 1);
+  const Diagnosis diagnosis = decide(evidence, world.predict());
+  ASSERT_EQ(diagnosis.verdict, Verdict::named);
+  EXPECT_EQ(diagnosis.effects[0].name, "radial_distortion");
+  EXPECT_NEAR(diagnosis.effects[0].parameters[0].value, 1.5, 1e-3);  // numerical floor: 1e-4 of a typical departure
+  EXPECT_EQ(decide(world.measure({}, {0.0, false, true}, 1), world.predict()).verdict, Verdict::none);
+}
+
+TEST(Decide, TakesATableOfHeightsWithOnePourOfEachFilling) {
+  CampaignDesign design;
+  design.has_infrared = design.has_desk = false;
+  design.regions = {"centre"};
+  design.pours = design.sessions = 1;
+  const World world(design);
+  EXPECT_EQ(decide(world.measure({}, {}, 2), world.predict()).verdict, Verdict::none);
+  const EffectValue truth = world.at_strength("subsurface_scattering", 12.0, 1.0);
+  const Diagnosis diagnosis = decide(world.measure({truth}, {}, 2), world.predict());
+  EXPECT_TRUE(has(diagnosis.warnings, "measured twice"));
+  EXPECT_NE(diagnosis.verdict, Verdict::insufficient);
+}
+
+TEST(Decide, SaysWhatIsMissing) {
+  CampaignDesign design = small_design();
+  design.distances_mm = {300};
+  design.laterals_mm = {0};
+  design.fills_mm = {10};
+  design.liquids = {"water"};
+  const World world(design);
+  const Diagnosis diagnosis = decide(world.measure({}, {}, 1), world.predict());
+  EXPECT_EQ(diagnosis.verdict, Verdict::insufficient);
+  EXPECT_TRUE(has(diagnosis.missing, "2 conditions"));
+}
+
+TEST(Decide, IsDeterministic) {
+  const World world(small_design());
+  const Evidence evidence = world.measure({world.at_strength("foam", 9.0, 1.0)}, {}, 8);
+  EXPECT_EQ(json_from(decide(evidence, world.predict())).dump(), json_from(decide(evidence, world.predict())).dump());
+}
+
+TEST(Report, HasTheKeysOfItsFormat) {
+  const World world(small_design());
+  const Json json =
+      json_from(decide(world.measure({world.at_strength("meniscus", 20.0, 1.0)}, {}, 8), world.predict()));
+  for (const char* key :
+       {"verdict", "where", "effects", "ambiguity_set", "gap", "upper_limits", "confusable", "next", "budget"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  ASSERT_FALSE(json["effects"].empty());
+  EXPECT_EQ(json["effects"][0]["parameters"]["departure"]["ci95"].size(), 2U);
+  ASSERT_FALSE(json["where"].empty());
+  EXPECT_TRUE(json["where"][0].contains("share_of_gap"));
+  EXPECT_TRUE(json["gap"]["held_out"].contains("noise_floor_mm"));
+  EXPECT_TRUE(json["budget"]["conditions"][0].contains("u_val"));
+}
+
+}  // namespace
+}  // namespace fathom

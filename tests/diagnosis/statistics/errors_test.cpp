@@ -1,0 +1,96 @@
+// The errors that the data show: components found again, tails as thick as they are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rng.h"
+#include "diagnosis/statistics/covariance.h"
+#include "diagnosis/statistics/distributions.h"
+#include "diagnosis/statistics/null_calibration.h"
+#include "tests/diagnosis/statistics/small_campaign.h"
+
+namespace fathom {
+namespace {
+
+TEST(Distributions, AgreeWithPrintedTables) {
+  // Abramowitz & Stegun 1964, tables 26.5, 26.7, 26.9 and 26.10, to the digits printed.
+  EXPECT_NEAR(normal_tail(1.959964), 0.025, 1e-7);
+  EXPECT_NEAR(normal_quantile(0.001), 3.09023, 1e-5);
+  EXPECT_NEAR(chi_squared_tail(18.307, 10.0), 0.05, 1e-5);
+  EXPECT_NEAR(student_quantile(0.025, 5.0), 2.571, 5e-4);
+  EXPECT_NEAR(f_tail(3.33, 5.0, 10.0), 0.05, 2e-4);
+}
+
+TEST(NormalScore, HasTheTailOfStudentsT) {
+  for (const double dof : {5.0, 10.0, 50.0})
+    for (const double t : {1.0, 3.0, 6.0})
+      EXPECT_NEAR(normal_score(t, dof), normal_quantile(student_tail(t, dof)), 0.02);
+}
+
+TEST(MaximumTail, CountsIndependentTests) {
+  constexpr int kTests = 20, kDraws = 4000;
+  Eigen::VectorXd largest(kDraws);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Rng rng(7, draw);
+    largest[draw] = -INFINITY;
+    for (int k = 0; k < kTests; ++k) largest[draw] = std::max(largest[draw], rng.normal());
+  }
+  // Quantiles up to 0.99 of 4000 draws leave 40 above: 16 % on a number of tests, three times that allowed.
+  EXPECT_NEAR(std::log(fit_maximum(largest).tests / kTests), 0.0, 0.5);
+}
+
+TEST(VarianceComponents, AreFoundAgain) {
+  const World world(small_design());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  constexpr int kSets = 40;
+  for (int set = 0; set < kSets; ++set) {
+    const Evidence evidence = world.measure({}, {}, 300 + set);
+    const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
+    for (const ObservableErrors& errors : covariance.errors.observables)
+      for (const VarianceComponent& component : errors.components)
+        if (component.observable == "height_mm" && component.level != ErrorLevel::session)
+          mean[static_cast<int>(component.level)] += component.variance / kSets;
+  }
+  // 0.10, 0.12 and 0.08 mm (synthetic_campaign.cpp). The mean of 40 estimates with some 30 degrees of freedom scatters
+  // by 4 %, that of pours with 5 by 10 % and is pushed up by estimates that stop at 0: four times that allowed.
+  EXPECT_NEAR(mean[0], 0.10 * 0.10, 0.2 * 0.10 * 0.10);
+  EXPECT_NEAR(mean[1], 0.12 * 0.12, 0.2 * 0.12 * 0.12);
+  EXPECT_NEAR(mean[2], 0.08 * 0.08, 0.5 * 0.08 * 0.08);
+}
+
+TEST(VarianceComponents, AreBlindToEffects) {
+  const World world(small_design());
+  const EffectValue effect = world.at_strength("radial_distortion", 50.0, 1.0);
+  const Evidence with = world.measure({effect}, {}, 5), without = world.measure({}, {}, 5);
+  const Covariance a = estimate_covariance(with, residual_of(with)),
+                   b = estimate_covariance(without, residual_of(without));
+  // Equal conditions change equally: nothing but rounding may differ.
+  EXPECT_LT((a.total - b.total).norm(), 1e-6 * b.total.norm());
+}
+
+TEST(Covariance, WhitensWhatItIsTheCovarianceOf) {
+  const World world(small_design());
+  double mean = 0.0;
+  constexpr int kSets = 20;
+  for (int set = 0; set < kSets; ++set) {
+    const Evidence evidence = world.measure({}, {}, 500 + set);
+    const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
+    mean += covariance.whiten(residual_of(evidence)).squaredNorm() /
+            (kSets * static_cast<double>(residual_of(evidence).size()));
+  }
+  // χ² per observation; 20 × 280 numbers scatter by 2 %, uncertain components add as much.
+  EXPECT_NEAR(mean, 1.0, 0.1);
+}
+
+TEST(RepeatVariances, PoolWithoutOutliers) {
+  std::vector<Observation> observations(9, {"height_mm", {}, 0.0, 0.2, 10});
+  observations[4].repeat_sd = 20.0;
+  const Eigen::VectorXd variances = repeat_variances(observations);
+  // The others' 0.2 mm, with one scatter among nine that counts three times its size: (8 + 9) / 9 of the variance
+  // pooled.
+  EXPECT_NEAR(variances[0], 0.2 * 0.2 / 10.0, 0.2 * 0.2 / 10.0);
+  EXPECT_GT(variances[4], 100.0 * variances[0]);
+}
+
+}  // namespace
+}  // namespace fathom
