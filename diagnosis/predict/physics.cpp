@@ -1,5 +1,7 @@
 #include "diagnosis/predict/physics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -148,19 +150,31 @@ std::vector<Nuisance> place_nuisances(const Predictor& predictor) {
   return nuisances;
 }
 
-/// What few rays and direct light leave out of an observable (see surrogate.h and its test): shared by all conditions.
+/// Which observations have the same error of the model, beside being of one observable and region.
+enum class SharedBy { all, liquid, condition };
+
+/// What few rays and direct light leave out of an observable (see surrogate.h and its test).
 struct ModelError {
   std::string_view observable;
   double sigma;
-  bool by_liquid;
+  SharedBy shared_by;
 };
 constexpr std::array kModelErrors{
-    ModelError{"height_mm", 0.05, true},        // against whole frames
-    ModelError{"desk_height_mm", 0.05, false},  // against whole frames
-    ModelError{"desk_pitch_deg", 0.005, false},  ModelError{"desk_roll_deg", 0.005, false},
-    ModelError{"desk_residual_mm", 0.10, false},  // a matcher's bias by place; a Kinect's desk has -0.3 to 0.7 mm
-    ModelError{"comb_strength", 0.05, false},     // depths are no even mixture of steps
-    ModelError{"millimetre_comb", 0.02, false}};
+    ModelError{"height_mm", 0.05, SharedBy::liquid},     // against whole frames
+    ModelError{"height_mm", 0.10, SharedBy::condition},  // matching: the same dots fall the same way each time
+    ModelError{"desk_height_mm", 0.05, SharedBy::all},   // against whole frames, as the next two
+    ModelError{"desk_pitch_deg", 0.005, SharedBy::all},  ModelError{"desk_roll_deg", 0.005, SharedBy::all},
+    ModelError{"desk_residual_mm", 0.10, SharedBy::all},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
+    ModelError{"comb_strength", 0.05, SharedBy::all},     // depths are no even mixture of steps
+    ModelError{"millimetre_comb", 0.02, SharedBy::all}};
+
+std::string shared_key(const Factors& f, SharedBy shared_by) {
+  std::string key = f.region;
+  if (shared_by != SharedBy::all) key += " of " + f.liquid;
+  if (shared_by == SharedBy::condition)
+    key += fmt::format(", {:g} mm, at ({:g}, {:g}) mm", f.fill_mm, f.lateral_mm, f.distance_mm);
+  return key;
+}
 
 std::vector<Nuisance> model_errors(const std::vector<Observation>& observations) {
   std::vector<Nuisance> nuisances;
@@ -169,7 +183,7 @@ std::vector<Nuisance> model_errors(const std::vector<Observation>& observations)
     for (std::size_t row = 0; row < observations.size(); ++row) {
       const Observation& o = observations[row];
       if (o.observable != error.observable) continue;
-      Eigen::VectorXd& own = rows[o.factors.region + (error.by_liquid ? " of " + o.factors.liquid : "")];
+      Eigen::VectorXd& own = rows[shared_key(o.factors, error.shared_by)];
       if (own.size() == 0) own = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()));
       own[static_cast<Eigen::Index>(row)] = 1.0;
     }

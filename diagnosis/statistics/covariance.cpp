@@ -51,6 +51,7 @@ Eigen::VectorXd redrawn(const ObservableErrors& errors, const Eigen::MatrixXd& r
 
 /// R with R Rᵀ = a covariance that may be singular.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+  if (covariance.size() == 0) return covariance;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }

@@ -12,8 +12,9 @@ namespace fathom {
 
 namespace {
 
-constexpr double kPooledDof = 10.0;  // weight of the pooled scatter beside an observation's own
-constexpr double kOutlier = 3.0;     // times the median scatter
+constexpr double kPooledDof = 10.0;     // weight of the pooled scatter beside an observation's own
+constexpr double kOutlier = 3.0;        // times the median scatter
+constexpr std::size_t kFewestRows = 4;  // of an observable whose errors can be told from its mean
 constexpr int kScoringSteps = 30;
 constexpr double kEnough = 1e-4;  // change of a component, relative to all of them, at which scoring stops
 
@@ -134,6 +135,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
   budget.repeat_variance = repeat_variance;
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
+    if (rows.size() < kFewestRows) continue;
     const MeanSpace means = mean_space(evidence, rows);
     const Eigen::MatrixXd& contrasts = means.contrasts;
     if (contrasts.cols() == 0) continue;
