@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "core/error.h"
 #include "core/files.h"
 
 namespace fathom {
@@ -18,16 +19,18 @@ std::string header_of(int width, int height) {
 
 }  // namespace
 
-void write_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud) {
+void put_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud) {
   static_assert(sizeof(CloudPoint) == 16, "the binary body is the array itself");
-  write_atomically(path, [&](const std::filesystem::path& beside) {
-    std::ofstream file(beside, std::ios::binary);
-    file << header_of(cloud.width(), cloud.height());
-    file.write(reinterpret_cast<const char*>(cloud.pixels().data()),
-               static_cast<std::streamsize>(cloud.size() * sizeof(CloudPoint)));
-    file.close();
-    if (!file) throw std::runtime_error("disk full or not writable");
-  });
+  std::ofstream file(path, std::ios::binary);
+  file << header_of(cloud.width(), cloud.height());
+  file.write(reinterpret_cast<const char*>(cloud.pixels().data()),
+             static_cast<std::streamsize>(cloud.size() * sizeof(CloudPoint)));
+  file.close();
+  if (!file) throw Error(path.string(), "cannot be written: disk full or not writable");
+}
+
+void write_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud) {
+  write_atomically(path, [&](const std::filesystem::path& beside) { put_pcd(beside, cloud); });
 }
 
 bool is_whole_pcd(const std::filesystem::path& path, int width, int height) {

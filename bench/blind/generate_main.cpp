@@ -1,0 +1,75 @@
+// blind_generate: makes packs of measurements in which something is hidden.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "bench/blind/pack.h"
+#include "bench/blind/write_set.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace fathom;
+
+struct Options {
+  fs::path pack, truth, ledger;
+  std::string kind = "development";
+  std::uint64_t seed = 1;
+  int sets = 100, first = 0, last = -1;
+};
+
+/// Sets that are there are left: a second run goes on where the first stopped.
+void write_sets(const Options& options) {
+  const blind::Pack pack = blind::open_pack(options.pack, options.truth);
+  const int last = options.last < 0 ? static_cast<int>(pack.sets.size()) - 1 : options.last;
+  if (options.first < 0 || last >= static_cast<int>(pack.sets.size()))
+    throw Error("--set", fmt::format("must be from 0 to {}", pack.sets.size() - 1));
+  Progress progress("set", static_cast<std::size_t>(last - options.first + 1), false);
+  for (int i = options.first; i <= last; ++i, progress.step()) {
+    const fs::path folder = blind::set_folder(options.pack, i);
+    if (!fs::exists(folder)) blind::write_set(pack.sets[static_cast<std::size_t>(i)], folder);
+  }
+}
+
+void define(CLI::App& app, Options& options) {
+  app.require_subcommand(1);
+  CLI::App* seal = app.add_subcommand("seal", "Draw what is hidden in each set, write and hash the truth");
+  CLI::App* sets = app.add_subcommand("sets", "Write the measurement directories of a sealed pack");
+  CLI::App* exact = app.add_subcommand("exact", "Write the full design without effects, errors and noise");
+  for (CLI::App* command : {seal, sets, exact})
+    command->add_option("-o,--output", options.pack, "Folder of the pack")->required();
+  for (CLI::App* command : {seal, sets})
+    command->add_option("--truth", options.truth, "The truth's file, outside the pack")->required();
+  seal->add_option("--kind", options.kind, "development, validation or sealed")->capture_default_str();
+  seal->add_option("--seed", options.seed, "Each kind has seeds of its own")->capture_default_str();
+  seal->add_option("--sets", options.sets, "Number of sets")->check(CLI::Range(1, 9999))->capture_default_str();
+  seal->add_option("--ledger", options.ledger, "Append-only list of packs");
+  sets->add_option("--first", options.first, "First set to write")->capture_default_str();
+  sets->add_option("--last", options.last, "Last set to write (default: all)");
+  seal->callback(
+      [&] { blind::seal_pack(options.kind, options.seed, options.sets, options.pack, options.truth, options.ledger); });
+  sets->callback([&] { write_sets(options); });
+  exact->callback([&] { blind::write_exact_set(options.pack); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Makes packs of measurements in which something is hidden, by physics of its own");
+  define(app, options);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : 2;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "error: {}\n", problem.what());
+    return 1;
+  }
+  return 0;
+}

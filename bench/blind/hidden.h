@@ -1,0 +1,39 @@
+// What can be hidden in a set: the effects of the registry's first list as changes of the physical world, and some that
+// no registry knows.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/blind/plan.h"
+#include "bench/blind/world.h"
+
+namespace fathom::blind {
+
+struct Hidden {
+  std::string_view name;
+  std::string_view parameter;  ///< whose truth is written down, with its unit
+  double nominal;              ///< value of that parameter at which the effect is absent
+  double typical;              ///< departure from nominal that is easily seen
+  double least, most;          ///< departures that can be built; least < 0 < most where both signs can
+  bool registered;             ///< false: has to be called unknown
+  void (*apply)(World& world, const Placement& placement, double departure);
+  double (*value)(double departure) = nullptr;  ///< of the parameter, where that is not nominal + departure
+
+  double value_at(double departure) const { return value ? value(departure) : nominal + departure; }
+};
+
+std::span<const Hidden> hidden_effects();
+const Hidden& hidden_effect(std::string_view name);
+
+/// An effect at work in a set.
+struct Active {
+  const Hidden* effect;
+  double departure;
+};
+
+void apply_all(World& world, const Placement& placement, std::span<const Active> effects);
+
+}  // namespace fathom::blind

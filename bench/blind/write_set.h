@@ -1,0 +1,17 @@
+// A set as a laboratory hands it over: rig.json, frames.csv, clouds. What is true stands elsewhere.
+#pragma once
+
+#include <filesystem>
+
+#include "bench/blind/draw.h"
+
+namespace fathom::blind {
+
+/// Writes the measurement directory; it appears whole or not at all. Returns the number of frames.
+int write_set(const SetTruth& truth, const std::filesystem::path& folder);
+
+/// The same without effects, errors, dust and noise: what the generator's physics alone makes of the full design. For
+/// comparison with the analyser's physics; heights are in frames.csv.
+int write_exact_set(const std::filesystem::path& folder);
+
+}  // namespace fathom::blind
