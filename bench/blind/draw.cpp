@@ -133,7 +133,7 @@ Json json_of(const SetTruth& truth) {
   for (const Truth& hidden : truth.effects)
     effects.push_back({{"name", hidden.active.effect->name},
                        {"parameter", hidden.active.effect->parameter},
-                       {"value", hidden.active.effect->value_at(hidden.active.departure)},
+                       {"value", hidden.active.effect->nominal + hidden.active.departure},
                        {"s", hidden.strength},
                        {"registered", hidden.active.effect->registered}});
   Json by_liquid = Json::object();

@@ -20,9 +20,6 @@ struct Hidden {
   double least, most;          ///< departures that can be built; least < 0 < most where both signs can
   bool registered;             ///< false: has to be called unknown
   void (*apply)(World& world, const Placement& placement, double departure);
-  double (*value)(double departure) = nullptr;  ///< of the parameter, where that is not nominal + departure
-
-  double value_at(double departure) const { return value ? value(departure) : nominal + departure; }
 };
 
 std::span<const Hidden> hidden_effects();

@@ -40,7 +40,7 @@ Raster near_cup(const Placement& placement) {
   const World world = believed(placement);
   const Eyes eyes = eyes_of(world.sensor);
   Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  const double half = world.cup.outer_radius + 0.025;
+  const double half = world.cup.outer_radius + 0.012;
   for (const double dx : {-half, half})
     for (const double dy : {-half, half})
       for (const double z : {0.0, world.cup.height}) {
@@ -51,10 +51,10 @@ Raster near_cup(const Placement& placement) {
       }
   const Eigen::Vector2i border(4, 4);  // half a window
   return {low.array().floor().matrix().cast<int>().cwiseMax(border),
-          high.array().ceil().matrix().cast<int>().cwiseMin(Eigen::Vector2i(640, 480) - border), 3};
+          high.array().ceil().matrix().cast<int>().cwiseMin(Eigen::Vector2i(640, 480) - border), 2};
 }
 
-Raster whole_image() { return {{4, 4}, {636, 476}, 10}; }
+Raster whole_image() { return {{4, 4}, {636, 476}, 12}; }
 
 Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, const Raster& raster,
             std::uint64_t standing) {

@@ -19,8 +19,8 @@ struct Scene {
   std::vector<float> dn;            ///< infrared
 };
 
-Raster near_cup(const Placement& placement);  ///< every 3rd pixel of the cup and 25 mm around it
-Raster whole_image();                         ///< every 10th
+Raster near_cup(const Placement& placement);  ///< every 2nd pixel of the cup and 12 mm around it
+Raster whole_image();                         ///< every 12th
 
 Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, const Raster& raster,
             std::uint64_t standing);

@@ -34,7 +34,7 @@ struct Top {
   double capillary_length = 0.00273;
   double slope_x = 0.0, slope_y = 0.0;
   double ripple_amplitude = 0.0, ripple_length = 0.012, ripple_phase = 0.0;
-  double foam_cover = 0.0, foam_thickness = 0.0015;
+  double foam_cover = 0.0, foam_thickness = 0.0;
 };
 
 struct Cup {

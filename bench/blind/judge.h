@@ -1,0 +1,34 @@
+// One answer beside its truth.
+#pragma once
+
+#include "bench/blind/draw.h"
+#include "bench/blind/report_file.h"
+
+namespace fathom::blind {
+
+struct Judged {
+  SetTruth truth;
+  Answer answer;
+
+  double weakest() const;    ///< smallest s of what is hidden; 0 of nothing
+  double strongest() const;  ///< largest
+  /// The effects that a registry can name; empty where there are none or where they are unknown.
+  Names nameable() const;
+  bool is_unknown() const { return truth.kind == "unknown" && !truth.effects.empty(); }
+
+  /// What it puts first or names is exactly what is hidden, or, of twins, one of them.
+  bool is_right() const;
+  /// The same of a set of effects.
+  bool is_true(const Names& effects) const;
+  /// Puts something wrong first with a probability of at least 0.9.
+  bool is_confidently_wrong() const;
+  /// What is hidden is among its explanations.
+  bool holds_truth() const;
+  /// Of book-keeping: a warning or an effect says what went wrong.
+  bool finds_mistake() const;
+  /// What it says, in one word or some: effects joined by +, "none", "unknown", …
+  std::string said() const;
+  std::string hidden() const;
+};
+
+}  // namespace fathom::blind

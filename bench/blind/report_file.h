@@ -1,0 +1,44 @@
+// What an analyser answered: the parts of its report.json that are scored.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fathom::blind {
+
+using Names = std::set<std::string>;
+
+struct Estimated {
+  double value, low, high;  ///< with its 95 % interval
+};
+
+struct Answer {
+  std::string verdict;  ///< none, named, ambiguous, unknown, named+unknown, insufficient; "missing" without a report
+  Names named;          ///< effects, without "@liquid"
+  std::map<std::string, std::map<std::string, Estimated>> parameters;  ///< of each
+  struct Explanation {
+    std::vector<Names> sets;  ///< what it holds for one: itself first, then what cannot be told from it
+    double probability;
+  };
+  std::vector<Explanation> ambiguity_set;                       ///< most probable first
+  Names liquids_in_gap;                                         ///< of its strata
+  std::string warnings;                                         ///< joined
+  double before_rms = 0.0, after_rms = 0.0, noise_floor = 0.0;  ///< [mm] held out
+  double next_sigma = 0.0;                                      ///< of the best measurement that it proposes
+
+  bool names_something() const { return !named.empty(); }
+  bool finds_unknown() const { return verdict == "unknown" || verdict == "named+unknown"; }
+  double probability_of(const Names& effects) const;  ///< as an explanation
+  bool holds(const Names& effects) const { return probability_of(effects) > 0.0; }
+  /// Of what it puts first.
+  double confidence() const { return ambiguity_set.empty() ? 0.0 : ambiguity_set.front().probability; }
+};
+
+/// `folder/report.json`. A folder without one is an answer with the verdict "missing".
+Answer read_answer(const std::filesystem::path& folder);
+
+}  // namespace fathom::blind
