@@ -14,16 +14,19 @@ namespace fathom::blind {
 namespace {
 
 using Is = std::function<bool(const Judged&)>;
+bool is_answered(const Judged& one) { return one.answer.verdict != "missing"; }
+
 constexpr double kStrong = 8.0;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
+/// A set without an answer counts as failed.
 Goal share(std::string metric, std::span<const Judged> judged, const Is& counts, const Is& hits, Want want, double bar,
            double bar_high = 0.0) {
   Goal goal{.metric = std::move(metric), .want = want, .bar = bar, .bar_high = bar_high};
   for (const Judged& one : judged) {
     if (!counts(one)) continue;
     ++goal.trials;
-    goal.hits += hits(one);
+    goal.hits += is_answered(one) ? hits(one) : want == Want::at_most;
   }
   const ShareInterval interval = clopper_pearson_95(goal.hits, goal.trials);
   goal.low = interval.low;
@@ -37,7 +40,7 @@ Goal mean(std::string metric, std::span<const Judged> judged, const Is& counts,
   Goal goal{.metric = std::move(metric), .low = -kForever, .high = kForever, .want = want, .bar = bar};
   Mean values;
   for (const Judged& one : judged)
-    if (counts(one)) values.add(value(one));
+    if (counts(one) && is_answered(one)) values.add(value(one));
   goal.trials = static_cast<int>(values.count());
   if (goal.trials < 2) {
     goal.trials = 0;  // no interval from one
@@ -49,6 +52,8 @@ Goal mean(std::string metric, std::span<const Judged> judged, const Is& counts,
   goal.high = estimate.value + 2.0 * estimate.standard_error;
   return goal;
 }
+
+bool has_gap(const Judged& one) { return one.answer.noise_floor > 0.0; }
 
 Is of_kind(const std::string& kind, double from = 0.0, double to = kForever) {
   return [=](const Judged& one) {
@@ -80,8 +85,6 @@ double gap_closed(const Judged& one) {
                floor = std::pow(one.answer.noise_floor, 2);
   return before > floor ? (before - after) / (before - floor) : 1.0;
 }
-
-bool has_gap(const Judged& one) { return one.answer.noise_floor > 0.0; }
 
 /// Over the effects that were rightly named and whose parameter was given.
 Goal coverage(std::span<const Judged> judged) {
@@ -142,7 +145,6 @@ std::string Goal::verdict() const {
 std::vector<Goal> goals_of(std::span<const Judged> judged) {
   const auto names = [](const Judged& one) { return one.answer.names_something(); };
   const auto flags = [](const Judged& one) { return one.answer.finds_unknown(); };
-  const auto answered = [](const Judged& one) { return one.answer.verdict != "missing"; };
   const auto plain_null = [](const Judged& one) { return is_null(one) && is_plain(one); };
   const auto odd_null = [](const Judged& one) { return is_null(one) && !is_plain(one); };
   const auto strong_single = of_kind("single", kStrong);
@@ -150,7 +152,7 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
   const auto judged_at_all = [](const Judged& one) { return one.truth.book_keeping.empty(); };
   std::vector<Goal> goals{
       share(
-          "answered", judged, [](const Judged&) { return true; }, answered, Want::at_least, 1.0),
+          "answered", judged, [](const Judged&) { return true; }, is_answered, Want::at_least, 1.0),
       share("names something on a null set", judged, plain_null, names, Want::at_most, 0.01),
       share("… whose noise is mis-scaled or heavy-tailed", judged, odd_null, names, Want::at_most, 0.02),
       share("calls a null set unknown", judged, is_null, flags, Want::at_most, 0.01),

@@ -15,7 +15,6 @@ constexpr double kSecondsPerPour = 90.0, kSecondsPerPlacement = 20.0;
 
 const std::vector<Filling> kPaper{{"empty", 0},     {"water", 10},    {"water", 20},   {"water", 30},
                                   {"milk_tea", 10}, {"milk_tea", 20}, {"milk_tea", 30}};
-const std::vector<Filling> kShort{{"empty", 0}, {"water", 10}, {"water", 30}, {"milk_tea", 20}};
 const std::vector<Filling> kOpaque{{"milk_tea", 10}, {"milk_tea", 20}, {"milk_tea", 30}};
 const std::vector<Filling> kWater{{"empty", 0}, {"water", 10}, {"water", 20}, {"water", 30}};
 
@@ -28,7 +27,6 @@ const std::array kDesigns{
     Design{"heights_only", kPaper, {200, 300, 400}, {-120, 0, 120}, 3, 3, 0, false, false},
     Design{"opaque_only", kOpaque, {200, 300, 400}, {-120, 0, 120}, 3, 2, 0, true, true},
     Design{"water_one_distance", kWater, {300}, {0}, 3, 3, 0, true, true},
-    Design{"short", kShort, {200, 400}, {0, 120}, 3, 2, 3, true, true},
 };
 
 template <class T>

@@ -1,0 +1,160 @@
+// What a pack promises: shares, secrets, the same bytes for the same seed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "bench/blind/ledger.h"
+#include "bench/blind/pack.h"
+#include "bench/blind/sha256.h"
+#include "bench/blind/strength.h"
+#include "bench/blind/write_set.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/table.h"
+#include "tests/app/run_fathom.h"
+
+namespace fathom::blind {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BlindPack : testing::Test {
+  fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  void SetUp() override {
+    fs::remove_all(folder);
+    make_directory(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+};
+
+TEST(Sha256, GivesTheStandardsDigests) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST_F(BlindPack, HidesWhatItIsAskedTo) {
+  constexpr int kSets = 20;
+  seal_pack("development", 3, kSets, folder / "pack", folder / "truth.json", folder / "ledger.csv");
+  std::map<std::string, int> kinds;
+  for (const SetTruth& set : open_pack(folder / "pack", folder / "truth.json").sets) {
+    ++kinds[set.kind];
+    if (set.kind == "pair") EXPECT_EQ(set.effects.size(), 2u);
+    if (set.kind == "null") EXPECT_TRUE(set.effects.empty());
+    if (set.kind == "twins") EXPECT_EQ(set.twins.size(), 2u);
+    for (const Truth& hidden : set.effects) EXPECT_GT(hidden.strength, 1.0);
+  }
+  EXPECT_EQ(kinds["null"], 6);
+  EXPECT_EQ(kinds["single"], 6);
+  EXPECT_EQ(kinds["unknown"], 3);
+  EXPECT_EQ(kinds["twins"], 1);
+  // Nothing in the pack's folder says what is hidden.
+  EXPECT_EQ(read_text(folder / "pack/pack.json").find("departure"), std::string::npos);
+}
+
+TEST_F(BlindPack, TheTruthIsOneFileWhoseHashIsKnownBefore) {
+  EXPECT_THROW(seal_pack("development", 3, 1, folder / "pack", folder / "pack/truth.json", ""), Error);
+  seal_pack("development", 3, 1, folder / "pack", folder / "truth.json", "");
+  write_text(folder / "truth.json", read_text(folder / "truth.json") + " ");
+  EXPECT_THROW(open_pack(folder / "pack", folder / "truth.json"), Error);
+}
+
+TEST_F(BlindPack, SameSeedSameBytesAndMeasureReadsThem) {
+  SetTruth truth{.number = 0, .seed = 11, .kind = "single", .design = "one_distance"};
+  truth.effects.push_back({{&hidden_effect("fill_offset"), 2.0}, 0.0});
+  const int frames = write_set(truth, folder / "a");
+  write_set(truth, folder / "b");
+  std::size_t clouds = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "a/clouds")) {
+    ++clouds;
+    EXPECT_EQ(read_text(entry.path()), read_text(folder / "b/clouds" / entry.path().filename()));
+  }
+  EXPECT_EQ(read_text(folder / "a/frames.csv"), read_text(folder / "b/frames.csv"));
+  EXPECT_EQ(clouds, static_cast<std::size_t>(frames));
+
+  const ProgramRun run = run_fathom("measure " + (folder / "a").string());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const Table heights = read_table(folder / "a/heights.csv");
+  double milk = 0.0;
+  int count = 0;
+  for (std::size_t row = 0; row < heights.rows(); ++row)
+    if (heights.text(row, "liquid") == "milk_tea" && heights.text(row, "fill_mm") == "20") {
+      milk += heights.number(row, "height_mm");
+      ++count;
+    }
+  // 7 + 20 + 2 mm, less half a millimetre of the depth law's cut; three fills of ± 0.5 mm leave ± 0.3.
+  EXPECT_NEAR(milk / count, 29.0 - 0.4, 0.8);
+}
+
+TEST_F(BlindPack, HeightsOnlyAreATableWithoutClouds) {
+  const SetTruth truth{.number = 0, .seed = 12, .kind = "null", .design = "heights_only"};
+  write_set(truth, folder / "a");
+  EXPECT_FALSE(fs::exists(folder / "a/clouds"));
+  const ProgramRun run = run_fathom("measure " + (folder / "a").string());
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(BlindPack, TheLedgerIsOnlyAddedTo) {
+  const fs::path ledger = folder / "ledger.csv";
+  add_to_ledger(ledger,
+                {.event = "made", .pack = "a", .kind = "sealed", .seed = 20001, .sets = 5, .truth_sha256 = "x"});
+  EXPECT_FALSE(opened_at(ledger, "x"));
+  add_to_ledger(ledger,
+                {.event = "opened", .pack = "a", .kind = "sealed", .seed = 20001, .sets = 5, .truth_sha256 = "x"});
+  EXPECT_TRUE(opened_at(ledger, "x"));
+  EXPECT_EQ(read_ledger(ledger).size(), 2u);
+  // The seed of a sealed pack is used up.
+  EXPECT_THROW(add_to_ledger(ledger, {.event = "made", .pack = "b", .kind = "sealed", .seed = 20001}), Error);
+  std::string text = read_text(ledger);
+  text.replace(text.find("20001"), 5, "20002");
+  write_text(ledger, text);
+  EXPECT_THROW(read_ledger(ledger), Error);
+}
+
+TEST(BlindSeeds, OfPackKindsAreDisjoint) {
+  std::uint64_t last = 0;
+  for (const PackKind& kind : pack_kinds()) {
+    EXPECT_GT(kind.first_seed, last);
+    last = kind.last_seed;
+    EXPECT_NO_THROW(require_seed(kind.name, kind.first_seed));
+    EXPECT_THROW(require_seed(kind.name, kind.last_seed + 1), Error);
+  }
+}
+
+struct BlindStrength : testing::Test {
+  static Strengths of(const char* name) { return {design(name), plan(design(name), 1), 1.0}; }
+};
+
+TEST_F(BlindStrength, GrowsWithTheEffectAndReachesWhatIsAsked) {
+  const Strengths strengths = of("one_distance");
+  const Hidden& fill = hidden_effect("fill_offset");
+  const double one = strengths.of({&fill, 1.0});
+  EXPECT_GT(one, 1.0);
+  EXPECT_NEAR(strengths.of({&fill, 2.0}) / one, 2.0, 0.1);  // signatures are nearly straight
+  EXPECT_EQ(strengths.of({&fill, 0.0}), 0.0);
+  EXPECT_NEAR(strengths.of({&fill, strengths.departure_for(fill, 6.0, -1.0)}), 6.0, 0.1);
+}
+
+TEST_F(BlindStrength, OfWhatIsUncertainAnywayIsAtMostItsPrior) {
+  const Strengths strengths = of("one_distance");
+  // A departure of one prior σ has s < 1, whatever the data: s² = x² / (σ² + …).
+  EXPECT_LT(strengths.of({&hidden_effect("baseline"), 0.05}), 1.0);
+  EXPECT_LT(strengths.of({&hidden_effect("sensor_height"), 0.5}), 1.0);
+}
+
+TEST_F(BlindStrength, TwinsDoNotEscapeEachOther) {
+  const Strengths strengths = of("opaque_only");
+  const Hidden* bottom = &hidden_effect("cup_bottom_height");
+  const Active fill{&hidden_effect("fill_offset"), 2.0};
+  const Eigen::VectorXd signature = strengths.signature(std::span(&fill, 1));
+  EXPECT_GT(signature.norm(), 3.0);
+  // Both raise an opaque surface; the tenth that is left is the wetted wall's and the prior of the bottom's.
+  EXPECT_LT(strengths.escape(signature, std::span(&bottom, 1)), 0.15 * signature.norm());
+}
+
+}  // namespace
+}  // namespace fathom::blind

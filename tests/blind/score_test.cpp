@@ -1,0 +1,114 @@
+// The scorer on answers written by hand.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "bench/blind/clopper_pearson.h"
+#include "bench/blind/curves.h"
+#include "bench/blind/goals.h"
+#include "core/files.h"
+
+namespace fathom::blind {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(ClopperPearson, GivesThePublishedIntervals) {
+  // 0 of 10: 1 − 0.025^(1/10); by symmetry 10 of 10. 5 of 10: 0.187 to 0.813 (Clopper & Pearson's chart).
+  EXPECT_NEAR(clopper_pearson_95(0, 10).high, 1.0 - std::pow(0.025, 0.1), 1e-9);
+  EXPECT_NEAR(clopper_pearson_95(10, 10).low, std::pow(0.025, 0.1), 1e-9);
+  EXPECT_NEAR(clopper_pearson_95(5, 10).low, 0.187, 5e-4);
+  EXPECT_NEAR(clopper_pearson_95(5, 10).high, 0.813, 5e-4);
+  EXPECT_EQ(clopper_pearson_95(0, 0).high, 1.0);
+}
+
+Answer answer_of(const std::string& json) {
+  const fs::path folder = fs::path(testing::TempDir()) / "answer";
+  make_directory(folder);
+  write_text(folder / "report.json", json);
+  const Answer answer = read_answer(folder);
+  fs::remove_all(folder);
+  return answer;
+}
+
+SetTruth single(const char* name, double departure, double s) {
+  SetTruth truth{.kind = "single", .design = "full"};
+  truth.effects.push_back({{&hidden_effect(name), departure}, s});
+  truth.strength_by_liquid = {{"water", s}, {"milk_tea", 0.5}};
+  return truth;
+}
+
+const std::string kIndexNamed = R"({"verdict": "named",
+  "effects": [{"name": "refractive_index@water", "parameters": {"index_change": {"value": 0.01, "ci95": [0.008, 0.012]}}}],
+  "ambiguity_set": [{"effects": [], "probability": 0.04}, {"effects": ["refractive_index@water"], "probability": 0.96}],
+  "where": [{"observable": "height_mm", "stratum": "liquid=water, distance_mm=300", "p": 1e-6}],
+  "gap": {"held_out": {"before_rms_mm": 1.3, "after_rms_mm": 0.5, "noise_floor_mm": 0.5}}})";
+
+const Goal& goal(const std::vector<Goal>& goals, const std::string& metric) {
+  for (const Goal& one : goals)
+    if (one.metric == metric) return one;
+  throw std::logic_error(metric);
+}
+
+TEST(BlindScore, ARightAnswerScoresEverywhere) {
+  const std::vector<Judged> judged(2, {single("refractive_index", 0.011, 9.0), answer_of(kIndexNamed)});
+  const std::vector<Goal> goals = goals_of(judged);
+  for (const char* metric : {"single effect first, s ≥ 8", "truth in the ambiguity set",
+                             "parameter within its 95 % interval", "localisation F1 over liquids",
+                             "gap closed on held-out conditions, s ≥ 8", "held-out RMS over noise floor, s ≥ 8"})
+    EXPECT_NEAR(goal(goals, metric).value, 1.0, 1e-12) << metric;
+  EXPECT_EQ(goal(goals, "confidently wrong").value, 0.0);
+  EXPECT_EQ(goal(goals, "single effect first, s ≥ 8").verdict(), "open") << "two sets prove nothing";
+}
+
+TEST(BlindScore, AWrongAnswerIsConfidentlyWrong) {
+  const std::vector<Judged> judged{{single("meniscus", -20.0, 9.0), answer_of(kIndexNamed)},
+                                   {SetTruth{.kind = "null", .design = "full"}, answer_of(kIndexNamed)}};
+  const std::vector<Goal> goals = goals_of(judged);
+  EXPECT_EQ(goal(goals, "single effect first, s ≥ 8").value, 0.0);
+  EXPECT_EQ(goal(goals, "names something on a null set").value, 1.0);
+  EXPECT_EQ(goal(goals, "confidently wrong").value, 1.0);
+  EXPECT_EQ(worst_table(judged).rows(), 2u);
+  EXPECT_EQ(reliability_table(judged).number(0, "true"), 0.0);
+}
+
+TEST(BlindScore, NoAnswerIsNoGoodAnswer) {
+  const std::vector<Judged> judged{{SetTruth{.kind = "null", .design = "full"}, read_answer("/no/such/folder")}};
+  const std::vector<Goal> goals = goals_of(judged);
+  EXPECT_EQ(goal(goals, "names something on a null set").value, 1.0);
+  EXPECT_EQ(goal(goals, "answered").value, 0.0);
+}
+
+TEST(BlindScore, TwinsHaveToBeSaidToBeTwins) {
+  SetTruth truth = single("fill_offset", 1.0, 9.0);
+  truth.kind = "twins";
+  truth.twins = {"cup_bottom_height", "fill_offset"};
+  const Answer both = answer_of(R"({"verdict": "ambiguous", "ambiguity_set": [
+    {"effects": ["cup_bottom_height"], "indistinguishable": [["fill_offset"]], "probability": 0.99}]})");
+  const Answer one = answer_of(R"({"verdict": "named", "effects": [{"name": "fill_offset"}], "ambiguity_set": [
+    {"effects": ["fill_offset"], "probability": 0.99}]})");
+  EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, both}}), "twins called ambiguous").value, 1.0);
+  EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, one}}), "twins called ambiguous").value, 0.0);
+}
+
+TEST(BlindScore, UnknownIsFlaggedByItsVerdict) {
+  SetTruth truth = single("wall_caustic", 0.5, 12.0);
+  truth.kind = "unknown";
+  truth.escape = 11.0;
+  const Answer flagged =
+      answer_of(R"({"verdict": "unknown", "ambiguity_set": [{"effects": ["unknown"], "probability": 0.97}]})");
+  const auto goals = goals_of(std::vector<Judged>{{truth, flagged}, {truth, answer_of(kIndexNamed)}});
+  EXPECT_EQ(goal(goals, "unknown flagged, escape ≥ 10").value, 0.5);
+  EXPECT_EQ(goal(goals, "confidently wrong, escape ≥ 8").value, 0.5);
+}
+
+TEST(BlindScore, PowerStandsBesideTheMatchedFilter) {
+  const std::vector<Judged> judged(4, {single("refractive_index", 0.011, 2.326), answer_of(kIndexNamed)});
+  const Table power = power_table(judged);
+  ASSERT_EQ(power.rows(), 1u);
+  EXPECT_NEAR(power.number(0, "matched_filter"), 0.5, 1e-4);  // Φ(0)
+  EXPECT_EQ(power.number(0, "detected"), 1.0);
+}
+
+}  // namespace
+}  // namespace fathom::blind
