@@ -24,20 +24,6 @@ constexpr double kWeakest = 2.0, kStrongest = 30.0;
 
 enum class Draw : std::uint64_t { order = 201, set };
 
-/// Kinds by their shares, the remainder of small packs going to the largest; shuffled.
-std::vector<std::string> kinds_of_pack(std::uint64_t seed, int sets) {
-  std::vector<std::string> kinds;
-  int shares = 0, so_far = 0;
-  for (const Share& kind : kKinds) {
-    shares += kind.percent;
-    for (const int until = (shares * sets + 50) / 100; so_far < until; ++so_far) kinds.emplace_back(kind.name);
-  }
-  Rng rng(seed, Draw::order);
-  for (std::size_t i = kinds.size(); i > 1; --i)
-    std::swap(kinds[i - 1], kinds[rng.below(static_cast<std::uint32_t>(i))]);
-  return kinds;
-}
-
 template <std::size_t N>
 std::string by_share(const std::array<Share, N>& shares, Rng& rng) {
   int ticket = static_cast<int>(rng.below(100));
@@ -97,6 +83,19 @@ void hide_twin(const Strengths& strengths, const Twins& twins, Rng& rng, SetTrut
 }
 
 }  // namespace
+
+std::vector<std::string> kinds_of_pack(std::uint64_t seed, int sets) {
+  std::vector<std::string> kinds;
+  int shares = 0, so_far = 0;
+  for (const Share& kind : kKinds) {
+    shares += kind.percent;
+    for (const int until = (shares * sets + 50) / 100; so_far < until; ++so_far) kinds.emplace_back(kind.name);
+  }
+  Rng rng(seed, Draw::order);
+  for (std::size_t i = kinds.size(); i > 1; --i)
+    std::swap(kinds[i - 1], kinds[rng.below(static_cast<std::uint32_t>(i))]);
+  return kinds;
+}
 
 SetTruth draw_set(std::uint64_t pack_seed, int number, int sets) {
   Rng rng(pack_seed, Draw::set, number);

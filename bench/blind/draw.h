@@ -34,7 +34,10 @@ struct SetTruth {
   std::map<std::string, double> strength_by_liquid{};
 };
 
-/// Set `number` of a pack of `sets`; classes come in fixed shares, in an order drawn from the seed.
+/// The class of each set of a pack: fixed shares, in an order drawn from the seed.
+std::vector<std::string> kinds_of_pack(std::uint64_t seed, int sets);
+
+/// Set `number` of a pack of `sets`.
 SetTruth draw_set(std::uint64_t pack_seed, int number, int sets);
 
 Json json_of(const SetTruth& truth);

@@ -47,6 +47,21 @@ class Bins {
   std::vector<int> first_, next_;
 };
 
+/// Only dots of the middle rows pass their errors on, or all where there are none.
+void share_errors(Matched& matched, const Block& block) {
+  constexpr double kRows = 2.0;  // on either side
+  const auto is_near = [&](const Member& member) {
+    return std::abs(matched.dots[member.dot].pixel.y() - block.pixel.y()) <= kRows;
+  };
+  double near = 0.0;
+  for (int k = block.first; k < block.first + block.count; ++k)
+    if (is_near(matched.members[k])) near += matched.members[k].weight;
+  for (int k = block.first; k < block.first + block.count; ++k) {
+    Member& member = matched.members[k];
+    member.error_weight = near == 0.0 ? member.weight : is_near(member) ? member.weight / near : 0.0;
+  }
+}
+
 /// The largest group of dots in a window that agree on a disparity becomes the block; without one nothing is added.
 void correlate(const std::vector<int>& inside, const std::vector<double>& grain, const Eigen::Vector2i& pixel,
                Matched& matched) {
@@ -66,7 +81,7 @@ void correlate(const std::vector<int>& inside, const std::vector<double>& grain,
   for (const int i : inside) {
     if (std::abs(dots[i].disparity_px - middle) > kAgreePx) continue;
     const double weight = light(i) / best;
-    matched.members.push_back({i, weight});
+    matched.members.push_back({i, weight, 0.0});
     block.disparity_px += weight * dots[i].disparity_px;
     on[static_cast<int>(dots[i].lit)] += weight;
     ++block.count;
@@ -76,6 +91,7 @@ void correlate(const std::vector<int>& inside, const std::vector<double>& grain,
     matched.members.resize(block.first);
     return;
   }
+  share_errors(matched, block);
   block.lit = static_cast<Lit>(std::max_element(on.begin(), on.end()) - on.begin());
   matched.blocks.push_back(block);
 }

@@ -8,13 +8,14 @@
 namespace fathom::blind {
 
 /// The error of a dot is that of its grain of speckle: it stays while nothing moves, and a smaller part is new in every
-/// frame. With 9 dots in a window, the steps of 1/8 px and the slope of a desk this gives 0.77 steps at 0.65 m.
-inline constexpr double kStaticDotPx = 0.15;
-inline constexpr double kTemporalDotPx = 0.10;
+/// frame. With the steps of 1/8 px and the slope of a desk this gives 0.7 steps at 0.65 m.
+inline constexpr double kStaticDotPx = 0.10;
+inline constexpr double kTemporalDotPx = 0.067;
 
 struct Member {
-  int dot;        ///< index into Matched::dots
-  double weight;  ///< those of a block add up to 1
+  int dot;              ///< index into Matched::dots
+  double weight;        ///< those of a block add up to 1
+  double error_weight;  ///< so do these: of errors, which rows far from the middle share less (measured: 3 to 4 rows)
 };
 
 struct Block {

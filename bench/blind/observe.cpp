@@ -102,7 +102,7 @@ Readings observe(const World& world, const Placement& placement, int trials, std
     shares[region].resize(matched.dots.size());
     const double scale = height_per_px(eyes, block);
     for (int k = block.first; k < block.first + block.count; ++k)
-      shares[region][matched.members[k].dot] += scale * matched.members[k].weight;
+      shares[region][matched.members[k].dot] += scale * matched.members[k].error_weight;
   }
   const double dot_px2 = kStaticDotPx * kStaticDotPx + kTemporalDotPx * kTemporalDotPx / trials;
   for (int region = 0; region < kRegions; ++region) {

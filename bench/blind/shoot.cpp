@@ -69,7 +69,7 @@ Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, cons
     scene.field_px.push_back(field_px(world, block.pixel));
     double px = scene.field_px.back();
     for (int k = block.first; k < block.first + block.count; ++k)
-      px += matched.members[k].weight * errors[matched.members[k].dot];
+      px += matched.members[k].error_weight * errors[matched.members[k].dot];
     scene.standing_px.push_back(px);
   }
   scene.dn = infrared_dn(matched);
@@ -95,7 +95,7 @@ std::vector<double> disparities(const Scene& scene, const World& world, const Sh
     const Block& block = matched.blocks[b];
     double px = block.disparity_px + scene.standing_px[b] + shake.offset_px;
     for (int k = block.first; k < block.first + block.count; ++k)
-      px += matched.members[k].weight * errors[matched.members[k].dot];
+      px += matched.members[k].error_weight * errors[matched.members[k].dot];
     if (world.strange.vibration_px != 0.0)
       px += world.strange.vibration_px * std::sin(2.0 * std::numbers::pi * block.pixel.y() / 180.0 + shake.phase);
     result.push_back(px);

@@ -166,11 +166,15 @@ double Strengths::departure_for(const Hidden& effect, double s, double sign) con
     const double repeats = static_cast<double>(placements_.size()) * (design_.trials - 1);
     return inside(scale_ * kFrameSigmaPx * std::sqrt(std::expm1(2.0 * s / std::sqrt(2.0 * repeats))));
   }
-  // Signatures are nearly straight lines: false position in the logarithm, twice.
-  for (int i = 0; i < 3; ++i) {
+  // Signatures are nearly straight lines.
+  constexpr int kSteps = 6;
+  constexpr double kNearEnough = 0.02;
+  for (int i = 0; i < kSteps; ++i) {
     const double now = of({&effect, departure});
-    if (now <= 0.0) return departure;
-    departure = inside(departure * std::clamp(s / now, 0.02, 50.0));
+    if (now <= 0.0 || std::abs(now / s - 1.0) < kNearEnough) break;
+    const double next = inside(departure * std::clamp(s / now, 0.02, 50.0));
+    if (next == departure) break;
+    departure = next;
   }
   return departure;
 }

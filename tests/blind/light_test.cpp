@@ -28,8 +28,9 @@ World wide_cup(double distance, double fill, double index) {
 /// Height above the bottom that the device, without its steps, gives for a point of the bottom.
 double measured_height(const World& world, const Eigen::Vector3d& point) {
   const Eyes eyes = eyes_of(world.sensor);
-  const auto towards = [&](const Eigen::Vector3d& eye) {
-    return (world.fill > 0.0 ? least_path(world, eye, point).value() : point) - eye;
+  const auto towards = [&](const Eigen::Vector3d& eye) -> Eigen::Vector3d {
+    if (world.fill == 0.0) return point - eye;
+    return least_path(world, eye, point).value() - eye;
   };
   const Eigen::Vector2d pixel = camera_pixel(eyes, world.sensor, towards(eyes.camera));
   const Eigen::Vector2d of_projector = camera_pixel(eyes, world.sensor, towards(eyes.projector));
