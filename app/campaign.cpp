@@ -126,7 +126,9 @@ Json rig_errors(const CampaignSpec& spec, std::uint64_t seed) {
     const auto sigma = spec.nominal.sigma.find(kErrors[i].key);
     if (sigma == spec.nominal.sigma.end()) continue;
     Rng rng(seed, Draw::rig, i);
-    errors.push_back({{"name", kErrors[i].effect}, {kErrors[i].parameter, sigma->second * rng.normal()}});
+    Json error = {{"name", kErrors[i].effect}};
+    error[kErrors[i].parameter] = sigma->second * rng.normal();
+    errors.push_back(std::move(error));
   }
   return errors;
 }

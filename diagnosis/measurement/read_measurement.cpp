@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "detector/quiet_pcl.h"
 #include "detector/read_cloud.h"
 #include "diagnosis/measurement/named_values.h"
 
@@ -90,6 +91,7 @@ std::vector<FrameReading> read_frames_of(const Measurement& measurement, const s
                                          const Table& table) {
   std::vector<FrameReading> readings(measurement.frames.size());
   std::vector<std::string> problems(readings.size());
+  const QuietPcl quiet;  // its verbosity is global: threads that silence it must all find it silent
   parallel_ranges(static_cast<int>(readings.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) try {
         readings[i] = read_frame(measurement.frames[i], measurement.rig, folder);

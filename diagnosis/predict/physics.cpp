@@ -39,10 +39,12 @@ std::vector<Observation> predicted_observations(const Measurement& measurement, 
   PredictedRows is_predicted;
   for (const Observation& observation : measurement.observations)
     if (is_predicted(observation)) candidates.push_back(observation);
-  const Eigen::VectorXd nominal = Predictor(measurement.rig, candidates, model_effects, file).predict({});
+  const Predictor predictor(measurement.rig, candidates, model_effects, file);
+  const Eigen::VectorXd nominal = predictor.predict({});
+  const std::vector<bool> near_shadows = predictor.near_shadows();
   std::vector<Observation> predicted;
   for (std::size_t row = 0; row < candidates.size(); ++row)
-    if (std::isfinite(nominal[row])) predicted.push_back(std::move(candidates[row]));
+    if (std::isfinite(nominal[row]) && !near_shadows[row]) predicted.push_back(std::move(candidates[row]));
   return predicted;
 }
 
@@ -228,7 +230,7 @@ std::vector<std::string> poured_liquids(const Predictor& predictor) {
 
 /// What moves every row by less than this at its prior scale moves nothing that could be measured.
 bool moves_anything(const Candidate& candidate) {
-  constexpr double kNothing = 1e-9;
+  constexpr double kNothing = 1e-3;  // [mm or °]
   double most = 0.0;
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     most = std::max(most, candidate.parameters[i].prior_scale *

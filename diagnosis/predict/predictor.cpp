@@ -61,11 +61,31 @@ Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& o
   }
 }
 
-void Predictor::predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const {
+Setup Predictor::nominal_setup(const Condition& condition) const {
   Setup setup = setup_of(model_, condition.factors);
   setup.effects = model_effects_;
   setup.file = file_;
-  setup = with_effects(std::move(setup));
+  return with_effects(std::move(setup));
+}
+
+std::vector<bool> Predictor::near_shadows() const {
+  constexpr double kTooMuch = 0.05;  // of a region: a few pixels at its border
+  std::vector<bool> shadowed(observables_.size(), false);
+  for (const Condition& condition : conditions_) {
+    const std::optional<Eigen::Vector2d> place = place_of(condition.factors);
+    if (!place) continue;
+    const std::array<double, 5> shares =
+        shares_near_shadows(nominal_setup(condition), model_.laboratory, *place, condition.pixels);
+    for (const std::size_t row : condition.rows)
+      for (std::size_t i = 0; i < shares.size(); ++i)
+        if (observables_[row] == "height_mm" && regions_[row] == kCupRegionNames[i] && shares[i] > kTooMuch)
+          shadowed[row] = true;
+  }
+  return shadowed;
+}
+
+void Predictor::predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const {
+  Setup setup = nominal_setup(condition);
   if (change) change(setup, condition.factors);
   const auto estimates = surrogate_frame(setup, model_.laboratory, place_of(condition.factors), condition.pixels);
   for (const std::size_t row : condition.rows) values[row] = std::numeric_limits<double>::quiet_NaN();

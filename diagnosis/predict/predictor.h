@@ -32,10 +32,14 @@ class Predictor {
   /// The same of the conditions listed, all other values 0.
   Eigen::VectorXd predict(const Change& change, const std::vector<std::size_t>& conditions) const;
 
+  /// Whether each observation is of a region of the cup that the model puts into shadow, or near one.
+  std::vector<bool> near_shadows() const;
+
   const std::vector<Condition>& conditions() const { return conditions_; }
   const NominalModel& model() const { return model_; }
 
  private:
+  Setup nominal_setup(const Condition& condition) const;
   void predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const;
 
   NominalModel model_;

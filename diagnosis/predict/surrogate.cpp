@@ -155,6 +155,35 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
   return pixels;
 }
 
+std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& place,
+                                          const SampledPixels& pixels) {
+  constexpr double kReach = 0.006;  // [m] half a window of 9 pixels, 0.75 m away
+  std::array<double, 5> all{}, dark{};
+  const std::optional<CupOptics> cup = cup_optics(setup);
+  if (!cup) return all;
+  const double height = cup->layers.empty() ? cup->bottom.front().y() : cup->layers.front().at;
+  const double radius = rig.inner_radius_m - kInteriorMargin;
+  const Eigen::Vector3d camera = setup.rig.camera_in_world(), projector = setup.rig.projector_in_world();
+  for (const Eigen::Vector2d& pixel : pixels.cup) {
+    const Ray sight{camera, setup.rig.direction_in_world(pixel.x(), pixel.y())};
+    if (sight.direction.z() >= 0.0) continue;
+    const Eigen::Vector3d point = camera + (height - camera.z()) / sight.direction.z() * sight.direction;
+    const Eigen::Vector2d from_axis = point.head<2>() - place;
+    const std::array<double, 5> own = shares_of_regions(from_axis, radius, 0.0);
+    for (std::size_t i = 0; i < own.size(); ++i) all[i] += own[i];
+    if (look_into(*cup, sight, projector)) continue;
+    std::array<double, 5> reached = own;
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const Eigen::Vector2d beside = from_axis + kReach * direction_of(0.25 * std::numbers::pi * eighth);
+      const std::array<double, 5> there = shares_of_regions(beside, radius, 0.0);
+      for (std::size_t i = 0; i < own.size(); ++i) reached[i] = std::max(reached[i], there[i]);
+    }
+    for (std::size_t i = 0; i < own.size(); ++i) dark[i] += reached[i];
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) dark[i] = all[i] > 0.0 ? dark[i] / all[i] : 1.0;
+  return dark;
+}
+
 std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
                                               const std::optional<Eigen::Vector2d>& place,
                                               const SampledPixels& pixels) {

@@ -17,6 +17,11 @@ struct SampledPixels {
 /// `cup` is where the cup should stand in the world [m]; nothing on a bare desk.
 SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup);
 
+/// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
+/// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.
+std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& cup,
+                                          const SampledPixels& pixels);
+
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
 /// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct
