@@ -230,7 +230,7 @@ std::vector<std::string> poured_liquids(const Predictor& predictor) {
 
 /// What moves every row by less than this at its prior scale moves nothing that could be measured.
 bool moves_anything(const Candidate& candidate) {
-  constexpr double kNothing = 1e-3;  // [mm or °]
+  constexpr double kNothing = 1e-4;  // [mm or °]
   double most = 0.0;
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     most = std::max(most, candidate.parameters[i].prior_scale *

@@ -69,7 +69,7 @@ Setup Predictor::nominal_setup(const Condition& condition) const {
 }
 
 std::vector<bool> Predictor::near_shadows() const {
-  constexpr double kTooMuch = 0.05;  // of a region: a few pixels at its border
+  constexpr double kTooMuch = 0.35;  // of a region
   std::vector<bool> shadowed(observables_.size(), false);
   for (const Condition& condition : conditions_) {
     const std::optional<Eigen::Vector2d> place = place_of(condition.factors);

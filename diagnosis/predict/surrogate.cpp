@@ -160,8 +160,9 @@ std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRi
   constexpr double kReach = 0.006;  // [m] half a window of 9 pixels, 0.75 m away
   std::array<double, 5> all{}, dark{};
   const std::optional<CupOptics> cup = cup_optics(setup);
-  if (!cup) return all;
-  const double height = cup->layers.empty() ? cup->bottom.front().y() : cup->layers.front().at;
+  const std::optional<FrameEstimates> frame = surrogate_frame(setup, rig, place, pixels);
+  if (!cup || !frame) return all;
+  const double height = frame->interior.mean;  // where pixels seem to look
   const double radius = rig.inner_radius_m - kInteriorMargin;
   const Eigen::Vector3d camera = setup.rig.camera_in_world(), projector = setup.rig.projector_in_world();
   for (const Eigen::Vector2d& pixel : pixels.cup) {

@@ -83,7 +83,8 @@ TEST(Physics, NuisancesAreOnePerPourPlacementAndUncertainValue) {
   EXPECT_EQ(named("x of placement "), 15);
   EXPECT_EQ(named("y of placement "), 15);
   EXPECT_EQ(named("model of desk_residual_mm, "), 9);
-  EXPECT_GE(named("model of height_mm, "), 3 * 4);  // the sector near the sensor lies in the wall's shadow
+  // Of each filling the far sector at least: the others lie in the wall's shadow where the cup is deep.
+  EXPECT_GE(named("model of height_mm, "), 3);
   for (const char* key : {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"})
     EXPECT_EQ(named(key), 1) << key;
   for (const Nuisance& nuisance : physics.evidence.nuisances) {
