@@ -15,7 +15,8 @@ bool are_twins(const Option& a, const Option& b) {
 }
 
 bool includes(const Option& larger, const Option& smaller) {
-  return larger.has_unknown >= smaller.has_unknown &&
+  const bool is_something = smaller.has_unknown || !smaller.effects.empty();
+  return is_something && larger.has_unknown >= smaller.has_unknown &&
          larger.effects.size() + larger.has_unknown > smaller.effects.size() + smaller.has_unknown &&
          std::includes(larger.effects.begin(), larger.effects.end(), smaller.effects.begin(), smaller.effects.end());
 }

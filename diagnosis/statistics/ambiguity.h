@@ -21,7 +21,8 @@ struct AmbiguitySet {
 };
 
 /// Options within `delta` of the best log posterior. Those whose predictions differ by less than one σ of all the data
-/// together are one class: twins. A superset of an option that is no better goes with the smaller one.
+/// together are one class: twins. A superset of an option (other than none) that is no better goes with the smaller
+/// one.
 AmbiguitySet ambiguity_set(std::vector<Option> options, double delta);
 
 }  // namespace fathom

@@ -38,14 +38,21 @@ void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
       for (const auto j : members) covariance(i, j) += component.variance;
 }
 
-/// Variances that the data might as well have come from.
+/// Variances that the data might as well have come from: lognormal, for those of few degrees of freedom are often much
+/// larger than estimated, seldom much smaller; half a normal where the estimate is 0.
 Eigen::VectorXd redrawn(const ObservableErrors& errors, const Eigen::MatrixXd& root, Rng& rng) {
-  Eigen::VectorXd variances(root.rows());
   Eigen::VectorXd normals(root.cols());
   for (double& normal : normals) normal = rng.normal();
-  variances = root * normals;
-  for (Eigen::Index k = 0; k < variances.size(); ++k)
-    variances[k] = std::max(0.0, variances[k] + errors.components[k].variance);
+  Eigen::VectorXd variances = root * normals;
+  for (Eigen::Index k = 0; k < variances.size(); ++k) {
+    const double estimate = errors.components[k].variance;
+    const double relative = std::sqrt(errors.covariance(k, k)) / std::max(estimate, 1e-300);
+    // Of the same relative spread; beyond 1 it would say more about the lognormal than about the data.
+    variances[k] =
+        relative < 1.0
+            ? estimate * std::exp(variances[k] / estimate * std::sqrt(std::log1p(relative * relative)) / relative)
+            : std::max(0.0, estimate + variances[k]);
+  }
   return variances;
 }
 

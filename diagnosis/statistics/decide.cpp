@@ -177,7 +177,8 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
   int tried = 0;
   for (const Refit& fit : fits) {
     const Hypothesis& h = fit.hypothesis;
-    if (h.effects.empty() || tried == kVerified) return std::nullopt;
+    if (tried == kVerified) return std::nullopt;
+    if (h.effects.empty()) continue;
     const bool is_subset =
         std::includes(first.effects.begin(), first.effects.end(), h.effects.begin(), h.effects.end());
     if (!is_subset && h.log_evidence < first.log_evidence - c.settings.delta) continue;
@@ -191,12 +192,14 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
 void add_parameters(const Case& c, Choice& choice) {
   const Eigen::MatrixXd& J = choice.fit.jacobian;
   const Eigen::MatrixXd covariance = (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
-  const double t = student_quantile(0.025, std::max(4.0, c.covariance.errors.residual_dof));
+  const std::vector<EffectSize> sizes =
+      sizes_beside_others(c.problem, c.covariance, choice.fit.hypothesis, choice.fit.jacobian);
   Eigen::Index next = 0;
   for (std::size_t e = 0; e < choice.effects.size(); ++e)
     for (const Parameter& parameter : c.evidence.candidates[choice.fit.hypothesis.effects[e]].parameters) {
       const double value = parameter.nominal + parameter.prior_scale * choice.fit.hypothesis.parameters[next];
-      const double half = t * parameter.prior_scale * std::sqrt(covariance(next, next));
+      const double half =
+          student_quantile(0.025, sizes[e].dof) * parameter.prior_scale * std::sqrt(covariance(next, next));
       ++next;
       NamedParameter named{parameter.name, value, value - half, value + half};
       if (parameter.lower < parameter.upper) {
@@ -265,7 +268,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::ve
   if (!diagnosis.missing.empty()) return diagnosis;
   Case c = prepare(evidence, predict, settings);
   const Eigen::Index n = c.problem.residual.size();
-  diagnosis.warnings = hygiene_warnings(evidence, c.covariance);
+  diagnosis.warnings = hygiene_warnings(evidence);
   if (!c.covariance.errors.from_replicates)
     diagnosis.warnings.emplace_back(
         "hardly any condition was measured twice: errors are taken from what a smooth model leaves");

@@ -12,6 +12,8 @@ namespace fathom {
 namespace {
 
 constexpr Eigen::Index kFewestWithinCells = 8;
+constexpr double kLeastWithin =
+    0.1;  // mean square of scatter within cells, of what the covariance expects: noiseless data
 constexpr double kLeastLeft = 0.05;  // of a column's norm, for it to be looked at still
 
 /// Orthonormal basis of the whitened means of all cells.
@@ -116,7 +118,7 @@ GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const
           const Eigen::VectorXd explained_squares = means.colwise().squaredNorm();
           const Eigen::VectorXd squares = all.colwise().squaredNorm();
           return Eigen::VectorXd((explained_squares.array() / between) /
-                                 ((squares - explained_squares).array() / within));
+                                 ((squares - explained_squares).array() / within).max(kLeastWithin));
         }));
   }
   test.p = fit_maximum(largest_z).p(data_z);

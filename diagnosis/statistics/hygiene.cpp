@@ -13,8 +13,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kFarBetter = 50.0;   // decrease of χ²: ten standard deviations of a change by chance …
-constexpr double kMostOfIt = 0.7;     // … which must be most of what is wrong
+constexpr double kFarBetter = 3.0;    // ratio of the heights' residuals: most of them is gone
 constexpr double kOtherCup_mm = 4.0;  // shift of one pour against the others: no error of filling
 constexpr std::size_t kFewestTwins = 4;
 
@@ -56,12 +55,13 @@ void check_duplicates(const Evidence& evidence, std::vector<std::string>& warnin
   }
 }
 
-/// χ² of some rows by the covariance among them.
-double misfit(const Covariance& covariance, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& residual) {
-  return part(covariance, rows).llt().matrixL().solve(residual).squaredNorm();
+double rms(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-void check_mirrored(const Evidence& evidence, const Covariance& covariance, std::vector<std::string>& warnings) {
+void check_mirrored(const Evidence& evidence, std::vector<std::string>& warnings) {
   const auto mirrored_cell = [](Observation o) {
     o.factors.lateral_mm = 0.0 - o.factors.lateral_mm;
     return cell_key(o);
@@ -69,26 +69,20 @@ void check_mirrored(const Evidence& evidence, const Covariance& covariance, std:
   std::map<std::string, double> predictions;
   for (std::size_t i = 0; i < evidence.observations.size(); ++i)
     predictions.emplace(cell_key(evidence.observations[i]), evidence.predicted[static_cast<Eigen::Index>(i)]);
-  std::vector<Eigen::Index> rows;
   std::vector<double> as_is, mirrored;
   for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
     const Observation& o = evidence.observations[i];
     const auto other = predictions.find(mirrored_cell(o));
-    if (o.factors.lateral_mm == 0.0 || other == predictions.end()) continue;
-    rows.push_back(static_cast<Eigen::Index>(i));
+    if (!is_height(o) || o.factors.lateral_mm == 0.0 || other == predictions.end()) continue;
     as_is.push_back(o.value - evidence.predicted[static_cast<Eigen::Index>(i)]);
     mirrored.push_back(o.value - other->second);
   }
-  if (rows.size() < kFewestTwins) return;
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  const double before = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(as_is.data(), n));
-  const double after = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(mirrored.data(), n));
-  if (before - after > kFarBetter && before - after > kMostOfIt * (before - static_cast<double>(n)))
+  if (as_is.size() >= kFewestTwins && rms(as_is) > kFarBetter * rms(mirrored))
     warnings.emplace_back("left and right fit far better exchanged: a flipped axis?");
 }
 
 /// Two pours whose predictions, condition by condition, fit each other's measurements.
-void check_swapped(const Evidence& evidence, const Covariance& covariance, std::vector<std::string>& warnings) {
+void check_swapped(const Evidence& evidence, std::vector<std::string>& warnings) {
   const Groups pours = group_by(evidence.observations, pour_key);
   const auto members = pours.members();
   const auto place = [](const Observation& o) {
@@ -96,16 +90,15 @@ void check_swapped(const Evidence& evidence, const Covariance& covariance, std::
   };
   std::vector<std::map<std::string, Eigen::Index>> at(pours.count);
   for (int pour = 0; pour < pours.count; ++pour)
-    for (const auto row : members[pour]) at[pour].emplace(place(evidence.observations[row]), row);
+    for (const auto row : members[pour])
+      if (is_height(evidence.observations[row])) at[pour].emplace(place(evidence.observations[row]), row);
   for (int a = 0; a < pours.count; ++a)
     for (int b = a + 1; b < pours.count; ++b) {
       const Factors& one = evidence.observations[members[a][0]].factors;
       const Factors& other = evidence.observations[members[b][0]].factors;
       if (one.liquid == other.liquid && one.fill_mm == other.fill_mm) continue;
-      std::vector<Eigen::Index> rows;
       std::vector<double> as_is, swapped;
       const auto add = [&](Eigen::Index row, Eigen::Index partner) {
-        rows.push_back(row);
         as_is.push_back(evidence.observations[row].value - evidence.predicted[row]);
         swapped.push_back(evidence.observations[row].value - evidence.predicted[partner]);
       };
@@ -114,11 +107,7 @@ void check_swapped(const Evidence& evidence, const Covariance& covariance, std::
           add(row, partner->second);
           add(partner->second, row);
         }
-      if (rows.size() < kFewestTwins) continue;
-      const auto n = static_cast<Eigen::Index>(rows.size());
-      const double before = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(as_is.data(), n));
-      const double after = misfit(covariance, rows, Eigen::Map<Eigen::VectorXd>(swapped.data(), n));
-      if (before - after > kFarBetter && before - after > kMostOfIt * (before - static_cast<double>(n)))
+      if (as_is.size() >= kFewestTwins && rms(as_is) > kFarBetter * rms(swapped))
         warnings.push_back(
             fmt::format("{} {} mm (pour {}) and {} {} mm (pour {}) fit far better exchanged: labels swapped?",
                         one.liquid, one.fill_mm, one.pour, other.liquid, other.fill_mm, other.pour));
@@ -149,12 +138,12 @@ void check_other_cup(const Evidence& evidence, std::vector<std::string>& warning
 
 }  // namespace
 
-std::vector<std::string> hygiene_warnings(const Evidence& evidence, const Covariance& covariance) {
+std::vector<std::string> hygiene_warnings(const Evidence& evidence) {
   std::vector<std::string> warnings;
   check_unit(evidence, warnings);
   check_duplicates(evidence, warnings);
-  check_mirrored(evidence, covariance, warnings);
-  check_swapped(evidence, covariance, warnings);
+  check_mirrored(evidence, warnings);
+  check_swapped(evidence, warnings);
   check_other_cup(evidence, warnings);
   return warnings;
 }

@@ -1,11 +1,9 @@
 // Book-keeping that went wrong, as far as observations and predictions show it: looked for before any physics.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
@@ -13,6 +11,6 @@ namespace fathom {
 /// One sentence for each finding: a unit (heights off by a power of ten or an inch), labels of two pours that fit far
 /// better exchanged, a lateral axis that fits far better mirrored, a pour that alone is a cup's difference off, two
 /// placements with identical numbers.
-std::vector<std::string> hygiene_warnings(const Evidence& evidence, const Covariance& covariance);
+std::vector<std::string> hygiene_warnings(const Evidence& evidence);
 
 }  // namespace fathom

@@ -22,8 +22,8 @@ struct MaximumTail {
 };
 MaximumTail fit_maximum(const Eigen::VectorXd& draws);
 
-/// The standard normal |z| with the tail that Student's |t| of `dof` degrees of freedom has (Wallace 1959; within 0.01
-/// from 5 degrees of freedom on).
+/// The standard normal |z| with the tail that Student's |t| of `dof` degrees of freedom has (Wallace 1959; within 0.03
+/// from 5 degrees of freedom and up to |t| = 6).
 double normal_score(double t, double dof);
 
 }  // namespace fathom

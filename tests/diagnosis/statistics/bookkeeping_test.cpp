@@ -13,9 +13,7 @@
 namespace fathom {
 namespace {
 
-std::vector<std::string> warnings(const Evidence& evidence) {
-  return hygiene_warnings(evidence, estimate_covariance(evidence, residual_of(evidence)));
-}
+std::vector<std::string> warnings(const Evidence& evidence) { return hygiene_warnings(evidence); }
 
 TEST(Hygiene, IsQuietAboutACleanCampaign) {
   const World world(small_design());

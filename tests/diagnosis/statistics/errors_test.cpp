@@ -24,7 +24,7 @@ TEST(Distributions, AgreeWithPrintedTables) {
 TEST(NormalScore, HasTheTailOfStudentsT) {
   for (const double dof : {5.0, 10.0, 50.0})
     for (const double t : {1.0, 3.0, 6.0})
-      EXPECT_NEAR(normal_score(t, dof), normal_quantile(student_tail(t, dof)), 0.02);
+      EXPECT_NEAR(normal_score(t, dof), normal_quantile(student_tail(t, dof)), 0.03);
 }
 
 TEST(MaximumTail, CountsIndependentTests) {

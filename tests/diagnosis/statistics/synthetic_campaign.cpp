@@ -239,7 +239,8 @@ Evidence World::measure(const std::vector<EffectValue>& truth, const Errors& err
   if (unregistered.size() > 0) value += unregistered;
   if (errors.dust > 0.0)
     for (std::uint64_t k = 0; k < 3; ++k) value += escaping(errors.dust, mix_bits(seed) + k);
-  for (const Nuisance& nuisance : nominal_.nuisances) value += nuisance.sigma * draw() * nuisance.signature;
+  for (const Nuisance& nuisance : nominal_.nuisances)
+    value += nuisance.sigma * errors.scale * rng.normal() * nuisance.signature;
   std::map<std::string, double> shared;
   const auto common = [&](const std::string& key, double sd) {
     const auto [entry, is_new] = shared.try_emplace(key, 0.0);

@@ -24,7 +24,7 @@ struct CampaignDesign {
 
 struct Errors {
   double scale = 1.0;        ///< of all real errors and nuisances, against those stated
-  bool heavy_tails = false;  ///< Student's t of 3 degrees of freedom, of the same variance
+  bool heavy_tails = false;  ///< of measurement: Student's t of 3 degrees of freedom, of the same variance
   bool silent = false;       ///< no error at all but the nuisances
   double dust = 0.0;         ///< strength of small smooth departures that nothing describes
 };
