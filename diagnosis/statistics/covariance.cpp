@@ -46,10 +46,10 @@ Eigen::VectorXd redrawn(const ObservableErrors& errors, const Eigen::MatrixXd& r
   Eigen::VectorXd variances = root * normals;
   for (Eigen::Index k = 0; k < variances.size(); ++k) {
     const double estimate = errors.components[k].variance;
-    const double relative = std::sqrt(errors.covariance(k, k)) / std::max(estimate, 1e-300);
-    // Of the same relative spread; beyond 1 it would say more about the lognormal than about the data.
+    const double relative = estimate > 0.0 ? std::sqrt(errors.covariance(k, k)) / estimate : 1.0;
+    // Of the same relative spread; from 1 on it would say more about the lognormal than about the data.
     variances[k] =
-        relative < 1.0
+        relative > 0.0 && relative < 1.0
             ? estimate * std::exp(variances[k] / estimate * std::sqrt(std::log1p(relative * relative)) / relative)
             : std::max(0.0, estimate + variances[k]);
   }

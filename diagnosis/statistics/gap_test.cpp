@@ -1,5 +1,6 @@
 #include "diagnosis/statistics/gap_test.h"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "diagnosis/statistics/distributions.h"
@@ -41,6 +42,23 @@ Eigen::MatrixXd unit_columns(const Eigen::MatrixXd& x, const Eigen::VectorXd& no
   return result;
 }
 
+WeightedDirections main_effects(const GapShapes& shapes, const Covariance& covariance) {
+  std::vector<Eigen::Index> main;
+  for (std::size_t k = 0; k < shapes.strata.size(); ++k)
+    if (shapes.strata[k].is_main) main.push_back(static_cast<Eigen::Index>(k));
+  const Eigen::MatrixXd columns = orthonormal(shapes.stratum_columns(Eigen::all, main));
+  return {columns, Eigen::VectorXd::Ones(columns.cols()), degrees_of_freedom(covariance, columns)};
+}
+
+/// Eigenvectors of the whitened process; λ / (1 + λ) is the share of a direction's variance that would be the
+/// process's.
+WeightedDirections smooth_departures(const Eigen::MatrixXd& smooth, const Covariance& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(smooth.transpose() * smooth);
+  const Eigen::ArrayXd values = eigen.eigenvalues().array().max(1e-12);
+  const Eigen::MatrixXd columns = smooth * eigen.eigenvectors() * values.rsqrt().matrix().asDiagonal();
+  return {columns, values / (1.0 + values), degrees_of_freedom(covariance, columns)};
+}
+
 /// One statistic of the data and of each draw.
 struct Statistic {
   double data;
@@ -55,8 +73,13 @@ Statistic statistic(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& resid
           f(Eigen::MatrixXd(columns.transpose() * draws), draws)};
 }
 
-Eigen::VectorXd sum_of_squares(const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) {
-  return projected.colwise().squaredNorm();
+/// Σ weight · z² of each column of projections, each z as of a normal.
+Eigen::VectorXd weighted_squares(const Eigen::MatrixXd& projected, const WeightedDirections& directions) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(projected.cols());
+  for (Eigen::Index draw = 0; draw < projected.cols(); ++draw)
+    for (Eigen::Index k = 0; k < projected.rows(); ++k)
+      result[draw] += directions.weights[k] * std::pow(normal_score(projected(k, draw), directions.dof[k]), 2.0);
+  return result;
 }
 
 /// Largest |z| in each column, each row with its own degrees of freedom.
@@ -86,6 +109,8 @@ GapShapes gap_shapes(const Evidence& evidence, const Covariance& covariance) {
   shapes.stratum_dof = degrees_of_freedom(covariance, shapes.stratum_columns);
   shapes.smooth_factor = smooth_factor(evidence, covariance);
   shapes.smooth = covariance.whiten(shapes.smooth_factor);
+  shapes.main_effects = main_effects(shapes, covariance);
+  shapes.smooth_departures = smooth_departures(shapes.smooth, covariance);
   shapes.cells = cell_space(evidence, covariance);
   return shapes;
 }
@@ -95,16 +120,19 @@ GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const
   const Eigen::MatrixXd left = without(residual, explained), draws_left = without(draws, explained);
   const Eigen::MatrixXd strata =
       unit_columns(without(shapes.stratum_columns, explained), shapes.stratum_columns.colwise().norm().transpose());
-  std::vector<Eigen::Index> main_effects;
-  for (std::size_t k = 0; k < shapes.strata.size(); ++k)
-    if (shapes.strata[k].is_main) main_effects.push_back(static_cast<Eigen::Index>(k));
-
   GapTest test;
   Eigen::VectorXd largest_z = Eigen::VectorXd::Constant(draws.cols(), -INFINITY);
   double data_z = -INFINITY;
   const auto quadratic = [&](const Statistic& s) { return calibrate(s, fit_quadratic(s.draws), largest_z, data_z); };
-  test.p_strata = quadratic(statistic(orthonormal(strata(Eigen::all, main_effects)), left, draws_left, sum_of_squares));
-  test.p_smooth = quadratic(statistic(without(shapes.smooth, explained), left, draws_left, sum_of_squares));
+  const auto sum_over = [&](const WeightedDirections& directions) {
+    const Eigen::VectorXd norms = Eigen::VectorXd::Ones(directions.columns.cols());
+    return quadratic(statistic(unit_columns(without(directions.columns, explained), norms), left, draws_left,
+                               [&](const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) {
+                                 return weighted_squares(projected, directions);
+                               }));
+  };
+  test.p_strata = sum_over(shapes.main_effects);
+  test.p_smooth = sum_over(shapes.smooth_departures);
   const Statistic scan = statistic(
       strata, left, draws_left,
       [&](const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) { return largest(projected, shapes.stratum_dof); });

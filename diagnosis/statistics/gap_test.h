@@ -12,6 +12,12 @@
 
 namespace fathom {
 
+/// Orthonormal directions with a share of each squared z in a sum.
+struct WeightedDirections {
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd weights, dof;  ///< degrees of freedom of the variance along each
+};
+
 /// Whitened columns that the tests project on.
 struct GapShapes {
   std::vector<Stratum> strata;
@@ -19,6 +25,7 @@ struct GapShapes {
   Eigen::VectorXd stratum_dof;      ///< of their variances
   Eigen::MatrixXd smooth_factor;    ///< not whitened
   Eigen::MatrixXd smooth;
+  WeightedDirections main_effects, smooth_departures;
   Eigen::MatrixXd cells;  ///< orthonormal span of the cells' means; empty where hardly any cell is repeated
 };
 
@@ -29,7 +36,7 @@ struct GapTest {
   std::optional<double> p_lack_of_fit{};  ///< F of cell means against the scatter within cells
   double p_strata = 1.0;                  ///< χ² of all main effects
   double p_scan = 1.0;                    ///< largest single stratum
-  double p_smooth = 1.0;                  ///< score of a Gaussian process
+  double p_smooth = 1.0;  ///< of a Gaussian process: its likeliest shapes weigh one, those below the errors their share
   MaximumTail scan_tail;
 };
 
