@@ -29,8 +29,9 @@ const fathom::Effect kWetRing{.id = "wet_ring",
 
 double mean_depth(const fathom::Setup& setup) {
   fathom::Camera camera(setup, fathom::CaptureMode::geometric, 1, 1);
+  const fathom::Frame frame = camera.shoot(0);
   double sum = 0.0, count = 0.0;
-  for (const float depth : camera.shoot(0).depth.pixels())
+  for (const float depth : frame.depth.pixels())
     if (depth > 0.0f) sum += depth, ++count;
   return sum / count;
 }

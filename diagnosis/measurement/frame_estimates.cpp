@@ -72,15 +72,6 @@ std::optional<Plane> fit_desk(std::span<const SensedPoint> points, const Laborat
   return desk;
 }
 
-/// Whether lines from the point to camera and projector pass the cup's opening by more than half a matching window
-/// from its rim: what is nearer is measured together with the rim and the wall. `height` is the rim's, `eye` above it.
-bool is_clear_of_rim(const Eigen::Vector3d& from_axis, const Eigen::Vector3d& eye_from_axis, double height,
-                     double radius) {
-  const double share = (height - from_axis.z()) / (eye_from_axis.z() - from_axis.z());
-  const Eigen::Vector2d crossing = from_axis.head<2>() + share * (eye_from_axis.head<2>() - from_axis.head<2>());
-  return crossing.squaredNorm() < radius * radius;
-}
-
 std::size_t third_of_image(const SensedPoint& sensed, double focal_px) {
   const double column = focal_px * sensed.point.x() / sensed.point.z() / kImageWidth + 0.5,
                row = focal_px * sensed.point.y() / sensed.point.z() / kImageHeight + 0.5;
@@ -101,11 +92,6 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   const double radius = rig.inner_radius_m - kInteriorMargin, reach = radius + view.soft_m;
   const double steps_per_inverse = 8.0 * rig.focal_px * rig.baseline_m, two_pi = 2.0 * std::numbers::pi;
   constexpr float kOnDesk = 0.005f;
-  constexpr double kHalfWindow_px = 5.0;
-  const Eigen::Vector3d axis = cup ? Eigen::Vector3d(cup->centre.x(), cup->centre.y(), 0.0) : Eigen::Vector3d::Zero();
-  const Eigen::Vector3d camera = Eigen::Vector3d(0.0, 0.0, desk->offset) - axis;
-  const Eigen::Vector3d projector = to_desk * Eigen::Vector3d(rig.baseline_m, 0.0, 0.0) - axis;
-  const double opening = rig.inner_radius_m - kHalfWindow_px / rig.focal_px * camera.norm();
   std::array<Sums, 9> residual;
   std::array<Sums, 5> height;
   Sums interior, interior_intensity, desk_intensity;
@@ -118,10 +104,6 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     const double squared = from_axis.squaredNorm(), w = sensed.weight;
     if (cup && squared < cup->clear_of_cup * cup->clear_of_cup) {
       if (squared > reach * reach || p.z() < kLeastHeight || p.z() > kMostHeight) continue;
-      const Eigen::Vector3d inside(from_axis.x(), from_axis.y(), p.z());
-      if (!is_clear_of_rim(inside, camera, rig.cup_height_m, opening) ||
-          !is_clear_of_rim(inside, projector, rig.cup_height_m, opening))
-        continue;
       const std::array<double, 5> shares = shares_of_regions(from_axis, radius, view.soft_m);
       double whole = 0.0;
       for (std::size_t i = 0; i < shares.size(); ++i)

@@ -252,6 +252,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   for (Nuisance& nuisance : model_errors(evidence.observations)) evidence.nuisances.push_back(std::move(nuisance));
   const std::vector<std::string> liquids = poured_liquids(*predictor);
   for (const Effect& effect : effect_registry()) {
+    if (effect.id == "unit_error") continue;  // a fill_scale, until its factor is a unit's: the statistics' hygiene
     std::vector<std::string> targets{""};
     if (effect.of_liquids && liquids.size() > 1) targets.insert(targets.end(), liquids.begin(), liquids.end());
     for (const std::string& liquid : targets) {

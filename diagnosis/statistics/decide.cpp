@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/budget.h"
@@ -242,6 +244,18 @@ std::vector<std::string> words(const Evidence& evidence, const Option& option) {
   return result;
 }
 
+/// Whether the explanations differ at most in which liquids their effects are of.
+bool all_name_the_same(const Evidence& evidence, const AmbiguitySet& set) {
+  std::set<std::set<std::string>> names;
+  for (const auto& options : set.classes)
+    for (const Option& option : options) {
+      std::set<std::string> ids;
+      for (const std::string& word : words(evidence, option)) ids.insert(word.substr(0, word.find('@')));
+      names.insert(std::move(ids));
+    }
+  return names.size() == 1;
+}
+
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
   std::vector<Explanation> result;
   for (std::size_t k = 0; k < set.classes.size(); ++k) {
@@ -307,8 +321,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::ve
     diagnosis.verdict = Verdict::none;
   } else {
     const bool is_first = likeliest.front().effects == fit.hypothesis.effects;
-    const bool is_only = set.classes.size() == 1 && likeliest.size() == 1;
-    diagnosis.verdict = is_first && is_only ? Verdict::named : Verdict::ambiguous;
+    diagnosis.verdict = is_first && all_name_the_same(evidence, set) ? Verdict::named : Verdict::ambiguous;
   }
   if (is_rest) diagnosis.unknown = describe_unknown(evidence, c.covariance, c.problem, c.shapes, left, explained);
   diagnosis.unknown.p = p_rest;

@@ -15,22 +15,39 @@ Json json_from(const GapLocation& where) {
           {"p", where.p}};
 }
 
+std::string id_of(const std::string& name) { return name.substr(0, name.find('@')); }
+
+std::vector<std::string> ids_of(const std::vector<std::string>& names) {
+  std::vector<std::string> ids;
+  for (const std::string& name : names) ids.push_back(id_of(name));
+  return ids;
+}
+
+/// {"name": id}, and of which liquid, where it is of one.
+Json named(const std::string& name) {
+  Json json{{"name", id_of(name)}};
+  if (const std::size_t at = name.find('@'); at != std::string::npos) json["liquid"] = name.substr(at + 1);
+  return json;
+}
+
 Json json_from(const NamedEffect& effect) {
-  Json parameters = Json::object();
+  Json json = named(effect.name);
+  json["parameters"] = Json::object();
   for (const NamedParameter& parameter : effect.parameters)
-    parameters[parameter.name] = {{"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
-  return {{"name", effect.name},
-          {"parameters", parameters},
-          {"p_discovery", effect.p_discovery},
-          {"p_confirmation", effect.p_confirmation},
-          {"p_sign_flip", effect.p_sign_flip},
-          {"folds_improved", effect.folds_improved},
-          {"folds", effect.folds}};
+    json["parameters"][parameter.name] = {{"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
+  json["p_discovery"] = effect.p_discovery;
+  json["p_confirmation"] = effect.p_confirmation;
+  json["p_sign_flip"] = effect.p_sign_flip;
+  json["folds_improved"] = effect.folds_improved;
+  json["folds"] = effect.folds;
+  return json;
 }
 
 Json json_from(const Explanation& explanation) {
-  Json json{{"effects", explanation.effects}, {"probability", explanation.probability}};
-  if (!explanation.alternatives.empty()) json["indistinguishable"] = explanation.alternatives;
+  Json json{{"effects", ids_of(explanation.effects)}, {"probability", explanation.probability}};
+  if (ids_of(explanation.effects) != explanation.effects) json["in_detail"] = explanation.effects;
+  for (const std::vector<std::string>& twin : explanation.alternatives)
+    json["indistinguishable"].push_back(ids_of(twin));
   return json;
 }
 
@@ -47,11 +64,12 @@ std::string unit_of(const std::string& parameter) {
 }
 
 Json json_from(const UpperLimit& limit) {
-  return {{"name", limit.effect},
-          {"parameter", limit.parameter},
-          {"limit95", limit.limit95},
-          {"smallest_seen", limit.smallest_seen},
-          {"unit", unit_of(limit.parameter)}};
+  Json json = named(limit.effect);
+  json["parameter"] = limit.parameter;
+  json["limit95"] = limit.limit95;
+  json["smallest_seen"] = limit.smallest_seen;
+  json["unit"] = unit_of(limit.parameter);
+  return json;
 }
 
 Json json_from(const ConfusablePair& pair) {

@@ -19,7 +19,7 @@ Effect unit_error() {
   return {.id = "unit_error",
           .family = "book-keeping",
           .sentence = "Fills were written down in another unit than millimetres.",
-          .parameters = {{"factor", "millimetres in what was taken for one: inch 25.4, centimetre 10", 1.0, 9.0, 0.03,
+          .parameters = {{"factor", "millimetres in what was taken for one: inch 25.4, centimetre 10", 1.0, 0.5, 0.03,
                           30.0}},
           .citation =
               "camera-calibration practice: a missing effect is often a mistake in the protocol (Kalibr, issues 561 "

@@ -46,8 +46,8 @@ Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, 
 }
 
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
-  json.allow_only({"disparity_offset_px", "disparity_sigma_px", "scale_sigma", "serial", "residue_px", "residue_reach_px",
-                   "warm_up_px", "warm_up_s", "on_for_s", "wander_px"});
+  json.allow_only({"disparity_offset_px", "disparity_sigma_px", "scale_sigma", "serial", "residue_px",
+                   "residue_reach_px", "warm_up_px", "warm_up_s", "on_for_s", "wander_px"});
   unit.disparity_offset_px = json.number_or("disparity_offset_px", unit.disparity_offset_px, {-4.0, 4.0});
   unit.wander_px = json.number_or("wander_px", unit.wander_px, {0.0, 4.0});
   unit.disparity_sigma_px = json.number_or("disparity_sigma_px", unit.disparity_sigma_px, {0.0, 4.0});

@@ -189,7 +189,7 @@ TEST_F(CampaignCommand, EffectsAreInTheCloudsAndTheTruthAlone) {
 TEST_F(CampaignCommand, ItsSchemaHasTheKeysOfItsReader) {
   const std::string error = error_of(Json{{"no_such_key", 0}});
   std::string keys;
-  const Json schema = read_json(data_directory() / "campaign_schema.json");
+  const Json schema = read_json(data_directory() / "campaigns" / "schema.json");
   for (const auto& [key, value] : schema["properties"].items()) keys += (keys.empty() ? "" : ", ") + key;
   EXPECT_EQ(error, "/no_such_key: unknown key 'no_such_key', choose from " + keys + "\n");
 }

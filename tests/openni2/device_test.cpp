@@ -208,8 +208,9 @@ TEST_F(Device, RegistersDepthToWhereAColourCameraStands) {
   EXPECT_EQ(client.device.getImageRegistrationMode(), openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
   ASSERT_EQ(client.device.getPlaybackControl()->setSpeed(-1.0f), STATUS_OK);
   ASSERT_EQ(client.stream.start(), STATUS_OK);
-  const Frame recorded = read_frame(read_capture(captured().frames), 0, false);
-  EXPECT_EQ(client.read().pixels, in_units(registered_to_colour(sensor(), recorded.depth), 1e-3));
+  const RecordedCapture recorded = read_capture(captured().frames);
+  const Image<float> depth = depth_image(recorded.sensor, read_frame(recorded, 0, false).disparity_px);
+  EXPECT_EQ(client.read().pixels, in_units(registered_to_colour(recorded.sensor, depth), 1e-3));
 }
 
 TEST_F(Device, MirrorsAndCrops) {
