@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "app/commands.h"
@@ -16,6 +17,7 @@
 #include "diagnosis/statistics/decide.h"
 #include "diagnosis/statistics/diagnosis_json.h"
 #include "sim/effects/effects_json.h"
+#include "sim/effects/registry.h"
 
 namespace fathom {
 namespace {
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 
 struct DiagnoseOptions {
   fs::path folder, model;
+  std::vector<std::string> without;
 };
 
 /// The effects that the model had, then those that were named: the same list as a scene's.
@@ -54,7 +57,11 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   Progress progress("diagnose", 3, common.quiet);
   const Measurement measurement = read_measurement(options.folder);
   progress.step();
-  const Physics physics = physics_of(measurement, had, (options.folder / "rig.json").string());
+  Physics physics = physics_of(measurement, had, (options.folder / "rig.json").string());
+  std::erase_if(physics.evidence.candidates, [&](const Candidate& candidate) {
+    return std::find(options.without.begin(), options.without.end(), effect_name(candidate.effect).id) !=
+           options.without.end();
+  });
   progress.step();
   DecisionSettings settings;
   settings.seed = common.seed;
@@ -68,6 +75,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   const Json provenance = {{"fathom", FATHOM_VERSION},
                            {"measurement", campaign.name},
                            {"model", options.model.string()},
+                           {"without", options.without},
                            {"seed", common.seed},
                            {"frames", measurement.frames.size()},
                            {"observations", campaign.observations.size()}};
@@ -93,6 +101,11 @@ std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common
   app.add_option("--model", options->model, "What is known already: model.json of an earlier diagnosis")
       ->check(CLI::ExistingFile)
       ->type_name("M.json");
+  app.add_option("--without", options->without,
+                 "Effects that are not considered, e.g. to see what is mistaken for them")
+      ->delimiter(',')
+      ->check(CLI::IsMember(effect_ids()))
+      ->type_name("EFFECT");
   return [options, &common] {
     require_output(common);
     run_diagnose(*options, common);

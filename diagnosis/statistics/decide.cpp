@@ -30,9 +30,10 @@ namespace fathom {
 
 namespace {
 
-constexpr int kKept = 20;           // sets of each size that are refitted, …
-constexpr double kHopeless = 25.0;  // … unless that far below the best of their size in log evidence
-constexpr int kVerified = 8;        // sets that are put to the tests, at most
+constexpr int kKept = 20;              // sets of each size that are considered, …
+constexpr double kHopeless = 12.0;     // … unless that far below the best in linear log evidence, …
+constexpr std::size_t kRefitted = 24;  // … and refitted, likeliest first
+constexpr int kVerified = 8;           // sets that are put to the tests, at most
 constexpr int kConfirmationDraws = 300;
 constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
 const double kLogPriorUnknown = std::log(0.1);
@@ -70,17 +71,16 @@ Case prepare(const Evidence& evidence, const Predict& predict, const DecisionSet
 
 /// The likeliest sets, fitted with the model itself; the empty one among them, likeliest first.
 std::vector<Refit> fits(const Case& c) {
+  std::vector<Hypothesis> hypotheses = screen(c.problem, kKept);
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence > b.log_evidence; });
   std::vector<Refit> result;
   const Eigen::Index n = c.problem.residual.size();
   result.push_back({{{}, Eigen::VectorXd(0), 0.0, 0.0}, Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 0), 0});
-  double best = 0.0;
-  std::size_t size = 0;
-  for (const Hypothesis& hypothesis : screen(c.problem, kKept)) {
-    if (hypothesis.effects.size() != size) best = hypothesis.log_evidence;
-    size = hypothesis.effects.size();
-    if (hypothesis.log_evidence > best - kHopeless)
+  const double best = hypotheses.empty() ? 0.0 : std::max(0.0, hypotheses.front().log_evidence);
+  for (const Hypothesis& hypothesis : hypotheses)
+    if (hypothesis.log_evidence > best - kHopeless && result.size() <= kRefitted)
       result.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
-  }
   std::stable_sort(result.begin(), result.end(), [](const Refit& a, const Refit& b) {
     return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
   });
