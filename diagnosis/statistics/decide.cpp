@@ -30,10 +30,10 @@ namespace fathom {
 
 namespace {
 
-constexpr int kKept = 20;              // sets of each size that are considered, …
-constexpr double kHopeless = 12.0;     // … unless that far below the best in linear log evidence, …
-constexpr std::size_t kRefitted = 24;  // … and refitted, likeliest first
-constexpr int kVerified = 8;           // sets that are put to the tests, at most
+constexpr int kKept = 20;             // sets of each size that are considered, …
+constexpr double kHopeless = 12.0;    // … unless that far below the best in linear log evidence, …
+constexpr std::size_t kRefitted = 8;  // … and refitted, likeliest first
+constexpr int kVerified = 8;          // sets that are put to the tests, at most
 constexpr int kConfirmationDraws = 300;
 constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
 const double kLogPriorUnknown = std::log(0.1);

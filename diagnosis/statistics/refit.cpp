@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kSteps = 25;
+constexpr int kSteps = 6;
 constexpr double kEnough = 1e-3;      // of the squared norm, in units of its error: nothing that a test would see
 constexpr double kDifference = 0.02;  // of a typical departure
 

@@ -140,7 +140,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     const Eigen::MatrixXd& contrasts = means.contrasts;
     if (contrasts.cols() == 0) continue;
     budget.residual_dof += static_cast<double>(contrasts.cols());
-    budget.from_replicates = budget.from_replicates && means.from_replicates;
+    if (evidence.observations[rows[0]].observable == "height_mm") budget.from_replicates = means.from_replicates;
     std::vector<VarianceComponent> components =
         candidates_of(evidence.observations[rows[0]].observable, evidence.observations);
     // What no contrast sees cannot be estimated: a pour that was never repeated stands in its mean.
