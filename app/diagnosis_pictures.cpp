@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -118,11 +119,14 @@ plot 0 lc rgb ink notitle, \
 bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   const auto desk = means_by_region(campaign, "desk_residual_mm"), cup = means_by_region(campaign, "height_mm");
   constexpr double kAfter = 8.0, kDesk = 3.5;  // where the right pair begins, and the second of each pair
+  double most = 1e-3;                          // [mm] of the colours' range
   Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"});
   for (const bool after : {false, true}) {
     const double left = after ? kAfter : 0.0;
-    const auto value = [after](const Mean& mean) {
-      return fmt::format("{:.4f}", (after ? mean.after : mean.before) / mean.count);
+    const auto value = [after, &most](const Mean& mean) {
+      const double shown = (after ? mean.after : mean.before) / mean.count;
+      most = std::max(most, std::abs(shown));
+      return fmt::format("{:.4f}", shown);
     };
     for (std::size_t i = 0; i < kDeskRegionNames.size(); ++i)
       if (const auto found = desk.find(std::string(kDeskRegionNames[i])); found != desk.end())
@@ -139,20 +143,18 @@ bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& camp
   if (tiles.rows() == 0 || sectors.rows() == 0) return false;
   write_table(folder / "map_desk.csv", tiles);
   write_table(folder / "map_cup.csv", sectors);
-  draw(folder, "map", R"(
+  draw(folder, "map",
+       fmt::format(R"(
 set title 'Mean of measured minus model, by part of the cup and third of the image of the desk'
 unset border; unset xtics; unset ytics; unset grid; unset key
 set size ratio -1; set xrange [-0.3:14.8]; set yrange [-0.6:4]
 set cblabel 'measured − model [mm]'; set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00')
-stats 'map_cup.csv' using 'mean_mm' name 'cup' nooutput
-stats 'map_desk.csv' using 'mean_mm' name 'desk' nooutput
-largest(a, b) = a > b ? a : b
-most = largest(largest(abs(cup_min), abs(cup_max)), largest(abs(desk_min), abs(desk_max)))
-set cbrange [-most:most]
+set cbrange [-{0}:{0}]
 set label 'before: cup' at 1.5, 3.4 center; set label 'desk' at 5, 3.4 center
 set label 'after: cup' at 9.5, 3.4 center; set label 'desk' at 13, 3.4 center
 plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb ink fillcolor palette, \
-     'map_cup.csv' using 'x':'y':'radius':'from_deg':'to_deg':'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)");
+     'map_cup.csv' using 'x':'y':'radius':'from_deg':'to_deg':'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)",
+                   most));
   return true;
 }
 
