@@ -1,5 +1,6 @@
 #include "sim/optics/meniscus.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -38,6 +39,12 @@ double solve_distance(double x, double u) {
 }
 
 }  // namespace
+
+double meniscus_rise(double contact_angle, double capillary_length, double wall_lean) {
+  constexpr double kUpright = 0.5 * std::numbers::pi;
+  const double slope_angle = std::clamp(kUpright - contact_angle - wall_lean, -kUpright, kUpright);
+  return 2.0 * capillary_length * std::sin(0.5 * slope_angle);
+}
 
 Meniscus::Meniscus(double contact_angle, double capillary_length, double wall_lean)
     : capillary_length_(capillary_length) {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/units.h"
-#include "sim/optics/meniscus.h"
 #include "sim/scene/cup.h"
+#include "sim/scene/liquid_top.h"
 #include "sim/scene/medium_json.h"
 #include "sim/scene/mesh_topology.h"
 
@@ -116,11 +116,11 @@ void check_form(const JsonReader& json, const CupShape& shape, const Filling& fi
   double up = std::tan(form.tilt) * shape.inner_radius(level), down = up;
   for (const Ripple& ripple : form.ripples) up += ripple.amplitude, down += ripple.amplitude;
   if (form.wetting) {
-    const double lean = shape.wall_lean(level);
+    const double contact = contact_height(shape, level, *form.wetting), rise = contact - level;
+    const double lean = shape.wall_lean(contact);
     if (form.wetting->contact_angle + lean <= 0.0 || form.wetting->contact_angle + lean >= std::numbers::pi)
       json.fail_at("contact_angle_deg", fmt::format("must be above {:g} and below {:g} at this wall, which leans",
                                                     -deg_from_radians(lean), 180.0 - deg_from_radians(lean)));
-    const double rise = Meniscus(form.wetting->contact_angle, form.wetting->capillary_length, lean).rise();
     (rise > 0.0 ? up : down) += std::fabs(rise);
   }
   if (level + up > shape.height())

@@ -64,32 +64,6 @@ std::vector<WallPart> wall_parts(const CupShape& shape, double sink) {
   return parts;
 }
 
-Mesh liquid_shell(const CupShape& shape, const Mesh& top) {
-  constexpr double kIntoWall = 1e-4;
-  constexpr int kFacets = 2 * kFacetsAround;
-  Mesh shell;
-  double lowest = shape.height();
-  for (std::size_t i = top.vertices.size() - kFacets; i < top.vertices.size(); ++i) {
-    shell.add_vertex(top.vertices[i]);
-    lowest = std::min(lowest, top.vertices[i].z());
-  }
-  for (auto point = shape.inner.rbegin(); point != shape.inner.rend(); ++point) {
-    if (point->y() >= lowest) continue;
-    const double radius = point->x() > 0.0 ? point->x() + kIntoWall : 0.0;
-    const int high = static_cast<int>(shell.vertices.size()) - kFacets, low = high + kFacets;
-    for (int facet = 0; facet < kFacets; ++facet) {
-      const Eigen::Vector2d xy = radius * direction_of(2.0 * std::numbers::pi * facet / kFacets);
-      shell.add_vertex({xy.x(), xy.y(), point->y() - kIntoWall});
-    }
-    for (int facet = 0; facet < kFacets; ++facet) {
-      const int next = (facet + 1) % kFacets;
-      shell.add_triangle(low + facet, high + next, high + facet);
-      if (radius > 0.0) shell.add_triangle(low + facet, low + next, high + next);
-    }
-  }
-  return shell;
-}
-
 Mesh liquid_disc(const CupShape& shape, double height) {
   const double inside_wall = 0.5 * (shape.inner_radius(height) + shape.outer_radius(height));
   return revolve({{0.0, height}, {inside_wall, height}}, false);

@@ -24,10 +24,6 @@ struct WallPart {
 };
 std::vector<WallPart> wall_parts(const CupShape& shape, double sink);
 
-/// Sides and underside of a liquid, 0.1 mm inside the wall, where the solid wins: with `top` they close the body. The
-/// last 2 · kFacetsAround vertices of `top` are its rim.
-Mesh liquid_shell(const CupShape& shape, const Mesh& top);
-
 /// A level disc at `height` [m] above the desk that reaches half-way into the wall: bodies overlap, the solid wins.
 Mesh liquid_disc(const CupShape& shape, double height);
 

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/cup_mesh.h"
+#include "sim/scene/liquid_shell.h"
 #include "sim/scene/object.h"
 #include "sim/scene/wetted_wall.h"
 
@@ -213,8 +214,8 @@ class Builder {
     const double level = liquid_level(cup);
     std::optional<LiquidTop> top;
     if (shape && !plain) top.emplace(*shape, level, filling.form);
-    Mesh mesh = top ? top->mesh() : liquid_surface(cup);
-    Mesh shell = shape && in_clear_wall ? liquid_shell(*shape, mesh) : Mesh{};
+    Mesh mesh = top ? top->mesh(*shape) : liquid_surface(cup);
+    Mesh shell = top && in_clear_wall ? liquid_shell(*shape, *top, mesh) : Mesh{};
     // A curved top knows its directions in the world, so it is moved but not turned with the cup.
     if (top)
       for (Mesh* part : {&mesh, &shell})

@@ -6,10 +6,17 @@
 #include <vector>
 
 #include "sim/optics/meniscus.h"
-#include "sim/scene/mesh.h"
+#include "sim/scene/revolve.h"
 #include "sim/scene/scene.h"
 
 namespace fathom {
+
+/// Facets around the axis: the corners of twice as many stay within a micrometre of a wall of 40 mm.
+inline constexpr int kLiquidFacets = 2 * kFacetsAround;
+
+/// Height above the desk [m] at which a liquid that is level at `level` far from the wall touches it, where the
+/// meniscus of the wall's lean there ends: at a sharp corner of the profile it stays.
+double contact_height(const CupShape& shape, double level, const Wetting& wetting);
 
 /// z = level + gradient · (x, y) + Σ amplitude sin(k · (x, y) + phase) + meniscus(radius − ρ), x and y from the cup's
 /// axis, ρ their distance from it.
@@ -25,8 +32,9 @@ class LiquidTop {
   };
   Height at(const Eigen::Vector2d& xy) const;
 
-  /// Triangles with their corners on the surface, facing up, that reach half-way into the wall.
-  Mesh mesh() const;
+  /// Triangles with their corners on the surface, facing up, that end inside the wall: bodies overlap, the solid wins.
+  /// The last kLiquidFacets vertices are the rim. The axis at the origin.
+  Mesh mesh(const CupShape& shape) const;
 
   void move(const Eigen::Vector2d& shift) { axis_ += shift; }
 
@@ -36,9 +44,11 @@ class LiquidTop {
     double amplitude, phase;
   };
 
+  /// Distance from the axis at which the mesh ends, by facet [m].
+  std::vector<double> rim(const CupShape& shape) const;
+
   Eigen::Vector2d axis_ = Eigen::Vector2d::Zero();
   double level_;
-  double outer_;  ///< radius to which the mesh reaches: bodies overlap, the solid wins
   Eigen::Vector2d gradient_;
   std::vector<Wave> waves_;
   std::optional<Meniscus> meniscus_;
