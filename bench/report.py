@@ -106,6 +106,13 @@ def report_memory(table, folder):
         table.add("fathom capture: cpu (wall) s", f"{memory['cpu_s']:.1f} ({memory['wall_s']:.1f})")
 
 
+def report_diagnosis(table, folder):
+    if (folder / "diagnosis_cost.json").exists():
+        cost = json.loads((folder / "diagnosis_cost.json").read_text())
+        table.add("diagnose / measure, the paper's 35 conditions × 10", f"{cost['diagnose_s']:.1f} s",
+                  f"{cost['measure_s']:.1f} s", cost["diagnose_s"] / cost["measure_s"], None, 3.0)
+
+
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -117,6 +124,7 @@ if __name__ == "__main__":
     report_matching(everything)
     report_detection(everything)
     report_memory(everything, results)
+    report_diagnosis(everything, results)
     if len(everything.rows) > 1:
         print(aligned(everything.rows))
     report_convergence(runs, results)
