@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "app/campaign_spec.h"
@@ -16,6 +15,7 @@
 #include "core/rows.h"
 #include "core/table.h"
 #include "core/units.h"
+#include "diagnosis/predict/uncertain_rig.h"
 #include "sim/effects/effects_json.h"
 
 namespace fathom {
@@ -111,23 +111,14 @@ std::vector<Placement> plan(const CampaignSpec& spec, std::uint64_t seed) {
 
 /// What the laboratory's numbers are off by, as effects.
 Json rig_errors(const CampaignSpec& spec, std::uint64_t seed) {
-  struct RigError {
-    const char *key, *effect, *parameter;
-  };
-  constexpr std::array kErrors{RigError{"height_mm", "sensor_height", "height_mm"},
-                               RigError{"pitch_deg", "sensor_pitch", "pitch_deg"},
-                               RigError{"roll_deg", "sensor_roll", "roll_deg"},
-                               RigError{"baseline_mm", "baseline", "baseline_mm"},
-                               RigError{"focal_px", "focal_length", "focal_px"},
-                               RigError{"disparity_offset_px", "disparity_offset", "offset_px"},
-                               RigError{"bottom_mm", "cup_bottom_height", "height_mm"}};
   Json errors = Json::array();
-  for (std::size_t i = 0; i < kErrors.size(); ++i) {
-    const auto sigma = spec.nominal.sigma.find(kErrors[i].key);
+  for (std::size_t i = 0; i < kUncertainRig.size(); ++i) {
+    const UncertainValue& value = kUncertainRig[i];
+    const auto sigma = spec.nominal.sigma.find(value.key);
     if (sigma == spec.nominal.sigma.end()) continue;
     Rng rng(seed, Draw::rig, i);
-    Json error = {{"name", kErrors[i].effect}};
-    error[kErrors[i].parameter] = sigma->second * rng.normal();
+    Json error = {{"name", value.effect}};
+    error[value.parameter] = sigma->second * rng.normal();
     errors.push_back(std::move(error));
   }
   return errors;

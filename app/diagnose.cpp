@@ -16,6 +16,7 @@
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/statistics/decide.h"
 #include "diagnosis/statistics/diagnosis_json.h"
+#include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 
@@ -72,6 +73,8 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   progress.step();
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
+  if (!physics.not_sought.empty())
+    campaign.notes.push_back(fmt::format("Not looked for: {}.", effects_words(physics.not_sought)));
   const Json provenance = {{"fathom", FATHOM_VERSION},
                            {"measurement", campaign.name},
                            {"model", options.model.string()},

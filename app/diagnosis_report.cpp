@@ -6,6 +6,7 @@
 #include "app/diagnosis_words.h"
 #include "app/html.h"
 #include "core/files.h"
+#include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {
@@ -89,12 +90,6 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
-
-EffectName effect_name(std::string_view name) {
-  const std::size_t at = name.find('@');
-  if (at == std::string_view::npos) return {std::string(name), ""};
-  return {std::string(name.substr(0, at)), std::string(name.substr(at + 1))};
-}
 
 std::string effect_words(const std::string& name) {
   const EffectName effect = effect_name(name);

@@ -2,18 +2,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "diagnosis/statistics/diagnosis.h"
 
 namespace fathom {
-
-/// An effect of a diagnosis: "subsurface_scattering@milk_tea" is the effect of that id in that liquid only.
-struct EffectName {
-  std::string id, liquid;  ///< no liquid: in all
-};
-EffectName effect_name(std::string_view name);
 
 std::string effect_words(const std::string& name);             ///< "subsurface scattering of milk tea"
 std::string effects_words(const std::vector<std::string>&);    ///< "foam and surface tilt", "nothing"

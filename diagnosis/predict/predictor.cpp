@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "diagnosis/measurement/named_values.h"
+#include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 
@@ -84,6 +85,24 @@ std::vector<bool> Predictor::near_shadows() const {
   return shadowed;
 }
 
+void Predictor::keep(const std::vector<bool>& kept) {
+  std::vector<std::size_t> new_row(kept.size());
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < kept.size(); ++row) {
+    if (!kept[row]) continue;
+    observables_[count] = observables_[row];
+    regions_[count] = regions_[row];
+    new_row[row] = count++;
+  }
+  observables_.resize(count);
+  regions_.resize(count);
+  for (Condition& condition : conditions_) {
+    std::erase_if(condition.rows, [&](std::size_t row) { return !kept[row]; });
+    for (std::size_t& row : condition.rows) row = new_row[row];
+  }
+  std::erase_if(conditions_, [](const Condition& condition) { return condition.rows.empty(); });
+}
+
 void Predictor::predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const {
   Setup setup = nominal_setup(condition);
   if (change) change(setup, condition.factors);
@@ -123,10 +142,10 @@ Change switch_on(const std::vector<EffectValue>& effects) {
   };
   std::vector<On> switched;
   for (const EffectValue& value : effects) {
-    const std::size_t at = value.effect.find('@');
-    const Effect* effect = find_effect(value.effect.substr(0, at));
+    EffectName name = effect_name(value.effect);
+    const Effect* effect = find_effect(name.id);
     if (!effect) throw Error("effects", unknown_name("effect", value.effect, effect_ids()));
-    On on{effect, at == std::string::npos ? "" : value.effect.substr(at + 1), value.values};
+    On on{effect, std::move(name.liquid), value.values};
     on.values.resize(effect->parameters.size());
     for (std::size_t i = 0; i < on.values.size(); ++i)
       on.values[i] = std::clamp(on.values[i], effect->parameters[i].lower, effect->parameters[i].upper);

@@ -35,6 +35,9 @@ class Predictor {
   /// Whether each observation is of a region of the cup that the model puts into shadow, or near one.
   std::vector<bool> near_shadows() const;
 
+  /// Forgets the other observations, and conditions of which none is left.
+  void keep(const std::vector<bool>& kept);
+
   const std::vector<Condition>& conditions() const { return conditions_; }
   const NominalModel& model() const { return model_; }
 
@@ -49,8 +52,8 @@ class Predictor {
   std::vector<Condition> conditions_;
 };
 
-/// Switches effects on, each "id" or "id@liquid". Values outside their bounds are taken at the bound. Throws Error on
-/// an unknown id.
+/// Switches effects on, each named as in effect_name.h. Values outside their bounds are taken at the bound. Throws
+/// Error on an unknown id.
 Change switch_on(const std::vector<EffectValue>& effects);
 
 }  // namespace fathom

@@ -14,6 +14,7 @@
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/discovery.h"
 #include "diagnosis/statistics/distributions.h"
+#include "diagnosis/statistics/effect_name.h"
 #include "diagnosis/statistics/folds.h"
 #include "diagnosis/statistics/gap_test.h"
 #include "diagnosis/statistics/groups.h"
@@ -250,7 +251,7 @@ bool all_name_the_same(const Evidence& evidence, const AmbiguitySet& set) {
   for (const auto& options : set.classes)
     for (const Option& option : options) {
       std::set<std::string> ids;
-      for (const std::string& word : words(evidence, option)) ids.insert(word.substr(0, word.find('@')));
+      for (const std::string& word : words(evidence, option)) ids.insert(effect_name(word).id);
       names.insert(std::move(ids));
     }
   return names.size() == 1;

@@ -1,5 +1,7 @@
 #include "diagnosis/statistics/diagnosis_json.h"
 
+#include "diagnosis/statistics/effect_name.h"
+
 namespace fathom {
 
 namespace {
@@ -15,18 +17,17 @@ Json json_from(const GapLocation& where) {
           {"p", where.p}};
 }
 
-std::string id_of(const std::string& name) { return name.substr(0, name.find('@')); }
-
 std::vector<std::string> ids_of(const std::vector<std::string>& names) {
   std::vector<std::string> ids;
-  for (const std::string& name : names) ids.push_back(id_of(name));
+  for (const std::string& name : names) ids.push_back(effect_name(name).id);
   return ids;
 }
 
 /// {"name": id}, and of which liquid, where it is of one.
 Json named(const std::string& name) {
-  Json json{{"name", id_of(name)}};
-  if (const std::size_t at = name.find('@'); at != std::string::npos) json["liquid"] = name.substr(at + 1);
+  const EffectName effect = effect_name(name);
+  Json json{{"name", effect.id}};
+  if (!effect.liquid.empty()) json["liquid"] = effect.liquid;
   return json;
 }
 

@@ -42,7 +42,7 @@ struct Parameter {
 
 /// An effect that the model leaves out.
 struct Candidate {
-  std::string effect;
+  std::string effect;  ///< as in effect_name.h: "id" or "id@liquid"
   std::vector<Parameter> parameters;
   Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
 };
@@ -57,7 +57,7 @@ struct Evidence {
 
 /// An effect switched on, with the values of its parameters in their order.
 struct EffectValue {
-  std::string effect;
+  std::string effect;  ///< as in effect_name.h
   std::vector<double> values;
 };
 

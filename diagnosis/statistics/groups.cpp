@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace fathom {
@@ -61,6 +62,20 @@ std::string level(const Observation& o, const std::string& factor) {
   if (factor == "lateral_mm") return fmt::format("{}", o.factors.lateral_mm);
   if (factor == "region") return o.factors.region;
   return session_key(o);
+}
+
+Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations) {
+  const auto n = static_cast<Eigen::Index>(observations.size());
+  Eigen::MatrixXd x(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Factors& factors = observations[i].factors;
+    x.row(i) << factors.fill_mm, factors.distance_mm, factors.lateral_mm;
+  }
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double low = x.col(k).minCoeff(), range = x.col(k).maxCoeff() - low;
+    x.col(k) = (x.col(k).array() - low) / std::max(range, 1e-12);
+  }
+  return x;
 }
 
 bool is_height(const Observation& o) { return o.observable.ends_with("height_mm"); }

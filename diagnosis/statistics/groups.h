@@ -34,6 +34,9 @@ std::string cell_key(const Observation& observation);
 const std::vector<std::string>& factor_names();
 std::string level(const Observation& observation, const std::string& factor);
 
+/// Fill, distance and lateral of every observation (n × 3), each from 0 to 1 over its range; 0 where all are the same.
+Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations);
+
 /// Observables named so are heights: "height_mm", "desk_height_mm".
 bool is_height(const Observation& observation);
 

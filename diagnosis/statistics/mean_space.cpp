@@ -53,15 +53,7 @@ Eigen::MatrixXd indicators(const Groups& groups) {
 /// Powers of fill, distance and lateral up to the second degree, each from −1 to 1, the constant first.
 Eigen::MatrixXd polynomials(const std::vector<Observation>& observations) {
   const auto n = static_cast<Eigen::Index>(observations.size());
-  Eigen::MatrixXd x(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Factors& factors = observations[i].factors;
-    x.row(i) << factors.fill_mm, factors.distance_mm, factors.lateral_mm;
-  }
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const double low = x.col(k).minCoeff(), high = x.col(k).maxCoeff();
-    x.col(k) = (x.col(k).array() - 0.5 * (low + high)) / std::max(0.5 * (high - low), 1e-12);
-  }
+  const Eigen::MatrixXd x = 2.0 * places_in_ranges(observations).array() - 1.0;
   constexpr std::array<std::array<int, 2>, 6> kProducts{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
   Eigen::MatrixXd result(n, 10);
   result << Eigen::VectorXd::Ones(n), x, Eigen::MatrixXd::Zero(n, 6);

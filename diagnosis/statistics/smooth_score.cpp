@@ -24,15 +24,7 @@ struct Place {
 std::vector<Place> places(const Evidence& evidence, const Covariance& covariance) {
   const auto& observations = evidence.observations;
   const auto n = static_cast<Eigen::Index>(observations.size());
-  Eigen::MatrixXd x(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Factors& factors = observations[i].factors;
-    x.row(i) << factors.fill_mm, factors.distance_mm, factors.lateral_mm;
-  }
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const double range = x.col(k).maxCoeff() - x.col(k).minCoeff();
-    x.col(k) = (x.col(k).array() - x.col(k).minCoeff()) / std::max(range, 1e-12);
-  }
+  const Eigen::MatrixXd x = places_in_ranges(observations);
   const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
   const Groups liquids = group_by(observations, [](const Observation& o) { return "=" + o.factors.liquid; });
   const Groups regions = group_by(observations, [](const Observation& o) { return "=" + o.factors.region; });

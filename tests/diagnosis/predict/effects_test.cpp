@@ -27,17 +27,14 @@ struct Scenery {
 std::optional<double> value_of(const Scenery& scenery, const Json& effect, std::string_view observable,
                                std::string_view region) {
   const LaboratoryRig rig = paper_laboratory();
-  NominalModel model = nominal_model(rig, "rig.json");
-  model.rig.sensor.quantized = false;
   Factors factors;
   factors.liquid = scenery.liquid;
   factors.fill_mm = scenery.fill_mm;
   factors.distance_mm = scenery.distance_mm;
   factors.time_s = scenery.time_s;
-  fathom::Setup setup = setup_of(model, factors);
-  setup.effects = Json::parse(scenery.effects);
-  if (!effect.is_null()) setup.effects.push_back(effect);
-  setup = with_effects(std::move(setup));
+  Json effects = Json::parse(scenery.effects);
+  if (!effect.is_null()) effects.push_back(effect);
+  const fathom::Setup setup = paper_setup(factors, std::move(effects));
   const Eigen::Vector2d place(0.0, 1e-3 * scenery.distance_mm);
   const auto estimates = surrogate_frame(setup, rig, place, sample_pixels(rig, place));
   if (!estimates) return std::nullopt;

@@ -1,8 +1,9 @@
-// The paper's sensor and cup as a laboratory writes them down, with water and an opaque liquid.
+// The paper's sensor and cup as a laboratory writes them down, with water and an opaque liquid, and shots of them.
 #pragma once
 
 #include "core/units.h"
 #include "diagnosis/predict/nominal_model.h"
+#include "sim/effects/effects_json.h"
 
 namespace fathom {
 
@@ -14,6 +15,15 @@ inline LaboratoryRig paper_laboratory() {
   rig.focal_px = 1200.0 / (2 * 1.052);
   rig.liquids = {{"water", "water"}, {"milk", {{"index", 1.336}, {"scattering_per_mm", 1000.0}}}};
   return rig;
+}
+
+/// One shot in it; depths are not quantised, because without noise steps are no steps in the mean.
+inline Setup paper_setup(const Factors& factors, Json effects) {
+  NominalModel model = nominal_model(paper_laboratory(), "rig.json");
+  model.rig.sensor.quantized = false;
+  Setup setup = setup_of(model, factors);
+  setup.effects = std::move(effects);
+  return with_effects(std::move(setup));
 }
 
 }  // namespace fathom

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/measurement/named_values.h"
-#include "sim/effects/effects_json.h"
 #include "sim/sensor/capture.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 
@@ -30,16 +29,12 @@ class SurrogateAgainstFrames : public testing::TestWithParam<Case> {};
 TEST_P(SurrogateAgainstFrames, SaysWhatTheFrameSays) {
   const Case& c = GetParam();
   const LaboratoryRig rig = paper_laboratory();
-  NominalModel model = nominal_model(rig, "rig.json");
-  model.rig.sensor.quantized = false;  // without noise, steps are no steps in the mean
   Factors factors;
   factors.liquid = c.liquid;
   factors.fill_mm = c.fill_mm;
   factors.distance_mm = c.distance_mm;
   factors.lateral_mm = c.lateral_mm;
-  fathom::Setup setup = setup_of(model, factors);
-  setup.effects = c.effects;
-  setup = with_effects(std::move(setup));
+  const fathom::Setup setup = paper_setup(factors, c.effects);
   const Eigen::Vector2d place(metres_from_mm(c.lateral_mm), metres_from_mm(c.distance_mm));
   Camera camera(setup, CaptureMode::geometric, 1, 1);
   const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {place, 0.0});

@@ -1,0 +1,82 @@
+#include "diagnosis/predict/candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "diagnosis/predict/slope.h"
+#include "diagnosis/statistics/effect_name.h"
+#include "sim/effects/registry.h"
+
+namespace fathom {
+namespace {
+
+/// A wrong unit is a fill_scale until its factor is a unit's, which the statistics' hygiene looks for; the matcher's
+/// window is a nuisance.
+constexpr std::array<std::string_view, 2> kNotSought{"unit_error", "window_averaging"};
+
+Candidate candidate_of(const Predictor& predictor, const Effect& effect, const std::string& liquid) {
+  const auto touched = conditions_where(predictor, [&](const Factors& f) {
+    return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
+  });
+  Candidate candidate;
+  candidate.effect = name_of(EffectName{std::string(effect.id), liquid});
+  const std::size_t count = effect.parameters.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const EffectParameter& p = effect.parameters[i];
+    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper});
+    const auto at = [&](double x) {
+      std::vector<double> values;
+      for (const EffectParameter& parameter : effect.parameters) values.push_back(parameter.nominal);
+      values[i] = x;
+      return switch_on({{candidate.effect, values}});
+    };
+    const Eigen::VectorXd column =
+        slope(predictor, at, std::max(p.nominal - p.scale, p.lower), std::min(p.nominal + p.scale, p.upper), touched);
+    candidate.signature.conservativeResize(column.size(), static_cast<Eigen::Index>(i) + 1);
+    candidate.signature.col(static_cast<Eigen::Index>(i)) = column;
+  }
+  return candidate;
+}
+
+std::vector<std::string> poured_liquids(const Predictor& predictor) {
+  std::set<std::string> liquids;
+  for (const Condition& condition : predictor.conditions())
+    if (has_liquid(condition.factors)) liquids.insert(condition.factors.liquid);
+  return {liquids.begin(), liquids.end()};
+}
+
+/// What moves every row by less than this at its prior scale moves nothing that could be measured.
+bool moves_anything(const Candidate& candidate) {
+  constexpr double kNothing = 1e-4;  // [mm or °]
+  double most = 0.0;
+  for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
+    most = std::max(most, candidate.parameters[i].prior_scale *
+                              candidate.signature.col(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>());
+  return most > kNothing;
+}
+
+}  // namespace
+
+Candidates candidates_of(const Predictor& predictor) {
+  Candidates candidates;
+  const std::vector<std::string> liquids = poured_liquids(predictor);
+  for (const Effect& effect : effect_registry()) {
+    if (std::find(kNotSought.begin(), kNotSought.end(), effect.id) != kNotSought.end()) {
+      candidates.not_sought.emplace_back(effect.id);
+      continue;
+    }
+    std::vector<std::string> targets{""};
+    if (effect.of_liquids && liquids.size() > 1) targets.insert(targets.end(), liquids.begin(), liquids.end());
+    for (const std::string& liquid : targets) {
+      Candidate candidate = candidate_of(predictor, effect, liquid);
+      if (moves_anything(candidate))
+        candidates.seen.push_back(std::move(candidate));
+      else if (liquid.empty())
+        candidates.unseen.emplace_back(effect.id);
+    }
+  }
+  return candidates;
+}
+
+}  // namespace fathom

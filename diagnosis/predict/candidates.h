@@ -1,0 +1,18 @@
+// The effects that a campaign could show, with what each does to the observations.
+#pragma once
+
+#include "diagnosis/predict/predictor.h"
+
+namespace fathom {
+
+struct Candidates {
+  std::vector<Candidate> seen;
+  std::vector<std::string> unseen;      ///< move no observation
+  std::vector<std::string> not_sought;  ///< are no candidates at all
+};
+
+/// Every effect of the registry; those of liquids also for each liquid apart, as "id@liquid", where there are several.
+/// Signatures are central differences over the prior scale, one-sided at a bound.
+Candidates candidates_of(const Predictor& predictor);
+
+}  // namespace fathom

@@ -1,0 +1,107 @@
+#include "diagnosis/predict/nuisances.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/units.h"
+#include "diagnosis/predict/slope.h"
+#include "diagnosis/predict/uncertain_rig.h"
+
+namespace fathom {
+namespace {
+
+std::vector<std::size_t> all_conditions(const Predictor& predictor) {
+  return conditions_where(predictor, [](const Factors&) { return true; });
+}
+
+/// Only those conditions' part of a signature.
+Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& signature,
+                        const std::function<bool(const Factors&)>& is) {
+  Eigen::VectorXd part = Eigen::VectorXd::Zero(signature.size());
+  for (const std::size_t i : conditions_where(predictor, is))
+    for (const std::size_t row : predictor.conditions()[i].rows)
+      part[static_cast<Eigen::Index>(row)] = signature[static_cast<Eigen::Index>(row)];
+  return part;
+}
+
+/// A sensor that is set up anew stands and looks a little otherwise: by a part of what its pose is uncertain anyway.
+void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<Nuisance>& nuisances) {
+  constexpr double kPart = 0.4;
+  std::set<int> sessions;
+  for (const Condition& condition : predictor.conditions()) sessions.insert(condition.factors.session);
+  if (sessions.size() < 2) return;
+  for (const int session : sessions)
+    nuisances.push_back(
+        {fmt::format("{} of session {}", pose.name, session), kPart * pose.sigma,
+         part_of(predictor, pose.signature, [&](const Factors& factors) { return factors.session == session; })});
+}
+
+void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
+  const std::map<std::string, double>& sigmas = predictor.model().laboratory.sigma;
+  for (const UncertainValue& value : kUncertainRig) {
+    const auto given = sigmas.find(value.key);
+    const double sigma = given != sigmas.end() ? given->second : value.sigma;
+    if (sigma <= 0.0) continue;
+    const auto at = [&](double x) { return switch_on({{value.effect, {x}}}); };
+    const Nuisance nuisance{value.key, sigma, slope(predictor, at, -sigma, sigma, all_conditions(predictor))};
+    nuisances.push_back(nuisance);
+    if (value.is_pose) add_sessions(predictor, nuisance, nuisances);
+  }
+}
+
+/// A device that matches has averaged over its windows, a capture without images has not: both are taken for right.
+Nuisance window_nuisance(const Predictor& predictor) {
+  constexpr double kWindow_px = 9.0;
+  const auto at = [](double x) { return switch_on({{"window_averaging", {x}}}); };
+  return {"matching window", kWindow_px, slope(predictor, at, 1.0, kWindow_px, all_conditions(predictor))};
+}
+
+void add_fills(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
+  const double sigma_mm = mm_from_metres(predictor.model().laboratory.fill_sigma_m);
+  if (sigma_mm <= 0.0) return;
+  const auto at = [](double x) { return switch_on({{"fill_offset", {x}}}); };
+  const Eigen::VectorXd all = slope(predictor, at, -sigma_mm, sigma_mm, conditions_where(predictor, has_liquid));
+  std::set<std::pair<int, int>> pours;
+  for (const Condition& condition : predictor.conditions())
+    if (has_liquid(condition.factors)) pours.emplace(condition.factors.session, condition.factors.pour);
+  for (const auto& [session, pour] : pours)
+    nuisances.push_back({fmt::format("fill of pour {}/{}", session, pour), sigma_mm,
+                         part_of(predictor, all, [session = session, pour = pour](const Factors& f) {
+                           return has_liquid(f) && f.session == session && f.pour == pour;
+                         })});
+}
+
+void add_places(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
+  const double sigma_mm = mm_from_metres(predictor.model().laboratory.placement_sigma_m);
+  if (sigma_mm <= 0.0) return;
+  const std::vector<std::size_t> with_cup = conditions_where(predictor, has_cup);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto along = [axis](double x) {
+      return switch_on({{"cup_placement", axis == 0 ? std::vector{x, 0.0} : std::vector{0.0, x}}});
+    };
+    const Eigen::VectorXd all = slope(predictor, along, -sigma_mm, sigma_mm, with_cup);
+    for (const std::size_t i : with_cup) {
+      const Condition& condition = predictor.conditions()[i];
+      Eigen::VectorXd own = Eigen::VectorXd::Zero(all.size());
+      for (const std::size_t row : condition.rows)
+        own[static_cast<Eigen::Index>(row)] = all[static_cast<Eigen::Index>(row)];
+      nuisances.push_back({fmt::format("{} of placement {}/{}", axis == 0 ? "x" : "y", condition.factors.session,
+                                       condition.factors.placement),
+                           sigma_mm, std::move(own)});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Nuisance> nuisances_of(const Predictor& predictor) {
+  std::vector<Nuisance> nuisances;
+  add_rig(predictor, nuisances);
+  add_fills(predictor, nuisances);
+  add_places(predictor, nuisances);
+  nuisances.push_back(window_nuisance(predictor));
+  return nuisances;
+}
+
+}  // namespace fathom

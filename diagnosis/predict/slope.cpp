@@ -1,0 +1,26 @@
+#include "diagnosis/predict/slope.h"
+
+#include <cmath>
+
+namespace fathom {
+
+bool has_cup(const Factors& factors) { return factors.liquid != "none"; }
+bool has_liquid(const Factors& factors) { return has_cup(factors) && factors.liquid != "empty"; }
+
+std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < predictor.conditions().size(); ++i)
+    if (is(predictor.conditions()[i].factors)) found.push_back(i);
+  return found;
+}
+
+Eigen::VectorXd slope(const Predictor& predictor, const std::function<Change(double)>& at, double low, double high,
+                      const std::vector<std::size_t>& conditions) {
+  Eigen::VectorXd difference =
+      (predictor.predict(at(high), conditions) - predictor.predict(at(low), conditions)) / (high - low);
+  for (double& value : difference)
+    if (!std::isfinite(value)) value = 0.0;
+  return difference;
+}
+
+}  // namespace fathom

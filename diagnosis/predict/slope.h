@@ -1,0 +1,19 @@
+// How the observations of a campaign change with one quantity, by differences between two set-ups.
+#pragma once
+
+#include "diagnosis/predict/predictor.h"
+
+namespace fathom {
+
+bool has_cup(const Factors& factors);
+bool has_liquid(const Factors& factors);
+
+/// Indices of the predictor's conditions.
+std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is);
+
+/// Change per unit of every observation between the set-ups with `low` and `high` of a quantity, in those conditions;
+/// the same rays look at both. 0 elsewhere, and where either sees nothing.
+Eigen::VectorXd slope(const Predictor& predictor, const std::function<Change(double)>& at, double low, double high,
+                      const std::vector<std::size_t>& conditions);
+
+}  // namespace fathom
