@@ -55,7 +55,6 @@ std::vector<double> places(const JsonReader& json, double low, double high) {
       item.fail(fmt::format("must be a place on the desk, from {:g} to {:g}, got {}", mm_from_metres(low),
                             mm_from_metres(high), item.value().dump()));
   }
-  if (result.empty()) json.fail("must hold at least one length");
   return result;
 }
 
@@ -109,13 +108,16 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   for (const auto& [name, medium] : media) spec.media.push_back(medium);
   for (const JsonReader& item : json.at("fillings").items())
     spec.fillings.push_back(filling_from_json(item, media, spec.deepest_fill()));
-  if (spec.fillings.empty()) json.fail_at("fillings", "must hold at least one filling");
   const Eigen::Vector2d low = spec.desk->centre - 0.5 * spec.desk->size,
                         high = spec.desk->centre + 0.5 * spec.desk->size;
   spec.distances = places(json.at("distance_mm"), low.y(), high.y());
   spec.laterals = json.has("lateral_mm") ? places(json.at("lateral_mm"), low.x(), high.x()) : std::vector<double>{0.0};
   spec.sessions = json.integer_or("sessions", spec.sessions, 1, kMany);
   spec.bare_desk_views = json.integer_or("bare_desk_views", spec.bare_desk_views, 0, kMany);
+  if (spec.fillings.empty() && spec.bare_desk_views == 0)
+    json.fail_at("fillings", "must hold at least one filling, where there are no bare_desk_views");
+  for (const auto& [key, lengths] : {std::pair{"distance_mm", &spec.distances}, {"lateral_mm", &spec.laterals}})
+    if (lengths->empty() && !spec.fillings.empty()) json.fail_at(key, "must hold at least one length");
   spec.frame_s = json.number_or("frame_s", spec.frame_s, kPositive);
   spec.placement_s = json.number_or("placement_s", spec.placement_s, kNonNegative);
   spec.pour_s = json.number_or("pour_s", spec.pour_s, kNonNegative);

@@ -3,16 +3,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/diagnosis_report.h"
 #include "app/diagnosis_words.h"
 #include "app/gnuplot.h"
+#include "app/next_campaign.h"
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/rows.h"
-#include "diagnosis/measurement/read_measurement.h"
+#include "diagnosis/measurement/joined.h"
+#include "diagnosis/predict/designs.h"
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/statistics/decide.h"
 #include "diagnosis/statistics/diagnosis_json.h"
@@ -26,7 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DiagnoseOptions {
-  fs::path folder, model;
+  std::vector<fs::path> folders;
+  fs::path model;
   std::vector<std::string> without;
 };
 
@@ -52,13 +56,31 @@ std::string rows_text(const Diagnosis& diagnosis, const fs::path& output, bool a
   return text + fmt::format("report: {}\n", (output / "report.html").string());
 }
 
+/// next.json, and beside it a campaign's file for each measurement that would settle something.
+void write_next(const fs::path& folder, const Diagnosis& diagnosis, const std::vector<MeasurementPlan>& plans,
+                const LaboratoryRig& rig) {
+  Json next = json_from(diagnosis)["next"];
+  std::map<std::string, std::string> files;
+  for (Json& entry : next) {
+    if (!entry["settles"]) continue;
+    const std::string name = entry["measurement"];
+    const auto [file, is_new] = files.emplace(name, fmt::format("next_{}.json", files.size() + 1));
+    entry["campaign"] = file->second;
+    if (!is_new) continue;
+    for (const MeasurementPlan& plan : plans)
+      if (plan.name == name) write_json(folder / file->second, campaign_of(plan, rig));
+  }
+  write_json(folder / "next.json", next);
+}
+
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   require_gnuplot();
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   Progress progress("diagnose", 3, common.quiet);
-  const Measurement measurement = read_measurement(options.folder);
+  const Measurement measurement = read_measurements(options.folders);
   progress.step();
-  Physics physics = physics_of(measurement, had, (options.folder / "rig.json").string());
+  const std::string rig_file = (options.folders.front() / "rig.json").string();
+  Physics physics = physics_of(measurement, had, rig_file);
   std::erase_if(physics.evidence.candidates, [&](const Candidate& candidate) {
     return std::find(options.without.begin(), options.without.end(), effect_name(candidate.effect).id) !=
            options.without.end();
@@ -66,10 +88,18 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   progress.step();
   DecisionSettings settings;
   settings.seed = common.seed;
-  DiagnosedCampaign campaign{.name = options.folder.lexically_normal().string(),
+  const std::vector<MeasurementPlan> plans = possible_plans(measurement);
+  const Designs designs = [&](const std::vector<std::string>& effects) {
+    std::vector<Design> result;
+    for (const MeasurementPlan& plan : plans) result.push_back(design_of(plan, measurement, effects, had, rig_file));
+    return result;
+  };
+  std::vector<std::string> names;
+  for (const fs::path& folder : options.folders) names.push_back(folder.lexically_normal().string());
+  DiagnosedCampaign campaign{.name = fmt::format("{}", fmt::join(names, " and ")),
                              .observations = physics.evidence.observations,
                              .notes = measurement.notes,
-                             .diagnosis = decide(physics.evidence, physics.predict, {}, settings)};
+                             .diagnosis = decide(physics.evidence, physics.predict, designs, settings)};
   progress.step();
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
@@ -88,7 +118,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   report["notes"] = campaign.notes;
   report["provenance"] = provenance;
   write_diagnosis_report(common.output, campaign);
-  write_json(common.output / "next.json", report["next"]);
+  write_next(common.output, campaign.diagnosis, plans, measurement.rig);
   write_json(common.output / "model.json", model_json(had, campaign.diagnosis, provenance));
   write_json(common.output / "report.json", report);
   fmt::print("{}", rows_text(campaign.diagnosis, common.output, common.json));
@@ -98,7 +128,8 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
 
 std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<DiagnoseOptions>();
-  app.add_option("folder", options->folder, "Measurement directory: rig.json, frames.csv and clouds")
+  app.add_option("folder", options->folders,
+                 "Measurement directories: rig.json, frames.csv and clouds; further ones are later sessions of one rig")
       ->required()
       ->type_name("DIR");
   app.add_option("--model", options->model, "What is known already: model.json of an earlier diagnosis")

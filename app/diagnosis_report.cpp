@@ -92,8 +92,10 @@ std::string confusable_html(const Diagnosis& diagnosis) {
 std::string next_html(const Diagnosis& diagnosis) {
   Rows rows;
   for (const NextMeasurement& next : diagnosis.next)
-    rows.push_back({next.measurement, effects_words(next.separates), fmt::format("{:.1f} σ", next.sigma)});
-  return html_table({"measure", "to tell apart", "by"}, rows);
+    rows.push_back({set_words(next.separates[0]), set_words(next.separates[1]),
+                    next.settles() ? next.measurement : "none of these will settle it; the best is " + next.measurement,
+                    fmt::format("{:.1f} σ", next.sigma), fmt::format("{:.0f} min", next.cost)});
+  return html_table({"to tell", "from", "measure", "by", "for"}, rows);
 }
 
 std::string budget_html(const Diagnosis& diagnosis) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
@@ -65,6 +66,48 @@ std::string named_sentence(const Diagnosis& diagnosis) {
   return text + fmt::format("leaves {} of the heights' differences. ", gap_words(diagnosis.train));
 }
 
+/// Of "foam+surface_tilt".
+std::vector<std::string> names_in(const std::string& set) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at <= set.size();) {
+    const std::size_t plus = std::min(set.find('+', at), set.size());
+    names.push_back(set.substr(at, plus - at));
+    at = plus + 1;
+  }
+  return names;
+}
+
+/// "foam from surface tilt"
+std::string pair_words(const NextMeasurement& next) {
+  return fmt::format("{} from {}", set_words(next.separates[0]), set_words(next.separates[1]));
+}
+
+std::string next_sentences(const std::vector<NextMeasurement>& all) {
+  std::map<std::string, std::vector<std::string>> settled;
+  std::vector<std::string> order, open, unsettled;
+  for (const NextMeasurement& next : all) {
+    if (!next.settles()) {
+      open.push_back(pair_words(next));
+      for (const std::string& set : next.separates)
+        for (const std::string& name : names_in(set))
+          if (std::find(unsettled.begin(), unsettled.end(), name) == unsettled.end()) unsettled.push_back(name);
+      continue;
+    }
+    const std::string measurement = fmt::format("{} ({:.0f} min)", next.measurement, next.cost);
+    if (settled[measurement].empty()) order.push_back(measurement);
+    settled[measurement].push_back(fmt::format("{} ({:.1f} σ)", pair_words(next), next.sigma));
+  }
+  std::string text;
+  for (const std::string& measurement : order)
+    text += fmt::format("Measuring {} would tell {}. ", measurement, joined(settled[measurement], "and"));
+  if (open.empty()) return text;
+  text += fmt::format("None of the measurements that were considered will tell {}. ", joined(open, "or"));
+  for (const std::string& name : unsettled)
+    if (const Effect* effect = find_effect(effect_name(name).id))
+      text += fmt::format("Of {} the list of effects says: {}. ", effect_words(name), effect->discriminated_by);
+  return text;
+}
+
 std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   std::vector<std::string> rivals;
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
@@ -72,10 +115,7 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
     for (const auto& twin : explanation.alternatives) rivals.push_back(effects_words(twin));
   }
   std::string text = fmt::format("These explain it about equally well: {}. ", joined(rivals, "or"));
-  if (diagnosis.next.empty()) return text;
-  const NextMeasurement& next = diagnosis.next.front();
-  return text + (next.sigma >= 3.0 ? fmt::format("To tell, measure {} ({:.1f} σ). ", next.measurement, next.sigma)
-                                   : "None of the measurements that were considered will settle it. ");
+  return text + next_sentences(diagnosis.next);
 }
 
 std::string unknown_sentence(const Diagnosis& diagnosis) {
@@ -95,6 +135,8 @@ std::string effect_words(const std::string& name) {
   const EffectName effect = effect_name(name);
   return spaced(effect.id) + (effect.liquid.empty() ? "" : " of " + spaced(effect.liquid));
 }
+
+std::string set_words(const std::string& set) { return set == "none" ? "nothing" : effects_words(names_in(set)); }
 
 std::string effects_words(const std::vector<std::string>& effects) {
   if (effects.empty()) return "nothing";

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "core/error.h"
 #include "diagnosis/predict/slope.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
@@ -56,25 +57,35 @@ bool moves_anything(const Candidate& candidate) {
   return most > kNothing;
 }
 
+/// Names of all that a campaign with these liquids could show.
+std::vector<std::string> names_of(const Effect& effect, const std::vector<std::string>& liquids) {
+  std::vector<std::string> names{std::string(effect.id)};
+  if (effect.of_liquids && liquids.size() > 1)
+    for (const std::string& liquid : liquids) names.push_back(name_of(EffectName{names.front(), liquid}));
+  return names;
+}
+
 }  // namespace
 
-Candidates candidates_of(const Predictor& predictor) {
+Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only) {
   Candidates candidates;
-  const std::vector<std::string> liquids = poured_liquids(predictor);
-  for (const Effect& effect : effect_registry()) {
-    if (std::find(kNotSought.begin(), kNotSought.end(), effect.id) != kNotSought.end()) {
-      candidates.not_sought.emplace_back(effect.id);
-      continue;
+  std::vector<std::string> names = only;
+  if (only.empty())
+    for (const Effect& effect : effect_registry()) {
+      if (std::find(kNotSought.begin(), kNotSought.end(), effect.id) != kNotSought.end())
+        candidates.not_sought.emplace_back(effect.id);
+      else
+        for (std::string& name : names_of(effect, poured_liquids(predictor))) names.push_back(std::move(name));
     }
-    std::vector<std::string> targets{""};
-    if (effect.of_liquids && liquids.size() > 1) targets.insert(targets.end(), liquids.begin(), liquids.end());
-    for (const std::string& liquid : targets) {
-      Candidate candidate = candidate_of(predictor, effect, liquid);
-      if (moves_anything(candidate))
-        candidates.seen.push_back(std::move(candidate));
-      else if (liquid.empty())
-        candidates.unseen.emplace_back(effect.id);
-    }
+  for (const std::string& name : names) {
+    const EffectName parts = effect_name(name);
+    const Effect* effect = find_effect(parts.id);
+    if (!effect) throw Error("effects", unknown_name("effect", parts.id, effect_ids()));
+    Candidate candidate = candidate_of(predictor, *effect, parts.liquid);
+    if (moves_anything(candidate))
+      candidates.seen.push_back(std::move(candidate));
+    else if (parts.liquid.empty())
+      candidates.unseen.push_back(parts.id);
   }
   return candidates;
 }

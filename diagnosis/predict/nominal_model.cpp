@@ -20,21 +20,19 @@ bool is_same(const CupShape& shape, const LaboratoryRig& rig) {
          near(shape.outer_radius(kBandMiddle), rig.outer_radius_m);
 }
 
-CupShape cup_of(const LaboratoryRig& rig, const std::string& file) {
+}  // namespace
+
+Json cup_json_of(const LaboratoryRig& rig) {
   const std::vector<std::string> names = library_names("cups");
   if (std::find(names.begin(), names.end(), rig.cup_shape) != names.end()) {
     const Json name = rig.cup_shape;
-    CupShape shape = cup_shape_from_json(JsonReader(name, file, "/cup/shape"));
-    if (is_same(shape, rig)) return shape;
+    if (is_same(cup_shape_from_json(JsonReader(name, "rig.json", "/cup/shape")), rig)) return name;
   }
-  const Json straight = {{"height_mm", mm_from_metres(rig.cup_height_m)},
-                         {"bottom_mm", mm_from_metres(rig.bottom_m)},
-                         {"inner_radius_mm", mm_from_metres(rig.inner_radius_m)},
-                         {"outer_radius_mm", mm_from_metres(rig.outer_radius_m)}};
-  return cup_shape_from_json(JsonReader(straight, file, "/cup"));
+  return {{"height_mm", mm_from_metres(rig.cup_height_m)},
+          {"bottom_mm", mm_from_metres(rig.bottom_m)},
+          {"inner_radius_mm", mm_from_metres(rig.inner_radius_m)},
+          {"outer_radius_mm", mm_from_metres(rig.outer_radius_m)}};
 }
-
-}  // namespace
 
 NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file) {
   NominalModel model;
@@ -47,7 +45,8 @@ NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& f
                        {"focal_px", laboratory.focal_px}};
   model.rig = rig_from_json(JsonReader(sensor, file, "/sensor"));
   model.rig.sensor.unit.disparity_offset_px = laboratory.disparity_offset_px;
-  model.cup = cup_of(laboratory, file);
+  const Json cup = cup_json_of(laboratory);
+  model.cup = cup_shape_from_json(JsonReader(cup, file, "/cup"));
   for (const auto& [name, medium] : laboratory.liquids) {
     const JsonReader json(medium, file, "/liquids/" + name);
     model.liquids[name] = medium_from_json(json);

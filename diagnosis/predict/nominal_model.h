@@ -17,8 +17,11 @@ struct NominalModel {
   std::map<std::string, Medium> liquids;
 };
 
-/// The sensor's model with the rig's numbers; the cup of the library where the rig's numbers are that cup's, else a
-/// straight one with the rig's. Throws Error, as coming from `file`, on unknown names and media.
+/// The cup as a scene has it, by the rig's numbers: the library's, where they are that cup's, else a straight one.
+Json cup_json_of(const LaboratoryRig& rig);
+
+/// The sensor's model with the rig's numbers, and the cup. Throws Error, as coming from `file`, on unknown names and
+/// media.
 NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file);
 
 /// The set-up in which a frame with these factors is shot, without effects. A bare desk has no cup.

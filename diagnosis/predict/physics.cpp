@@ -22,7 +22,8 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
 
 }  // namespace
 
-Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file) {
+Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
+                   const std::vector<std::string>& only) {
   Physics physics;
   Evidence& evidence = physics.evidence;
   const std::vector<Observation> observations = predictable(measurement.observations);
@@ -35,7 +36,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);
   for (Nuisance& nuisance : model_errors(evidence.observations)) evidence.nuisances.push_back(std::move(nuisance));
-  Candidates candidates = candidates_of(*predictor);
+  Candidates candidates = candidates_of(*predictor, only);
   evidence.candidates = std::move(candidates.seen);
   physics.unseen = std::move(candidates.unseen);
   physics.not_sought = std::move(candidates.not_sought);

@@ -276,7 +276,7 @@ double log_posterior(const std::vector<Option>& options, const std::vector<int>&
 
 }  // namespace
 
-Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::vector<Design>& designs,
+Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs& designs,
                  const DecisionSettings& settings) {
   Diagnosis diagnosis;
   diagnosis.missing = missing_for_diagnosis(evidence);
@@ -334,7 +334,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::ve
     add_parameters(c, *choice);
     diagnosis.effects = choice->effects;
   }
-  if (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none)
+  if (designs && (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none))
     diagnosis.next = next_measurements(evidence, c.covariance, designs, set);
   return diagnosis;
 }

@@ -21,8 +21,8 @@ struct DecisionSettings {
 };
 
 /// The diagnosis. `predict` is asked for some tens of predictions with up to four effects switched on; `designs` are
-/// measurements that could be made next, with a signature for each candidate in the evidence's order.
-Diagnosis decide(const Evidence& evidence, const Predict& predict, const std::vector<Design>& designs = {},
+/// measurements that could be made next, asked for when some explanations are left open.
+Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs& designs = {},
                  const DecisionSettings& settings = {});
 
 }  // namespace fathom

@@ -67,7 +67,8 @@ struct NextMeasurement {
   std::string measurement;
   std::vector<std::string> separates;
   double sigma = 0.0;  ///< by which it would tell them apart
-  double cost = 1.0;
+  double cost = 1.0;   ///< minutes
+  bool settles() const { return sigma >= 3.0; }
 };
 
 /// ASME V&V 20-2009 for one condition and observable.

@@ -82,7 +82,11 @@ Json json_from(const NearNullDirection& direction) {
 }
 
 Json json_from(const NextMeasurement& next) {
-  return {{"measurement", next.measurement}, {"separates", next.separates}, {"sigma", next.sigma}, {"cost", next.cost}};
+  return {{"measurement", next.measurement},
+          {"separates", next.separates},
+          {"sigma", next.sigma},
+          {"minutes", next.cost},
+          {"settles", next.settles()}};
 }
 
 Json json_from(const ConditionBudget& line) {

@@ -3,51 +3,120 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
+#include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"
 
 namespace fathom {
 
 namespace {
 
-constexpr double kSettled = 3.0;  // σ
 constexpr std::size_t kLikeliest = 4;
 
-/// Changes of old and new observations by effects, per prior scale.
-Eigen::MatrixXd signatures(const Evidence& evidence, const Design& design, const std::vector<int>& effects) {
-  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
-  std::vector<Eigen::VectorXd> columns;
-  for (const int effect : effects)
-    for (std::size_t k = 0; k < evidence.candidates[effect].parameters.size(); ++k) {
-      Eigen::VectorXd column(n + design.error_sd.size());
-      column << evidence.candidates[effect].signature.col(k), design.signatures[effect].col(k);
-      columns.push_back(evidence.candidates[effect].parameters[k].prior_scale * column);
+/// Variance of one repeat of each observable and region, as it was found; of the observable where a region is new.
+class RepeatVariances {
+ public:
+  RepeatVariances(const Evidence& evidence, const Covariance& covariance) {
+    for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+      const Observation& o = evidence.observations[i];
+      const double variance = covariance.errors.repeat_variance[static_cast<Eigen::Index>(i)] * o.repeats;
+      for (const std::string& region : {o.factors.region, kAnyRegion}) {
+        Mean& mean = means_[{o.observable, region}];
+        mean.sum += variance, ++mean.count;
+      }
     }
-  Eigen::MatrixXd result(n + design.error_sd.size(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
-  return result;
+  }
+
+  /// 0 of an observable that was never measured.
+  double operator()(const Observation& o) const {
+    auto found = means_.find({o.observable, o.factors.region});
+    if (found == means_.end()) found = means_.find({o.observable, kAnyRegion});
+    return found == means_.end() ? 0.0 : found->second.sum / found->second.count;
+  }
+
+ private:
+  struct Mean {
+    double sum = 0.0;
+    int count = 0;
+  };
+  const std::string kAnyRegion = "*";
+  std::map<std::pair<std::string, std::string>, Mean> means_;
+};
+
+Groups groups_of(const std::vector<Observation>& observations, const VarianceComponent& component) {
+  int row = 0;
+  return group_by(observations, [&](const Observation& o) {
+    ++row;
+    if (o.observable != component.observable) return std::string();
+    switch (component.level) {
+      case ErrorLevel::observation:
+        return std::to_string(row);
+      case ErrorLevel::placement:
+        return placement_key(o);
+      case ErrorLevel::pour:
+        return pour_key(o);
+      case ErrorLevel::session:
+        return session_key(o);
+    }
+    return std::string();
+  });
+}
+
+/// Of the new observations, nuisances apart: numerical errors, repeats, and the components that the old ones show.
+Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covariance, const Evidence& added) {
+  const auto n = static_cast<Eigen::Index>(added.observations.size());
+  const RepeatVariances repeats(old, covariance);
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    total(i, i) = std::pow(added.numerical_sd[i], 2.0) + repeats(added.observations[i]) / added.observations[i].repeats;
+  for (const ObservableErrors& errors : covariance.errors.observables)
+    for (const VarianceComponent& component : errors.components)
+      for (const auto& members : groups_of(added.observations, component).members())
+        for (const auto i : members)
+          for (const auto j : members) total(i, j) += component.variance;
+  return total;
 }
 
 /// Old and new observations with nuisances as parameters of their own.
 class Augmented {
  public:
   Augmented(const Evidence& evidence, const Covariance& covariance, const Design& design)
-      : old_(covariance.total - covariance.nuisance * covariance.nuisance.transpose()), design_(design) {
-    const Eigen::Index added = design.error_sd.size(), priors = covariance.nuisance.cols();
-    Eigen::MatrixXd new_nuisances = design.nuisances;
-    for (Eigen::Index k = 0; k < priors; ++k) new_nuisances.col(k) *= evidence.nuisances[k].sigma;
-    nuisances_ = Eigen::MatrixXd::Zero(old_.rows() + added, priors + design.own_nuisances.cols());
-    nuisances_.topLeftCorner(old_.rows(), priors) = covariance.nuisance;
-    nuisances_.bottomLeftCorner(added, priors) = new_nuisances;
-    nuisances_.bottomRightCorner(added, design.own_nuisances.cols()) = design.own_nuisances;
+      : evidence_(evidence),
+        added_(design.evidence),
+        old_(covariance.total - covariance.nuisance * covariance.nuisance.transpose()),
+        new_(covariance_of_new(evidence, covariance, design.evidence)) {
+    std::map<std::string, Eigen::Index> columns;
+    Eigen::Index count = 0;
+    for (const Nuisance& nuisance : evidence.nuisances) columns.emplace(nuisance.name, count++);
+    for (const Nuisance& nuisance : added_.nuisances)
+      if (columns.emplace(nuisance.name, count).second) ++count;
+    nuisances_ = Eigen::MatrixXd::Zero(old_.rows() + new_.rows(), count);
+    nuisances_.topLeftCorner(old_.rows(), covariance.nuisance.cols()) = covariance.nuisance;
+    for (const Nuisance& nuisance : added_.nuisances)
+      nuisances_.col(columns.at(nuisance.name)).tail(new_.rows()) = nuisance.sigma * nuisance.signature;
     nuisances_ = whitened(nuisances_);
   }
 
-  Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const {
-    Eigen::MatrixXd result = x;
-    result.topRows(old_.rows()) = old_.matrixL().solve(x.topRows(old_.rows()));
-    result.bottomRows(design_.error_sd.size()).array().colwise() /= design_.error_sd.array();
-    return result;
+  /// Changes of old and new observations by effects, per prior scale; whitened.
+  Eigen::MatrixXd signatures(const std::vector<int>& effects) const {
+    std::vector<Eigen::VectorXd> columns;
+    for (const int effect : effects) {
+      const Candidate& known = evidence_.candidates[effect];
+      const auto seen = std::find_if(added_.candidates.begin(), added_.candidates.end(),
+                                     [&](const Candidate& c) { return c.effect == known.effect; });
+      for (std::size_t k = 0; k < known.parameters.size(); ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        Eigen::VectorXd both = Eigen::VectorXd::Zero(nuisances_.rows());
+        both.head(old_.rows()) = known.signature.col(column);
+        if (seen != added_.candidates.end()) both.tail(new_.rows()) = seen->signature.col(column);
+        columns.push_back(known.parameters[k].prior_scale * both);
+      }
+    }
+    Eigen::MatrixXd result(nuisances_.rows(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
+    return whitened(result);
   }
 
   /// Norm of what neither `hiding` (whitened columns) nor the nuisances within their priors can take from `difference`.
@@ -62,15 +131,20 @@ class Augmented {
   }
 
  private:
-  Eigen::LLT<Eigen::MatrixXd> old_;
-  const Design& design_;
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const {
+    Eigen::MatrixXd result = x;
+    result.topRows(old_.rows()) = old_.matrixL().solve(x.topRows(old_.rows()));
+    result.bottomRows(new_.rows()) = new_.matrixL().solve(x.bottomRows(new_.rows()));
+    return result;
+  }
+
+  const Evidence &evidence_, &added_;
+  Eigen::LLT<Eigen::MatrixXd> old_, new_;
   Eigen::MatrixXd nuisances_;
 };
 
-double t_criterion(const Evidence& evidence, const Augmented& augmented, const Design& design, const Option& first,
-                   const Option& second) {
-  const Eigen::MatrixXd one = augmented.whitened(signatures(evidence, design, first.effects));
-  const Eigen::MatrixXd other = augmented.whitened(signatures(evidence, design, second.effects));
+double t_criterion(const Augmented& augmented, const Option& first, const Option& second) {
+  const Eigen::MatrixXd one = augmented.signatures(first.effects), other = augmented.signatures(second.effects);
   return std::min(augmented.left(one * first.parameters, other), augmented.left(other * second.parameters, one));
 }
 
@@ -84,31 +158,40 @@ std::string words(const Evidence& evidence, const Option& option) {
 
 double t_criterion(const Evidence& evidence, const Covariance& covariance, const Design& design, const Option& first,
                    const Option& second) {
-  return t_criterion(evidence, Augmented(evidence, covariance, design), design, first, second);
+  return t_criterion(Augmented(evidence, covariance, design), first, second);
 }
 
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Covariance& covariance,
-                                               const std::vector<Design>& designs, const AmbiguitySet& set) {
+                                               const Designs& designs, const AmbiguitySet& set) {
   std::vector<Option> options;
+  std::set<std::string> effects;
   for (const auto& alike : set.classes)
     for (const Option& option : alike)
-      if (!option.has_unknown && options.size() < kLikeliest) options.push_back(option);
+      if (!option.has_unknown && options.size() < kLikeliest) {
+        options.push_back(option);
+        for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
+      }
+  if (options.size() < 2) return {};
+  const std::vector<Design> possible = designs({effects.begin(), effects.end()});
   std::vector<Augmented> augmented;
-  for (const Design& design : designs) augmented.emplace_back(evidence, covariance, design);
+  for (const Design& design : possible) augmented.emplace_back(evidence, covariance, design);
   std::vector<NextMeasurement> result;
   for (std::size_t i = 0; i < options.size(); ++i)
     for (std::size_t j = i + 1; j < options.size(); ++j) {
-      NextMeasurement best;
-      double most = -1.0;
-      for (std::size_t d = 0; d < designs.size(); ++d) {
-        const double t = t_criterion(evidence, augmented[d], designs[d], options[i], options[j]);
-        // Whatever settles it comes before what does not.
-        const double worth = t >= kSettled ? 1e6 + t * t / designs[d].cost : t;
-        if (worth <= most) continue;
-        most = worth;
-        best = {designs[d].name, {words(evidence, options[i]), words(evidence, options[j])}, t, designs[d].cost};
-      }
-      if (most >= 0.0) result.push_back(best);
+      // Whatever settles it comes before what does not.
+      const auto worth = [](const NextMeasurement& next) {
+        return std::pair(next.settles(), next.settles() ? next.sigma * next.sigma / next.cost : next.sigma);
+      };
+      std::vector<NextMeasurement> each;
+      for (std::size_t d = 0; d < possible.size(); ++d)
+        each.push_back({possible[d].name,
+                        {words(evidence, options[i]), words(evidence, options[j])},
+                        t_criterion(augmented[d], options[i], options[j]),
+                        possible[d].cost});
+      const auto best =
+          std::max_element(each.begin(), each.end(),
+                           [&](const NextMeasurement& a, const NextMeasurement& b) { return worth(a) < worth(b); });
+      if (best != each.end()) result.push_back(*best);
     }
   return result;
 }

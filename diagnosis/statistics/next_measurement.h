@@ -1,6 +1,7 @@
 // Which further measurement would settle what this one leaves open.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,26 +12,27 @@
 
 namespace fathom {
 
-/// A measurement that could be made, as the model sees it: observations that are not there yet.
+/// A measurement that could be made next.
 struct Design {
-  std::string name;                         ///< "9 bare-desk views"
-  double cost = 1.0;                        ///< in any unit, the same for all: minutes
-  Eigen::VectorXd error_sd;                 ///< of each new observation, beyond nuisances
-  std::vector<Eigen::MatrixXd> signatures;  ///< of each candidate: new observations × its parameters, per unit
-  Eigen::MatrixXd nuisances;                ///< new observations × the evidence's nuisances, per unit
-  /// Nuisances that only the new observations have: a new pour's fill. Scaled by their prior σ; may have no columns.
-  Eigen::MatrixXd own_nuisances;
+  std::string name;   ///< "9 bare-desk views"
+  double cost = 1.0;  ///< minutes
+  /// As of a measurement that was made, in a session, pours and placements of its own; values and scatter of the
+  /// repeats do not count. A nuisance of the same name is the same one. An effect that is no candidate moves nothing.
+  Evidence evidence;
 };
+
+/// What could be measured next, with these effects as candidates.
+using Designs = std::function<std::vector<Design>(const std::vector<std::string>& effects)>;
 
 /// σ by which old and new observations together would tell two explanations apart (Atkinson & Fedorov's T-criterion
 /// 1975): what is left of the difference when the rival's parameters and all nuisances have done their best to hide it;
-/// the smaller one of either being true.
+/// the smaller one of either being true. The new observations err as the old ones of their kind do.
 double t_criterion(const Evidence& evidence, const Covariance& covariance, const Design& design, const Option& first,
                    const Option& second);
 
 /// For each pair among the likeliest explanations the design with the largest T² per cost among those with T ≥ 3, else
 /// the one with the largest T: below 3 it will not settle it, and neither will any other.
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Covariance& covariance,
-                                               const std::vector<Design>& designs, const AmbiguitySet& set);
+                                               const Designs& designs, const AmbiguitySet& set);
 
 }  // namespace fathom

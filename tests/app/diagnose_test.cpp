@@ -31,7 +31,7 @@ struct DiagnoseCommand : testing::Test {
   }
 
   Json diagnosis(const std::string& output, const std::string& options = "") {
-    const ProgramRun run = run_fathom("diagnose " + path("campaign") + " -o " + path(output) + " " + options);
+    const ProgramRun run = run_fathom("diagnose " + path("campaign") + " " + options + " -o " + path(output));
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return read_json(folder / output / "report.json");
   }
@@ -70,6 +70,59 @@ TEST_F(DiagnoseCommand, NamesNothingWhereNothingIsHidden) {
 TEST_F(DiagnoseCommand, FindsASensorThatIsTurned) { expect_found("sensor_roll", "roll_deg", 0.8); }
 
 TEST_F(DiagnoseCommand, FindsCupsThatHoldMore) { expect_found("fill_scale", "scale", 0.15); }
+
+bool is_in_set(const Json& report, const std::string& effect) {
+  for (const Json& explanation : report["ambiguity_set"]) {
+    if (explanation["effects"] == Json{effect}) return true;
+    if (explanation.contains("indistinguishable"))
+      for (const Json& twin : explanation["indistinguishable"])
+        if (twin == Json{effect}) return true;
+  }
+  return false;
+}
+
+// A cup of milk shows its surface alone: a higher bottom and a fuller cup are one. An empty cup tells them apart.
+TEST_F(DiagnoseCommand, SaysWhichMeasurementTellsTwinsApartAndThatOneDoes) {
+  Json spec = kSpec;
+  spec["liquids"] = {{"milk", {{"index", 1.344}, {"scattering_per_mm", 1000}}}};
+  spec["fillings"] = {{{"liquid", "milk"}, {"fill_mm", 20}}, {{"liquid", "milk"}, {"fill_mm", 40}}};
+  spec["bare_desk_views"] = 0;
+  spec["effects"] = {{{"name", "cup_bottom_height"}, {"height_mm", 4}}};
+  write_json(folder / "spec.json", spec);
+  ASSERT_EQ(run_fathom("campaign " + path("spec.json") + " -o " + path("campaign") + " --truth " + path("truth.json"))
+                .exit_code,
+            0);
+  const Json before = diagnosis("out");
+  EXPECT_EQ(before["verdict"], "ambiguous") << before["answer"];
+  ASSERT_TRUE(is_in_set(before, "cup_bottom_height") && is_in_set(before, "fill_offset")) << before["ambiguity_set"];
+  std::string file;
+  for (const Json& next : read_json(folder / "out" / "next.json"))
+    if (next["settles"] && next["separates"] == Json{"cup_bottom_height", "fill_offset"}) file = next["campaign"];
+  ASSERT_FALSE(file.empty()) << before["next"];
+
+  Json next = read_json(folder / "out" / file);
+  EXPECT_EQ(next["fillings"], Json::parse(R"([{"liquid": "empty"}])"));
+  next["sensor"]["noise"] = "device", next["mode"] = "geometric";  // for the sake of time, as the first folder
+  write_json(folder / "next.json", next);
+  const ProgramRun more =
+      run_fathom("campaign " + path("next.json") + " --seed 2 --model " + path("truth.json") + " -o " + path("more"));
+  ASSERT_EQ(more.exit_code, 0) << more.err;
+  const Json after = diagnosis("both", path("more"));
+  EXPECT_TRUE(is_in_set(after, "cup_bottom_height")) << after["ambiguity_set"];
+  EXPECT_FALSE(is_in_set(after, "fill_offset") || is_in_set(after, "foam")) << after["ambiguity_set"];
+}
+
+TEST_F(DiagnoseCommand, FoldersThatGoTogetherHaveOneRig) {
+  measure(Json::array());
+  std::filesystem::copy(folder / "campaign", folder / "other", std::filesystem::copy_options::recursive);
+  Json rig = read_json(folder / "other" / "rig.json");
+  rig["sensor"]["height_mm"] = 651;
+  write_json(folder / "other" / "rig.json", rig);
+  const ProgramRun run = run_fathom("diagnose " + path("campaign") + " " + path("other") + " -o " + path("out"));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.err.rfind("error: " + path("other/rig.json") + ": /sensor/height_mm: must be as in ", 0), 0u)
+      << run.err;
+}
 
 TEST_F(DiagnoseCommand, SaysWhatIsMissing) {
   measure(Json::array());

@@ -89,15 +89,14 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   const Evidence evidence = world.measure({}, {}, 1);
   const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
   const int bottom = world.candidate("cup_bottom_height"), coaster = world.candidate("cup_on_coaster");
-  // A gauge block at the rim sees a coaster, which lifts the whole cup, but no bottom.
-  Design gauge{"gauge block", 1.0, Eigen::VectorXd::Constant(1, 0.05), {}, {}, {}};
-  for (const Candidate& candidate : evidence.candidates)
-    gauge.signatures.push_back(Eigen::MatrixXd::Constant(1, 1, candidate.effect == "cup_on_coaster" ? 0.5 : 0.0));
-  gauge.nuisances = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(evidence.nuisances.size()));
-  gauge.own_nuisances = Eigen::MatrixXd::Zero(1, 0);
+  // A gauge block at the rim, read to 0.05 mm, sees a coaster, which lifts the whole cup, but no bottom.
+  Design gauge{"gauge block", 1.0, {}};
+  gauge.evidence.observations = {{.observable = "gauge_mm", .factors = {.session = 9, .liquid = "empty"}}};
+  gauge.evidence.numerical_sd = Eigen::VectorXd::Constant(1, 0.05);
+  gauge.evidence.candidates = {{"cup_on_coaster", {}, Eigen::MatrixXd::Constant(1, 1, 0.5)}};
   Design blind = gauge;
   blind.name = "another look at nothing";
-  blind.signatures[coaster].setZero();
+  blind.evidence.candidates.clear();
 
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(residual_of(evidence).size());
   const Option is_bottom{{bottom}, Eigen::VectorXd::Constant(1, 1.0), false, 0.0, none};
@@ -107,7 +106,12 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   EXPECT_GT(t_criterion(evidence, covariance, gauge, is_bottom, is_coaster), 3.0);
 
   const AmbiguitySet set{{{is_bottom, is_coaster}}, {1.0}};
-  const auto next = next_measurements(evidence, covariance, {blind, gauge}, set);
+  const auto next = next_measurements(
+      evidence, covariance,
+      [&](const std::vector<std::string>&) {
+        return std::vector{blind, gauge};
+      },
+      set);
   ASSERT_EQ(next.size(), 1U);
   EXPECT_EQ(next[0].measurement, "gauge block");
 }

@@ -1,0 +1,72 @@
+#include "diagnosis/measurement/joined.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace fathom {
+namespace {
+
+struct RigValue {
+  const char* path;
+  double LaboratoryRig::*value;
+};
+constexpr RigValue kShared[] = {{"/sensor/height_mm", &LaboratoryRig::height_m},
+                                {"/sensor/pitch_deg", &LaboratoryRig::pitch_rad},
+                                {"/sensor/roll_deg", &LaboratoryRig::roll_rad},
+                                {"/sensor/baseline_mm", &LaboratoryRig::baseline_m},
+                                {"/sensor/focal_px", &LaboratoryRig::focal_px},
+                                {"/sensor/disparity_offset_px", &LaboratoryRig::disparity_offset_px},
+                                {"/cup/height_mm", &LaboratoryRig::cup_height_m},
+                                {"/cup/inner_radius_mm", &LaboratoryRig::inner_radius_m},
+                                {"/cup/outer_radius_mm", &LaboratoryRig::outer_radius_m},
+                                {"/cup/bottom_mm", &LaboratoryRig::bottom_m}};
+
+void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder, const LaboratoryRig& first,
+                  const std::filesystem::path& first_folder) {
+  constexpr double kSame = 1e-7;  // [SI] rig.json is written to the nanometre
+  const auto differs = [&](const std::string& path) {
+    throw Error((folder / "rig.json").string(), path,
+                fmt::format("must be as in {}: folders that are looked at together have one rig",
+                            (first_folder / "rig.json").string()));
+  };
+  if (rig.sensor_model != first.sensor_model) differs("/sensor/model");
+  for (const RigValue& shared : kShared)
+    if (!(std::abs(rig.*shared.value - first.*shared.value) <= kSame)) differs(shared.path);
+  for (const auto& [name, medium] : rig.liquids)
+    if (const auto known = first.liquids.find(name); known != first.liquids.end() && known->second != medium)
+      differs("/liquids/" + name);
+}
+
+/// The sessions of `more` follow those of `all`.
+void append(Measurement more, Measurement& all) {
+  int sessions = 0;
+  for (const FrameRecord& frame : all.frames) sessions = std::max(sessions, frame.session + 1);
+  for (FrameRecord& frame : more.frames) {
+    frame.session += sessions;
+    all.frames.push_back(std::move(frame));
+  }
+  for (Observation& observation : more.observations) {
+    observation.factors.session += sessions;
+    all.observations.push_back(std::move(observation));
+  }
+  all.rig.liquids.insert(more.rig.liquids.begin(), more.rig.liquids.end());
+  for (std::string& note : more.notes) all.notes.push_back(std::move(note));
+}
+
+}  // namespace
+
+Measurement read_measurements(std::span<const std::filesystem::path> folders) {
+  Measurement all = read_measurement(folders.front());
+  for (const std::filesystem::path& folder : folders.subspan(1)) {
+    Measurement more = read_measurement(folder);
+    require_same(more.rig, folder, all.rig, folders.front());
+    append(std::move(more), all);
+  }
+  return all;
+}
+
+}  // namespace fathom

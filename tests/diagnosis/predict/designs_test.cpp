@@ -1,0 +1,73 @@
+// What could be measured next: what plans hold, and what the model expects of them.
+#include "diagnosis/predict/designs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/diagnosis/predict/paper_laboratory.h"
+
+namespace fathom {
+namespace {
+
+/// Milk at two distances, 20 mm deep; no clouds are needed to plan.
+Measurement milk_alone() {
+  Measurement measurement;
+  measurement.rig = paper_laboratory();
+  measurement.rig.liquids.erase("water");
+  for (const double distance_m : {0.2, 0.3}) {
+    FrameRecord& frame = measurement.frames.emplace_back();
+    frame.liquid = "milk";
+    frame.fill_m = 0.020;
+    frame.distance_m = distance_m;
+  }
+  return measurement;
+}
+
+const MeasurementPlan* find(const std::vector<MeasurementPlan>& plans, const std::string& part) {
+  const auto found = std::find_if(plans.begin(), plans.end(), [&](const MeasurementPlan& plan) {
+    return plan.name.find(part) != std::string::npos;
+  });
+  return found == plans.end() ? nullptr : &*found;
+}
+
+TEST(Designs, PlanWhatWasNotMeasuredYet) {
+  const std::vector<MeasurementPlan> plans = possible_plans(milk_alone());
+  for (const char* part : {"bare-desk", "empty cup", "milk 10 mm and 60 mm deep", "laterals", "clear water"})
+    EXPECT_NE(find(plans, part), nullptr) << part;
+  EXPECT_EQ(find(plans, "opaque"), nullptr);  // milk is
+  const MeasurementPlan* distances = find(plans, "distances");
+  ASSERT_NE(distances, nullptr);
+  EXPECT_EQ(distances->distances_mm, (std::vector{400.0, 500.0}));
+  EXPECT_LT(find(plans, "bare-desk")->minutes(), find(plans, "clear water")->minutes());
+}
+
+TEST(Designs, TheBareDeskShowsTheSensorAndNoCup) {
+  const Measurement measurement = milk_alone();
+  const Design design = design_of(*find(possible_plans(measurement), "bare-desk"), measurement,
+                                  {"sensor_height", "cup_bottom_height", "fill_offset"});
+  ASSERT_FALSE(design.evidence.observations.empty());
+  for (const Observation& observation : design.evidence.observations) {
+    EXPECT_NE(observation.observable, "height_mm");
+    EXPECT_EQ(observation.factors.session, 1);  // after the one that there is
+  }
+  ASSERT_EQ(design.evidence.candidates.size(), 1u);
+  EXPECT_EQ(design.evidence.candidates[0].effect, "sensor_height");
+}
+
+TEST(Designs, TheEmptyCupShowsItsBottomAndNoFill) {
+  const Measurement measurement = milk_alone();
+  const Design design =
+      design_of(*find(possible_plans(measurement), "empty cup"), measurement, {"cup_bottom_height", "fill_offset"});
+  ASSERT_EQ(design.evidence.candidates.size(), 1u);
+  const Candidate& bottom = design.evidence.candidates[0];
+  EXPECT_EQ(bottom.effect, "cup_bottom_height");
+  for (std::size_t row = 0; row < design.evidence.observations.size(); ++row) {
+    if (design.evidence.observations[row].observable != "height_mm") continue;
+    // A bottom that is a millimetre higher reads so, but for the device's step of a millimetre over few rays.
+    EXPECT_NEAR(bottom.signature(static_cast<Eigen::Index>(row), 0), 1.0, 0.2) << row;
+  }
+}
+
+}  // namespace
+}  // namespace fathom
