@@ -48,6 +48,12 @@ Eigen::MatrixXd shared(const Groups& groups, const std::vector<Eigen::Index>& ro
   return sums.transpose() * sums;
 }
 
+/// Whether two components can hardly be told apart: up to size, their covariances differ by less than a tenth.
+bool are_alike(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
+  constexpr double kLeastCosine = 0.995;
+  return one.cwiseProduct(other).sum() > kLeastCosine * one.norm() * other.norm();
+}
+
 /// Fisher scoring from `variances`, which stay at 0 or above. Returns the covariance of the estimates.
 Eigen::MatrixXd fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
                     const std::vector<Eigen::MatrixXd>& shapes, Eigen::VectorXd& variances) {
@@ -143,13 +149,15 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     if (evidence.observations[rows[0]].observable == "height_mm") budget.from_replicates = means.from_replicates;
     std::vector<VarianceComponent> components =
         candidates_of(evidence.observations[rows[0]].observable, evidence.observations);
-    // What no contrast sees cannot be estimated: a pour that was never repeated stands in its mean.
+    // What no contrast sees cannot be estimated: a pour that was never repeated stands in its mean. Nor can what they
+    // see as they see a lower level: one of the two would be drawn as large as the other is drawn negative.
     std::vector<Eigen::MatrixXd> shapes;
     std::erase_if(components, [&](const VarianceComponent& component) {
-      shapes.push_back(shared(component.groups, rows, contrasts));
-      const bool is_seen = shapes.back().trace() > 1e-6 * static_cast<double>(rows.size());
-      if (!is_seen) shapes.pop_back();
-      return !is_seen;
+      Eigen::MatrixXd shape = shared(component.groups, rows, contrasts);
+      const bool is_seen = shape.trace() > 1e-6 * static_cast<double>(rows.size());
+      if (!is_seen || (!shapes.empty() && are_alike(shapes.back(), shape))) return true;
+      shapes.push_back(std::move(shape));
+      return false;
     });
     const Eigen::VectorXd left = contrasts.transpose() * residual(rows);
     const double scale = std::max(left.squaredNorm() / static_cast<double>(left.size()), 1e-300);
