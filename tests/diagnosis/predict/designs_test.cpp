@@ -33,7 +33,7 @@ const MeasurementPlan* find(const std::vector<MeasurementPlan>& plans, const std
 
 TEST(Designs, PlanWhatWasNotMeasuredYet) {
   const std::vector<MeasurementPlan> plans = possible_plans(milk_alone());
-  for (const char* part : {"bare-desk", "empty cup", "milk 10 mm and 60 mm deep", "laterals", "clear water"})
+  for (const char* part : {"bare-desk", "empty cup", "milk 10 and 60 mm deep", "laterals", "clear water"})
     EXPECT_NE(find(plans, part), nullptr) << part;
   EXPECT_EQ(find(plans, "opaque"), nullptr);  // milk is
   const MeasurementPlan* distances = find(plans, "distances");

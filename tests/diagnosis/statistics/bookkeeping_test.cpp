@@ -91,7 +91,7 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   const int bottom = world.candidate("cup_bottom_height"), coaster = world.candidate("cup_on_coaster");
   // A gauge block at the rim, read to 0.05 mm, sees a coaster, which lifts the whole cup, but no bottom.
   Design gauge{"gauge block", 1.0, {}};
-  gauge.evidence.observations = {{.observable = "gauge_mm", .factors = {.session = 9, .liquid = "empty"}}};
+  gauge.evidence.observations = {{.observable = "gauge_mm", .factors = {.session = 9, .liquid = "empty", .region = ""}}};
   gauge.evidence.numerical_sd = Eigen::VectorXd::Constant(1, 0.05);
   gauge.evidence.candidates = {{"cup_on_coaster", {}, Eigen::MatrixXd::Constant(1, 1, 0.5)}};
   Design blind = gauge;
