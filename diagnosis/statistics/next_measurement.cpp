@@ -1,5 +1,6 @@
 #include "diagnosis/statistics/next_measurement.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include "diagnosis/statistics/problem.h"
 
 namespace fathom {
-
 namespace {
 
 constexpr std::size_t kLikeliest = 4;
@@ -79,24 +79,25 @@ Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covaria
   return total;
 }
 
-/// Old and new observations with nuisances as parameters of their own.
-class Augmented {
+/// Old and new observations, with what they share: nuisances of one name.
+class Together {
  public:
-  Augmented(const Evidence& evidence, const Covariance& covariance, const Design& design)
-      : evidence_(evidence),
-        added_(design.evidence),
-        old_(covariance.total - covariance.nuisance * covariance.nuisance.transpose()),
-        new_(covariance_of_new(evidence, covariance, design.evidence)) {
+  Together(const Evidence& evidence, const Covariance& covariance, const Design& design)
+      : evidence_(evidence), added_(design.evidence) {
+    const Eigen::Index old = covariance.total.rows(), added = added_.numerical_sd.size();
     std::map<std::string, Eigen::Index> columns;
     Eigen::Index count = 0;
     for (const Nuisance& nuisance : evidence.nuisances) columns.emplace(nuisance.name, count++);
     for (const Nuisance& nuisance : added_.nuisances)
       if (columns.emplace(nuisance.name, count).second) ++count;
-    nuisances_ = Eigen::MatrixXd::Zero(old_.rows() + new_.rows(), count);
-    nuisances_.topLeftCorner(old_.rows(), covariance.nuisance.cols()) = covariance.nuisance;
+    Eigen::MatrixXd nuisances = Eigen::MatrixXd::Zero(old + added, count);
+    nuisances.topLeftCorner(old, covariance.nuisance.cols()) = covariance.nuisance;
     for (const Nuisance& nuisance : added_.nuisances)
-      nuisances_.col(columns.at(nuisance.name)).tail(new_.rows()) = nuisance.sigma * nuisance.signature;
-    nuisances_ = whitened(nuisances_);
+      nuisances.col(columns.at(nuisance.name)).tail(added) = nuisance.sigma * nuisance.signature;
+    Eigen::MatrixXd total = nuisances * nuisances.transpose();
+    total.topLeftCorner(old, old) = covariance.total;
+    total.bottomRightCorner(added, added) += covariance_of_new(evidence, covariance, added_);
+    factor_.compute(total);
   }
 
   /// Changes of old and new observations by effects, per prior scale; whitened.
@@ -108,44 +109,40 @@ class Augmented {
                                      [&](const Candidate& c) { return c.effect == known.effect; });
       for (std::size_t k = 0; k < known.parameters.size(); ++k) {
         const auto column = static_cast<Eigen::Index>(k);
-        Eigen::VectorXd both = Eigen::VectorXd::Zero(nuisances_.rows());
-        both.head(old_.rows()) = known.signature.col(column);
-        if (seen != added_.candidates.end()) both.tail(new_.rows()) = seen->signature.col(column);
+        Eigen::VectorXd both = Eigen::VectorXd::Zero(factor_.rows());
+        both.head(known.signature.rows()) = known.signature.col(column);
+        if (seen != added_.candidates.end()) both.tail(added_.numerical_sd.size()) = seen->signature.col(column);
         columns.push_back(known.parameters[k].prior_scale * both);
       }
     }
-    Eigen::MatrixXd result(nuisances_.rows(), static_cast<Eigen::Index>(columns.size()));
+    Eigen::MatrixXd result(factor_.rows(), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
-    return whitened(result);
-  }
-
-  /// Norm of what neither `hiding` (whitened columns) nor the nuisances within their priors can take from `difference`.
-  double left(const Eigen::VectorXd& difference, const Eigen::MatrixXd& hiding) const {
-    const Eigen::Index n = nuisances_.rows(), q = nuisances_.cols(), k = hiding.cols();
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + q, q + k);
-    A.topRows(n) << nuisances_, hiding;
-    A.bottomLeftCorner(q, q).setIdentity();
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(n + q);
-    b.head(n) = difference;
-    return (b - A * A.colPivHouseholderQr().solve(b)).norm();
+    return factor_.matrixL().solve(result);
   }
 
  private:
-  Eigen::MatrixXd whitened(const Eigen::MatrixXd& x) const {
-    Eigen::MatrixXd result = x;
-    result.topRows(old_.rows()) = old_.matrixL().solve(x.topRows(old_.rows()));
-    result.bottomRows(new_.rows()) = new_.matrixL().solve(x.bottomRows(new_.rows()));
-    return result;
-  }
-
   const Evidence &evidence_, &added_;
-  Eigen::LLT<Eigen::MatrixXd> old_, new_;
-  Eigen::MatrixXd nuisances_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-double t_criterion(const Augmented& augmented, const Option& first, const Option& second) {
-  const Eigen::MatrixXd one = augmented.signatures(first.effects), other = augmented.signatures(second.effects);
-  return std::min(augmented.left(one * first.parameters, other), augmented.left(other * second.parameters, one));
+/// Norm of what columns cannot take from a difference, all whitened.
+double left(const Eigen::VectorXd& difference, const Eigen::MatrixXd& hiding) {
+  if (hiding.cols() == 0) return difference.norm();
+  return (difference - hiding * hiding.colPivHouseholderQr().solve(difference)).norm();
+}
+
+bool includes(const Option& option, const Option& part) {
+  return std::all_of(part.effects.begin(), part.effects.end(), [&](int effect) {
+    return std::find(option.effects.begin(), option.effects.end(), effect) != option.effects.end();
+  });
+}
+
+double t_criterion(const Together& together, const Option& first, const Option& second) {
+  const Eigen::MatrixXd one = together.signatures(first.effects), other = together.signatures(second.effects);
+  const double first_true = left(one * first.parameters, other), second_true = left(other * second.parameters, one);
+  if (includes(first, second)) return first_true;
+  if (includes(second, first)) return second_true;
+  return std::min(first_true, second_true);
 }
 
 std::string words(const Evidence& evidence, const Option& option) {
@@ -158,7 +155,7 @@ std::string words(const Evidence& evidence, const Option& option) {
 
 double t_criterion(const Evidence& evidence, const Covariance& covariance, const Design& design, const Option& first,
                    const Option& second) {
-  return t_criterion(Augmented(evidence, covariance, design), first, second);
+  return t_criterion(Together(evidence, covariance, design), first, second);
 }
 
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Covariance& covariance,
@@ -173,8 +170,8 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
       }
   if (options.size() < 2) return {};
   const std::vector<Design> possible = designs({effects.begin(), effects.end()});
-  std::vector<Augmented> augmented;
-  for (const Design& design : possible) augmented.emplace_back(evidence, covariance, design);
+  std::vector<Together> together;
+  for (const Design& design : possible) together.emplace_back(evidence, covariance, design);
   std::vector<NextMeasurement> result;
   for (std::size_t i = 0; i < options.size(); ++i)
     for (std::size_t j = i + 1; j < options.size(); ++j) {
@@ -186,7 +183,7 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
       for (std::size_t d = 0; d < possible.size(); ++d)
         each.push_back({possible[d].name,
                         {words(evidence, options[i]), words(evidence, options[j])},
-                        t_criterion(augmented[d], options[i], options[j]),
+                        t_criterion(together[d], options[i], options[j]),
                         possible[d].cost});
       const auto best =
           std::max_element(each.begin(), each.end(),

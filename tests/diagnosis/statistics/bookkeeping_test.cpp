@@ -91,7 +91,8 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   const int bottom = world.candidate("cup_bottom_height"), coaster = world.candidate("cup_on_coaster");
   // A gauge block at the rim, read to 0.05 mm, sees a coaster, which lifts the whole cup, but no bottom.
   Design gauge{"gauge block", 1.0, {}};
-  gauge.evidence.observations = {{.observable = "gauge_mm", .factors = {.session = 9, .liquid = "empty", .region = ""}}};
+  gauge.evidence.observations = {
+      {.observable = "gauge_mm", .factors = {.session = 9, .liquid = "empty", .region = ""}}};
   gauge.evidence.numerical_sd = Eigen::VectorXd::Constant(1, 0.05);
   gauge.evidence.candidates = {{"cup_on_coaster", {}, Eigen::MatrixXd::Constant(1, 1, 0.5)}};
   Design blind = gauge;
@@ -104,6 +105,8 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   EXPECT_NEAR(t_criterion(evidence, covariance, blind, is_bottom, is_coaster), 0.0, 1e-6);
   // 1 mm seen with 0.05 mm, less what the campaign leaves uncertain of the size.
   EXPECT_GT(t_criterion(evidence, covariance, gauge, is_bottom, is_coaster), 3.0);
+  // A coaster that is there would be told from nothing at all.
+  EXPECT_GT(t_criterion(evidence, covariance, gauge, Option{{}, {}, false, 0.0, none}, is_coaster), 3.0);
 
   const AmbiguitySet set{{{is_bottom, is_coaster}}, {1.0}};
   const auto next = next_measurements(
