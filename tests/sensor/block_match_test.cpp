@@ -78,9 +78,9 @@ TEST(BlockMatch, EvenLightThatDrownsTheDotsLeavesNoDepth) {
     const auto setup = facing_desk(
         900.0,
         fmt::format(R"(, "noise": {{"ambient_dn": {}}}, "matcher": {{"relative_contrast_min": 0.2}})", ambient_dn));
+    const Frame frame = Camera(setup, CaptureMode::photometric, 4, 1).shoot(0);
     double count = 0.0;
-    for (const float depth : Camera(setup, CaptureMode::photometric, 4, 1).shoot(0).depth.pixels())
-      count += depth > 0.0f;
+    for (const float depth : frame.depth.pixels()) count += depth > 0.0f;
     return count / (632.0 * 480.0);
   };
   // Dots on albedo 0.55 at 0.9 m deviate by some 100 DN from their mean; ambient light adds 0.55 of its number.
