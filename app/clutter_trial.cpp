@@ -21,12 +21,6 @@ constexpr double kMerged = 0.2;
 /// A cup of which less is seen is occluded.
 constexpr double kWholeCup = 0.7;
 
-DeskPrior prior_of(const Rig& rig) {
-  const Eigen::Matrix3d axes = rig.world_from_camera.linear();
-  const double down = std::clamp(-axes(2, 2), -1.0, 1.0);
-  return {rig.camera_in_world().z(), std::asin(down), roll_of(axes)};
-}
-
 /// Of each object the number of pixels, or of points, that lie on it.
 using Owners = std::map<int, int>;
 
@@ -186,6 +180,12 @@ std::string_view name_of(Miss miss) {
       break;
   }
   return "refused";
+}
+
+DeskPrior prior_of(const Rig& rig) {
+  const Eigen::Matrix3d axes = rig.world_from_camera.linear();
+  const double down = std::clamp(-axes(2, 2), -1.0, 1.0);
+  return {rig.camera_in_world().z(), std::asin(down), roll_of(axes)};
 }
 
 TrialShot shoot_trial(const Json& scene, std::uint64_t seed) {

@@ -62,6 +62,9 @@ struct TrialShot {
   double shoot_s;
 };
 
+/// Where the sensor stands.
+DeskPrior prior_of(const Rig& rig);
+
 /// Photometric, direct light.
 TrialShot shoot_trial(const Json& scene, std::uint64_t seed);
 

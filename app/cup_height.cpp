@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "detector/paper.h"
+#include "detector/desk_view.h"
 
 namespace fathom {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/clutter_templates.h"
 #include "app/commands.h"
 #include "app/detector_options.h"
 #include "app/evaluate_clutter.h"
@@ -85,16 +86,29 @@ std::vector<Row> summary(const LabelledResult& result) {
   return rows;
 }
 
+/// DIR/templates and a configuration with them, by which `fathom detect` sees a failure as the trial did.
+void keep_templates(const std::filesystem::path& folder, const ClutterEvaluation& evaluation) {
+  Json config = evaluation.config.is_null() ? Json::object() : evaluation.config;
+  make_directory(folder / "templates");
+  for (const CupTemplate& cup : evaluation.detector.templates) {
+    save_template(folder / "templates", cup);
+    config["templates"].push_back("templates/" + cup.name + ".json");
+  }
+  write_json(folder / "detector.json", config);
+}
+
 void run_experiment(const Experiment& experiment, const EvaluateOptions& options, const CommonOptions& common) {
   if (options.desk.given) throw UsageError("--height-mm and --pitch-deg stand in the clutter file of random desks");
   const std::filesystem::path file =
       options.clutter.empty() ? data_directory() / "clutter" / experiment.clutter : options.clutter;
-  const ClutterEvaluation evaluation{.clutter = read_clutter_spec(file),
-                                     .config = options.config.empty() ? Json() : read_json(options.config),
-                                     .by_filling = experiment.by_filling,
-                                     .trials = options.trials.value_or(experiment.trials),
-                                     .method = &method_named(options.method),
-                                     .detector = detector_settings(options.config)};
+  ClutterEvaluation evaluation{.clutter = read_clutter_spec(file),
+                               .config = options.config.empty() ? Json() : read_json(options.config),
+                               .by_filling = experiment.by_filling,
+                               .trials = options.trials.value_or(experiment.trials),
+                               .method = &method_named(options.method),
+                               .detector = detector_settings(options.config)};
+  const bool own_templates = !evaluation.config.contains("templates");
+  if (own_templates) evaluation.detector.templates = templates_of(evaluation.clutter);
   if (!common.output.empty()) require_gnuplot();
   const std::vector<TrialResult> trials = run_trials(evaluation, common);
   if (!common.output.empty()) {
@@ -102,6 +116,7 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
     write_table(common.output / "fillings.csv", fillings_table(trials));
     write_reliability(common.output, trials);
     write_failure_gallery(common.output);
+    if (own_templates) keep_templates(common.output, evaluation);
   }
   print_results(common, "rates", ".txt", format_rows(rates(evaluation, trials), common.json));
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/clutter_templates.h"
 #include "app/detector_options.h"
 #include "core/files.h"
 #include "core/rng.h"
@@ -19,7 +20,8 @@ ClutterSpec changed_clutter(const std::string& file, const std::string& patch) {
 std::vector<std::vector<TrialResult>> search_desks(const ClutterSpec& clutter,
                                                    std::span<const std::string_view> methods, int desks,
                                                    std::uint64_t seed, Progress& progress) {
-  const DetectorSettings settings = detector_settings({});
+  DetectorSettings settings = detector_settings({});
+  settings.templates = templates_of(clutter);
   std::vector<std::vector<TrialResult>> results(methods.size());
   for (int desk = 0; desk < desks; ++desk) {
     const TrialShot shot = shoot_trial(random_scene(clutter, seed, desk), Rng(seed, desk).bits());

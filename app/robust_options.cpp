@@ -28,6 +28,7 @@ RobustConfig read_robust_config(const JsonReader& json) {
                    "interior_points_min",
                    "bottom_mm",
                    "bottom_sigma_mm",
+                   "baseline_mm",
                    "index",
                    "liquid_prior",
                    "liquid_sure",
@@ -58,6 +59,7 @@ RobustConfig read_robust_config(const JsonReader& json) {
   config.surface.points_min = json.integer_or("interior_points_min", config.surface.points_min, 3, kMany);
   config.bottom.height_m = json.metres_or("bottom_mm", config.bottom.height_m, kNonNegative);
   config.bottom.sigma_m = json.metres_or("bottom_sigma_mm", config.bottom.sigma_m, kPositive);
+  config.baseline_m = json.metres_or("baseline_mm", config.baseline_m, kNonNegative);
   config.fill.index = json.number_or("index", config.fill.index, {1.0, 2.0, true});
   config.fill.liquid_prior = json.number_or("liquid_prior", config.fill.liquid_prior, kShare);
   config.fill.liquid_sure = json.number_or("liquid_sure", config.fill.liquid_sure, {0.5, 1.0});

@@ -12,7 +12,7 @@
 #include "core/json.h"
 #include "core/rows.h"
 #include "core/units.h"
-#include "detector/paper.h"
+#include "detector/make_template.h"
 #include "detector/read_cloud.h"
 
 namespace fathom {
@@ -24,16 +24,6 @@ struct TemplateOptions {
   DeskOptions desk;
   std::optional<double> liquid_threshold_mm;
 };
-
-/// The one segment that may be a cup.
-Candidate only_candidate(const DeskView& view, const std::string& file) {
-  std::vector<Candidate> cups;
-  for (Candidate& candidate : cup_candidates(view, PaperConfig{}))
-    if (candidate.rejected.empty()) cups.push_back(std::move(candidate));
-  if (cups.size() != 1)
-    throw Error(file, fmt::format("shows {} segments that may be cups, a template needs exactly one", cups.size()));
-  return std::move(cups.front());
-}
 
 /// A simulated cloud has the record of its capture beside it, or above its frame's folder.
 void require_empty_cups(const std::filesystem::path& cloud) {
@@ -52,16 +42,11 @@ void require_empty_cups(const std::filesystem::path& cloud) {
 }
 
 void run_template(const TemplateOptions& options, const CommonOptions& common) {
-  const std::string file = options.cloud.string();
   require_empty_cups(options.cloud);
-  const auto found = view_of_desk(read_cloud(options.cloud), options.desk.prior(), PlaneSearch{});
-  if (const NoDesk* none = std::get_if<NoDesk>(&found)) throw Error(file, none->why);
-  const DeskView& view = std::get<DeskView>(found);
-
   std::optional<double> threshold_m;
   if (options.liquid_threshold_mm) threshold_m = metres_from_mm(*options.liquid_threshold_mm);
-  const CupTemplate cup =
-      make_template(options.name, view.points, only_candidate(view, file), InteriorSettings{}, threshold_m);
+  const CupTemplate cup = template_of_only_cup(options.name, read_cloud(options.cloud), options.desk.prior(),
+                                               threshold_m, options.cloud.string());
   make_directory(common.output);
   save_template(common.output, cup);
   fmt::print("{}", format_rows({{"radius", mm_from_metres(cup.radius_m), "mm"},

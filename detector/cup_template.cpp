@@ -4,7 +4,6 @@
 #include <pcl/filters/voxel_grid.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "core/cloud_file.h"
@@ -49,31 +48,10 @@ Points in_template_frame(const Points& in_desk, const Circle& circle) {
   return result;
 }
 
-CupTemplate make_template(std::string name, const Points& scene, const Candidate& candidate,
-                          const InteriorSettings& interior, std::optional<double> liquid_threshold_m) {
-  assert(candidate.circle);
-  const Circle& circle = *candidate.circle;
-  if (!liquid_threshold_m) {
-    const std::optional<InteriorHeight> bottom = interior_height(scene, circle, interior);
-    if (!bottom) throw Error(name, "no bottom is seen inside the cup; give the liquid threshold");
-    liquid_threshold_m = bottom->mean_m + kThresholdAboveBottomMetres;
-  }
-  Points points = candidate.points;
-  const double segment_low =
-      std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); })->z();
-  const double radius = circle.radius_m - interior.margin_m;
-  for (const Eigen::Vector3f& point : scene)
-    if (point.z() >= interior.low_m && point.z() < segment_low &&
-        (point.head<2>().cast<double>() - circle.center).norm() < radius)
-      points.push_back(point);
-  return {std::move(name), thinned(in_template_frame(points, circle)), *liquid_threshold_m, candidate.top_m,
-          circle.radius_m};
-}
-
 CupTemplate load_template(const fs::path& path) {
   const Json json = read_json(path);
   const JsonReader reader(json, path.string());
-  reader.allow_only({"name", "cloud", "liquid_threshold_mm", "height_mm", "radius_mm"});
+  reader.allow_only({"name", "cloud", "liquid_threshold_mm", "height_mm", "radius_mm", "bottom_sigma_mm"});
   CupTemplate cup;
   cup.name = reader.text("name");
   cup.points = finite_points(read_cloud(path.parent_path() / reader.text("cloud")));
@@ -81,6 +59,8 @@ CupTemplate load_template(const fs::path& path) {
   cup.liquid_threshold_m = metres_from_mm(reader.number("liquid_threshold_mm", kPositive));
   cup.height_m = metres_from_mm(reader.number("height_mm", kPositive));
   cup.radius_m = metres_from_mm(reader.number("radius_mm", kPositive));
+  if (reader.has("bottom_sigma_mm"))
+    cup.bottom_sigma_m = metres_from_mm(reader.number("bottom_sigma_mm", kNonNegative));
   return cup;
 }
 
@@ -102,11 +82,13 @@ void save_template(const fs::path& folder, const CupTemplate& cup) {
   for (std::size_t i = 0; i < cup.points.size(); ++i)
     cloud.pixels()[i] = {cup.points[i].x(), cup.points[i].y(), cup.points[i].z(), 0.0f};
   write_pcd(folder / (cup.name + ".pcd"), cloud);
-  write_json(folder / (cup.name + ".json"), {{"name", cup.name},
-                                             {"cloud", cup.name + ".pcd"},
-                                             {"liquid_threshold_mm", rounded_mm(cup.liquid_threshold_m)},
-                                             {"height_mm", rounded_mm(cup.height_m)},
-                                             {"radius_mm", rounded_mm(cup.radius_m)}});
+  Json json = {{"name", cup.name},
+               {"cloud", cup.name + ".pcd"},
+               {"liquid_threshold_mm", rounded_mm(cup.liquid_threshold_m)},
+               {"height_mm", rounded_mm(cup.height_m)},
+               {"radius_mm", rounded_mm(cup.radius_m)}};
+  if (cup.bottom_sigma_m) json["bottom_sigma_mm"] = rounded_mm(*cup.bottom_sigma_m);
+  write_json(folder / (cup.name + ".json"), json);
 }
 
 }  // namespace fathom

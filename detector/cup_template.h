@@ -20,6 +20,7 @@ struct CupTemplate {
   double liquid_threshold_m;
   double height_m;
   double radius_m;
+  std::optional<double> bottom_sigma_m{};  ///< of the mean height of its bottom, where that was seen and is told
 };
 
 /// As templates are: the mean of the points in each cube of 3 mm.
@@ -29,13 +30,8 @@ Points thinned(const Points& points);
 /// camera's foot point the y axis.
 Points in_template_frame(const Points& in_desk, const Circle& circle);
 
-/// Makes a template of an empty cup from a captured scene. `scene` [m, desk frame] gives the points of the bottom,
-/// which the segment has not; `candidate` must have a circle. `liquid_threshold_m`: nothing = 2 mm above the bottom
-/// that is seen (the paper's 9 mm for its cup); throws Error when none is seen.
-CupTemplate make_template(std::string name, const Points& scene, const Candidate& candidate,
-                          const InteriorSettings& interior, std::optional<double> liquid_threshold_m);
-
-/// Reads NAME.json {"name", "cloud" (beside it), "liquid_threshold_mm", "height_mm", "radius_mm"} and its cloud.
+/// Reads NAME.json {"name", "cloud" (beside it), "liquid_threshold_mm", "height_mm", "radius_mm", "bottom_sigma_mm"
+/// (may be missing)} and its cloud.
 CupTemplate load_template(const std::filesystem::path& json);
 
 /// Every *.json of the folder, by name. Throws Error when there is none.

@@ -26,6 +26,9 @@ class ReadingLikelihood {
     return std::exp(-0.5 * rest.dot(inverse_ * rest));
   }
 
+  /// Standard deviation of a rise that all readings share; 1 m without readings.
+  double sigma_m() const { return off_.size() == 0 ? 1.0 : 1.0 / std::sqrt(inverse_.sum()); }
+
  private:
   Eigen::VectorXd off_;
   Eigen::MatrixXd inverse_;
@@ -36,20 +39,20 @@ struct Posterior {
   FillDecision::Level level;
 };
 
-/// `weight_of(fill)`: likelihood of the fill.
+/// `weight_of(fill)`: likelihood of the fill, which changes over no less than `sigma_m`.
 template <class Weight>
-Posterior over_fills(double low_m, double high_m, Weight weight_of) {
-  constexpr int kSteps = 400;  // 0.2 mm in a cup of 80 mm: a third of the error of a height
+Posterior over_fills(double low_m, double high_m, double sigma_m, Weight weight_of) {
+  const int steps = static_cast<int>(std::clamp(2.0 * (high_m - low_m) / sigma_m, 100.0, 10000.0));
   double sum = 0.0, first = 0.0, second = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double fill = low_m + (high_m - low_m) * (i + 0.5) / kSteps, weight = weight_of(fill);
+  for (int i = 0; i < steps; ++i) {
+    const double fill = low_m + (high_m - low_m) * (i + 0.5) / steps, weight = weight_of(fill);
     sum += weight;
     first += weight * fill;
     second += weight * fill * fill;
   }
   if (!(sum > 0.0)) return {0.0, {0.0, 0.0}};
   const double mean = first / sum;
-  return {sum / kSteps, {mean, std::sqrt(std::max(0.0, second / sum - mean * mean))}};
+  return {sum / steps, {mean, std::sqrt(std::max(0.0, second / sum - mean * mean))}};
 }
 
 double log_normal(double value, double median, double spread) {
@@ -67,27 +70,25 @@ double clear_ratio(const ContentSigns& signs, double fill_m, const FillSettings&
 
 }  // namespace
 
-double apparent_rise(double fill_m, double incidence_rad, double index) {
-  const double cosine = std::cos(incidence_rad);
-  return fill_m * (1.0 - cosine / std::sqrt(index * index - 1.0 + cosine * cosine));
-}
-
 FillDecision decide_fill(const std::vector<SurfaceReading>& readings, const Bottom& bottom, double fill_max_m,
                          const ContentSigns& signs, const FillSettings& settings) {
   const auto count = static_cast<Eigen::Index>(readings.size());
   const ReadingLikelihood likelihood(readings, bottom);
   const auto raised = [&](double fill) {
     Eigen::VectorXd rises(count);
-    for (Eigen::Index i = 0; i < count; ++i) rises(i) = apparent_rise(fill, readings[i].incidence_rad, settings.index);
+    for (Eigen::Index i = 0; i < count; ++i) rises(i) = apparent_rise(fill, readings[i].sight, settings.index);
     return rises;
   };
   const auto covered = [&](double fill) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(count, fill); };
   const double high = std::max(fill_max_m, 2.0 * settings.fill_min_m);
-  const Posterior transparent = over_fills(settings.fill_min_m, high, [&](double fill) {
-    return likelihood(raised(fill)) * clear_ratio(signs, fill, settings);
-  });
-  const Posterior opaque =
-      over_fills(settings.fill_min_m, high, [&](double fill) { return likelihood(covered(fill)); });
+  const double low = settings.fill_min_m, sigma = likelihood.sigma_m();
+  Posterior transparent = over_fills(
+      low, high, sigma, [&](double fill) { return likelihood(raised(fill)) * clear_ratio(signs, fill, settings); });
+  // What raises a bottom is n − 1, and 1/n of it: ∂ ln(1 − 1/n) / ∂n = 1 / (n (n − 1)), within a tenth at any
+  // incidence.
+  const double index_share = settings.index_sigma / (settings.index * (settings.index - 1.0));
+  transparent.level.sigma_m = std::hypot(transparent.level.sigma_m, index_share * transparent.level.fill_m);
+  const Posterior opaque = over_fills(low, high, sigma, [&](double fill) { return likelihood(covered(fill)); });
 
   const double dry = (1.0 - settings.liquid_prior) * likelihood(Eigen::VectorXd::Zero(count));
   const double clear_liquid = 0.5 * settings.liquid_prior * transparent.evidence;

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "detector/apparent_rise.h"
+
 namespace fathom {
 
 /// The height of what is seen inside in one view.
 struct SurfaceReading {
   double height_m;
-  double sigma_m;        ///< of the mean, with errors that neighbours share
-  double incidence_rad;  ///< of the line of sight, from the vertical
+  double sigma_m;  ///< of the mean, with errors that neighbours share
+  LineOfSight sight;
 };
 
 /// Where the cup's own bottom is.
@@ -29,9 +31,10 @@ struct ContentSigns {
 };
 
 struct FillSettings {
-  double index = 1.33;        ///< of liquids one drinks, at 830 nm: water 1.328, juices and milk tea 1.336 to 1.344
-  double fill_min_m = 0.003;  ///< less is a rest in a cup, not a filling
-  double liquid_prior = 0.5;  ///< probability of a liquid before anything is seen
+  double index = 1.33;         ///< of clear liquids one drinks, at 830 nm: water and tea 1.328, …
+  double index_sigma = 0.004;  ///< … lemonades up to 1.34
+  double fill_min_m = 0.003;   ///< less is a rest in a cup, not a filling
+  double liquid_prior = 0.5;   ///< probability of a liquid before anything is seen
   /// Brightness of a bottom below a clear liquid, over the wall's: 0.96² / n² · exp(−2 · absorption · fill) of a dry
   /// bottom's, which has 0.8 to 0.9 of the wall's. Simulated cups with 10 to 30 mm of water: 0.36 to 0.51.
   double clear_brightness = 0.48;
@@ -43,8 +46,8 @@ struct FillSettings {
   /// Probability of a liquid from which on there is one. An empty cup passes it when its height reads 2.5 standard
   /// deviations too high, once in 200.
   double liquid_sure = 0.6;
-  /// Probability of no liquid from which on there is none; between the two it is unknown. More is asked for, as 10 mm
-  /// of water rise by no more than 4.3 standard deviations: one such cup in 300 passes it.
+  /// Probability of no liquid from which on there is none; between the two it is unknown. More is asked for, as with
+  /// an error of 0.7 mm 10 mm of water rise by no more than 4.3 standard deviations: one such cup in 300 passes it.
   double dry_sure = 0.95;
   double kind_sure = 0.8;  ///< the same of its kind: where nothing else speaks, a clear one is three times as likely
 };
@@ -58,10 +61,6 @@ struct FillDecision {
   };
   Level transparent, opaque;  ///< how deep, if it is that kind
 };
-
-/// Height by which a bottom under `fill_m` of a liquid seems raised: fill · (1 − cosθ / √(n² − 1 + cos²θ)), the paper's
-/// Eq. 7.
-double apparent_rise(double fill_m, double incidence_rad, double index);
 
 /// `fill_max_m`: from the bottom to the rim. All fills between the least and that are taken as equally likely, and so
 /// are both kinds. Without readings the signs alone decide, and the levels say nothing.

@@ -17,7 +17,7 @@ HeapSlope heap_slope(const Points& inside, const RoundWall& wall, const LevelSur
   double squares = 0.0;
   int count = 0;
   for (const Eigen::Vector3f& point : inside) {
-    const double distance = wall.distance_of(point), off = point.z() - surface.height_m;
+    const double distance = wall.distance_of(point), off = point.z() - surface.middle.z();
     if (distance > wall.radius_at(point.z()) - settings.margin_m || std::abs(off) > kAbout * settings.level_m) continue;
     const Eigen::Vector2d across = point.head<2>().cast<double>() - wall.center;
     const Eigen::Vector4d terms(1.0, across.x(), across.y(), -distance);

@@ -11,8 +11,8 @@
 #include <cstdlib>
 
 #include "core/units.h"
+#include "detector/judge_segments.h"
 #include "detector/nearest.h"
-#include "detector/paper.h"
 #include "detector/pcl_points.h"
 #include "detector/quiet_pcl.h"
 
@@ -123,47 +123,26 @@ std::optional<Placed> place_templates(const Points& segment, const std::vector<C
   return best;
 }
 
+Placement place_by_registration(Candidate candidate, const std::vector<CupTemplate>& templates,
+                                const RegistrationConfig& config, Register align) {
+  const auto placed = place_templates(candidate.points, templates, config, align);
+  if (!placed || placed->score_m > config.score_max_m) {
+    candidate.rejected =
+        placed ? fmt::format("mean distance {:.1f} mm from {} is above {:g} mm", mm_from_metres(placed->score_m),
+                             templates[placed->index].name, mm_from_metres(config.score_max_m))
+               : "no template can be aligned";
+    return RejectedSegment{std::move(candidate), std::nullopt};
+  }
+  const Eigen::Vector2d foot = placed->desk_from_template.translation().head<2>();
+  candidate.circle = Circle{foot, templates[placed->index].radius_m, 0.0};
+  candidate.rejected.clear();
+  return PlacedCup{std::move(candidate), {placed->index, placed->score_m, config.iterations}};
+}
+
 Detection detect_by(const Cloud& cloud, const DetectorSettings& settings, Register align) {
-  const RegistrationConfig& config = settings.registration;
-  Detection result;
-  StageClock clock(result.stages);
-  const auto found = view_of_desk(cloud, settings.prior, settings.paper.plane);
-  if (const NoDesk* none = std::get_if<NoDesk>(&found)) {
-    result.why = none->why;
-    return result;
-  }
-  const DeskView& view = std::get<DeskView>(found);
-  result.desk = view.desk;
-  clock.done("desk");
-  std::vector<Candidate> candidates = cup_candidates(view, settings.paper);
-  clock.done("segments");
-  for (Candidate& candidate : candidates) {
-    ++result.segments;
-    const auto placed = place_templates(candidate.points, settings.templates, config, align);
-    clock.done("templates");
-    if (!placed || placed->score_m > config.score_max_m) {
-      candidate.rejected =
-          placed ? fmt::format("mean distance {:.1f} mm from {} is above {:g} mm", mm_from_metres(placed->score_m),
-                               settings.templates[placed->index].name, mm_from_metres(config.score_max_m))
-                 : "no template can be aligned";
-      result.rejected.push_back({std::move(candidate), std::nullopt});
-      continue;
-    }
-    const CupTemplate& known = settings.templates[placed->index];
-    DetectedCup cup;
-    cup.match = TemplateMatch{placed->index, placed->score_m, config.iterations};
-    cup.score_m = placed->score_m;
-    const Eigen::Vector3d foot = placed->desk_from_template.translation();
-    candidate.circle = Circle{foot.head<2>(), known.radius_m, 0.0};
-    candidate.rejected.clear();
-    cup.center_in_camera = view.desk_from_camera.inverse() * Eigen::Vector3d(foot.x(), foot.y(), kCenterHeightMetres);
-    cup.interior = interior_height(view.points, *candidate.circle, settings.paper.interior);
-    cup.liquid = decide_liquid(cup.interior, known.liquid_threshold_m);
-    cup.why = fmt::format("aligned to {}", known.name);
-    cup.candidate = std::move(candidate);
-    result.cups.push_back(std::move(cup));
-  }
-  return result;
+  return judge_segments(cloud, settings, "aligned to", [&](Candidate candidate) {
+    return place_by_registration(std::move(candidate), settings.templates, settings.registration, align);
+  });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "detector/content_signs.h"
 #include "detector/heap.h"
+#include "detector/mean_error.h"
 #include "detector/noise.h"
 #include "detector/pinhole.h"
 
@@ -91,15 +92,10 @@ KnownCup known_cup(const RoundWall& wall, const std::vector<CupTemplate>& templa
     const Circle inside{Eigen::Vector2d::Zero(), cup.radius_m, 0.0};
     const auto seen = interior_height(cup.points, inside, InteriorSettings{});
     const double bottom = seen ? seen->mean_m : cup.liquid_threshold_m - kThresholdAboveBottomMetres;
-    known = {i, {bottom, config.template_bottom_sigma_m}, "matches " + cup.name};
+    known = {i, {bottom, cup.bottom_sigma_m.value_or(config.template_bottom_sigma_m)}, "matches " + cup.name};
     nearest = off;
   }
   return known;
-}
-
-double height_sigma_m(const LevelSurface& surface) {
-  const double independent = surface.points / kPointsPerIndependent;
-  return std::hypot(surface.sd_m / std::sqrt(std::max(1.0, independent)), mean_error_m(surface.range_m));
 }
 
 /// A liquid's surface is level; the raised bottom below a clear one leans by less than a degree.
@@ -117,11 +113,13 @@ std::string solid_words(const LevelSurface& surface, const HeapSlope& heap, cons
 }
 
 CupEvidence evidence_of(const RoundWall& wall, const Points& inside, const std::optional<LevelSurface>& surface,
-                        ContentSigns signs, const KnownCup& known, const RobustConfig& config) {
+                        const Eigen::Isometry3d& desk_from_camera, const MeanError& errors, ContentSigns signs,
+                        const KnownCup& known, const RobustConfig& config) {
   CupEvidence evidence{
       known.bottom, wall.top_m - config.rays.lid_m - known.bottom.height_m, {}, std::move(signs), known.words, ""};
   if (!surface) return evidence;
-  evidence.readings.push_back({surface->height_m, height_sigma_m(*surface), surface->incidence_rad});
+  evidence.readings.push_back({surface->middle.z(), errors.of_height(surface->points, surface->middle),
+                               line_of_sight(desk_from_camera, surface->middle, config.baseline_m)});
   evidence.solid_words = solid_words(*surface, heap_slope(inside, wall, *surface, config.surface), config.surface);
   return evidence;
 }
@@ -142,6 +140,7 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
   const Eigen::Isometry3d to_desk = desk_from_camera(result.desk->plane);
   const double camera_height = result.desk->plane.offset;
   const Points points = in_desk_frame(cloud.points, to_desk);
+  const MeanError errors(points, camera_height);
   const std::optional<Pinhole> pinhole = pinhole_of(cloud);
 
   std::vector<Points> segments = grid_segments(points, config.segments);
@@ -166,7 +165,7 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
       if (!candidate.rejected.empty()) {
         RejectedSegment rejected{std::move(candidate), std::nullopt, std::nullopt};
         const bool open = rays.lid_share() <= config.cup.lid_share_max;
-        if (surface && open) rejected.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
+        if (surface && open) rejected.interior = InteriorHeight{surface->middle.z(), surface->sd_m, surface->points};
         result.rejected.push_back(std::move(rejected));
         continue;
       }
@@ -179,13 +178,13 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
       if (known.index) cup.match = TemplateMatch{*known.index, wall.rms_m, 0};
       ContentSigns signs;
       if (pinhole)
-        signs = content_signs(cloud, *pinhole, to_desk, wall, surface ? std::optional(surface->height_m) : std::nullopt,
-                              config.signs);
+        signs = content_signs(cloud, *pinhole, to_desk, wall,
+                              surface ? std::optional(surface->middle.z()) : std::nullopt, config.signs);
       if (surface) {
-        cup.interior = InteriorHeight{surface->height_m, surface->sd_m, surface->points};
-        cup.surface_sigma_m = height_sigma_m(*surface);
+        cup.interior = InteriorHeight{surface->middle.z(), surface->sd_m, surface->points};
+        cup.surface_sigma_m = errors.of_height(surface->points, surface->middle);
       }
-      cup.evidence = evidence_of(wall, rays.inside, surface, std::move(signs), known, config);
+      cup.evidence = evidence_of(wall, rays.inside, surface, to_desk, errors, std::move(signs), known, config);
       decide_content(cup, *cup.evidence, config.fill);
       result.cups.push_back(std::move(cup));
     }

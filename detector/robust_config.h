@@ -40,9 +40,10 @@ struct RobustConfig {
   SurfaceSettings surface;
   ContentSignSettings signs;
   UsualBottom bottom;
+  double baseline_m = 0.075;         ///< between camera and projector: Kinect v1 and Xtion
   double template_radius_m = 0.004;  ///< a cup is a template's if its radius, between two walls 3 mm apart, …
   double template_height_m = 0.006;  ///< … and its height differ by less: the rim is rounded and its pixels mixed
-  double template_bottom_sigma_m = 0.0004;  ///< how well a template knows its bottom: as a mean over several views
+  double template_bottom_sigma_m = 0.0004;  ///< of a template that does not tell: as a mean over several views
   FillSettings fill;
 };
 

@@ -80,15 +80,8 @@ std::optional<LevelSurface> find_surface(const Points& inside, const RoundWall& 
   // Steep because it is a wall; a patch too small to tell counts as level.
   if (share < settings.share_min || tilt - tilt_sigma > settings.slope_max_rad) return std::nullopt;
 
-  const double below = camera_height_m - plane.mean.z(), along = plane.mean.head<2>().norm();
-  return LevelSurface{plane.mean.z(),
-                      plane.sd,
-                      tilt,
-                      tilt_sigma,
-                      std::atan2(along, below),
-                      std::hypot(along, below),
-                      static_cast<int>(level.size()),
-                      share};
+  const double range = (plane.mean - Eigen::Vector3d(0.0, 0.0, camera_height_m)).norm();
+  return LevelSurface{plane.mean, plane.sd, tilt, tilt_sigma, range, static_cast<int>(level.size()), share};
 }
 
 }  // namespace fathom

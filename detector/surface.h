@@ -21,12 +21,11 @@ struct SurfaceSettings {
 
 /// A plane, level or a bit tilted, in what is seen inside. Desk frame.
 struct LevelSurface {
-  double height_m;  ///< mean above the desk
-  double sd_m;      ///< of the points
-  double tilt_rad;  ///< of the plane through them
+  Eigen::Vector3d middle;  ///< mean of its points
+  double sd_m;             ///< of the points from it
+  double tilt_rad;         ///< of the plane through them
   double tilt_sigma_rad;
-  double incidence_rad;  ///< of the camera's line of sight to its middle, from the vertical
-  double range_m;        ///< of its middle from the camera
+  double range_m;  ///< of its middle from the camera
   int points;
   double level_share;  ///< of all points inside
 };

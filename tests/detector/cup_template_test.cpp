@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "detector/paper.h"
+#include "detector/make_template.h"
 #include "tests/detector/synthetic.h"
 
 namespace fathom {
@@ -18,7 +18,7 @@ CupTemplate captured(double lateral_m, std::optional<double> threshold_m) {
   cup.x_m = lateral_m;
   scene.cups = {cup};
   const DeskView view = std::get<DeskView>(view_of_desk(synthetic::cast(scene), scene.sensor, {}));
-  return make_template("cup", view.points, cup_candidates(view, {}).at(0), {}, threshold_m);
+  return make_template("cup", view, cup_candidates(view, {}).at(0), {}, threshold_m);
 }
 
 struct TemplateFiles : testing::Test {
@@ -62,7 +62,7 @@ TEST(CupTemplate, WithoutABottomTheThresholdMustBeGiven) {
   cup.y_m = 0.60;
   scene.cups = {cup};
   const DeskView view = std::get<DeskView>(view_of_desk(synthetic::cast(scene), scene.sensor, {}));
-  EXPECT_THROW(make_template("cup", view.points, cup_candidates(view, {}).at(0), {}, std::nullopt), Error);
+  EXPECT_THROW(make_template("cup", view, cup_candidates(view, {}).at(0), {}, std::nullopt), Error);
 }
 
 TEST_F(TemplateFiles, WhatIsSavedIsLoaded) {

@@ -1,5 +1,6 @@
 // The printed method on ideal clouds of the paper's cup: what it promises, and where it is known to fail.
 #include "detector/paper.h"
+#include "detector/make_template.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ const CupTemplate& paper_cup() {
     Scene scene;
     scene.cups = {OpenCup{}};
     const DeskView view = std::get<DeskView>(view_of_desk(cast(scene), scene.sensor, {}));
-    return make_template("paper_cup", view.points, cup_candidates(view, {}).at(0), {}, 0.009);
+    return make_template("paper_cup", view, cup_candidates(view, {}).at(0), {}, 0.009);
   }();
   return cup;
 }

@@ -9,6 +9,7 @@
 
 #include "core/table.h"
 #include "core/units.h"
+#include "detector/make_template.h"
 #include "detector/paper.h"
 #include "detector/read_cloud.h"
 #include "detector/robust.h"
@@ -108,7 +109,7 @@ TEST_F(RealClouds, MugsMatchThePaperCupAndSoDoCansAndInvertedMugs) {
   synthetic::Scene empty;
   empty.cups = {synthetic::OpenCup{}};
   const DeskView view = std::get<DeskView>(view_of_desk(synthetic::cast(empty), empty.sensor, {}));
-  const CupTemplate cup = make_template("paper_cup", view.points, cup_candidates(view, {}).at(0), {}, 0.009);
+  const CupTemplate cup = make_template("paper_cup", view, cup_candidates(view, {}).at(0), {}, 0.009);
   for (const auto& [name, cups] :
        std::map<std::string, std::size_t>{{"learn33", 2}, {"learn34", 0}, {"learn38", 2}, {"learn40", 1}})
     EXPECT_EQ(detect_paper(scene(name), {kKinectPrior, {cup}, {}}).cups.size(), cups) << name;
