@@ -12,7 +12,7 @@
 #include <functional>
 #include <set>
 
-#include "bench/diagnosis_baselines.h"
+#include "bench/baselines/diagnosis_baselines.h"
 #include "core/median.h"
 #include "core/rng.h"
 #include "diagnosis/statistics/decide.h"

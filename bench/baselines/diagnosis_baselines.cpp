@@ -1,4 +1,4 @@
-#include "bench/diagnosis_baselines.h"
+#include "bench/baselines/diagnosis_baselines.h"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {
-
 namespace {
 
 struct Scaled {
@@ -24,15 +23,20 @@ Scaled scaled(const Evidence& evidence) {
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   const Groups cells = group_by(evidence.observations, cell_key);
   const auto members = cells.members();
-  std::vector<double> squares(observables.count, 0.0), dof(observables.count, 0.0);
+  std::vector<double> squares(observables.count, 0.0), dof = squares, alone = squares, count = squares;
   for (const auto& rows : members) {
     const double mean = s.residual(rows).mean();
     const int observable = observables.of[rows[0]];
     squares[observable] += (s.residual(rows).array() - mean).square().sum();
     dof[observable] += static_cast<double>(rows.size()) - 1.0;
   }
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i)
+    if (const Observation& o = evidence.observations[i]; dof[observables.of[i]] == 0.0)
+      alone[observables.of[i]] += o.repeat_sd * o.repeat_sd / o.repeats, ++count[observables.of[i]];
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double sd = std::sqrt(squares[observables.of[i]] / dof[observables.of[i]]);
+    const int of = observables.of[i];
+    const double variance = dof[of] > 0.0 ? squares[of] / dof[of] : alone[of] / count[of];
+    const double sd = variance > 0.0 ? std::sqrt(variance) : 1.0;
     s.residual[i] /= sd;
     s.signatures.row(i) /= sd;
   }
