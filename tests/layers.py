@@ -36,7 +36,7 @@ BORDERS = {
     "Boost.Math": ["diagnosis/statistics/*.cpp", "bench/*.cpp"],
     "OpenEXR": ["core/*.cpp"],
     "libpng": ["core/*.cpp"],
-    "CLI11": ["app/*.cpp", "bench/baselines/*.cpp", "bench/blind/*.cpp"],
+    "CLI11": ["app/*.cpp", "bench/blind/*"],
     "OpenCV": ["bench/*"],
     "OpenNI2": ["openni2/*", "app/live_cloud.cpp", "tests/openni2/*"],
 }

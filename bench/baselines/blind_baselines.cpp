@@ -1,10 +1,10 @@
 // blind_baselines: what simpler methods answer to a measurement, as reports that blind_score reads.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "bench/baselines/diagnosis_baselines.h"
+#include "bench/blind/command_line.h"
 #include "core/files.h"
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/physics.h"
@@ -47,14 +47,5 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", output,
                  "Gets METHOD/NAME/report.json for each method, NAME being that of the directory")
       ->required();
-  try {
-    app.parse(argc, argv);
-    answer(folder, output);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
-    return 1;
-  }
-  return 0;
+  return blind::run_program(app, argc, argv, [&] { answer(folder, output); });
 }

@@ -1,10 +1,10 @@
 // blind_generate: makes packs of measurements in which something is hidden.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "bench/blind/command_line.h"
 #include "bench/blind/pack.h"
 #include "bench/blind/write_set.h"
 #include "core/error.h"
@@ -63,13 +63,5 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Makes packs of measurements in which something is hidden, by physics of its own");
   define(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
-    return 1;
-  }
-  return 0;
+  return blind::run_program(app, argc, argv, [] {});
 }

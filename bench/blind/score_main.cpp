@@ -1,9 +1,9 @@
 // blind_score: the answers to a pack beside its truth.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "bench/blind/command_line.h"
 #include "bench/blind/curves.h"
 #include "bench/blind/goals.h"
 #include "bench/blind/ledger.h"
@@ -95,14 +95,5 @@ int main(int argc, char** argv) {
   app.add_option("--truth", options.truth, "The truth's file")->required();
   app.add_option("-o,--output", options.output, "Where to write goals.csv, power.csv, … and score.json")->required();
   app.add_option("--ledger", options.ledger, "Append-only list of packs, to which the opening is added");
-  try {
-    app.parse(argc, argv);
-    score(options);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : 2;
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
-    return 1;
-  }
-  return 0;
+  return run_program(app, argc, argv, [&] { score(options); });
 }
