@@ -129,6 +129,32 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
   return text + ". ";
 }
 
+std::string agreement(const Diagnosis& diagnosis) {
+  return fmt::format(
+      "Model and measurement agree within their errors (p = {:.2g}): the heights differ by {:.2f} mm, {:.2f} mm are to "
+      "be expected.",
+      diagnosis.p_gap, diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
+}
+
+std::string answer_of_physics(const Diagnosis& diagnosis) {
+  switch (diagnosis.verdict) {
+    case Verdict::none:
+      return agreement(diagnosis);
+    case Verdict::insufficient:
+      return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.missing, "and"));
+    case Verdict::named:
+      if (diagnosis.effects.empty()) return agreement(diagnosis);
+      return where_sentence(diagnosis) + named_sentence(diagnosis);
+    case Verdict::ambiguous:
+      return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
+    case Verdict::unknown:
+      return where_sentence(diagnosis) + unknown_sentence(diagnosis);
+    case Verdict::named_and_unknown:
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + unknown_sentence(diagnosis);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string effect_words(const std::string& name) {
@@ -173,25 +199,10 @@ std::string parameter_words(const NamedParameter& parameter) {
 }
 
 std::string answer(const Diagnosis& diagnosis) {
-  switch (diagnosis.verdict) {
-    case Verdict::none:
-      return fmt::format(
-          "Model and measurement agree within their errors (p = {:.2g}): the heights differ by {:.2f} mm, {:.2f} mm "
-          "are "
-          "to be expected.",
-          diagnosis.p_gap, diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
-    case Verdict::insufficient:
-      return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.missing, "and"));
-    case Verdict::named:
-      return where_sentence(diagnosis) + named_sentence(diagnosis);
-    case Verdict::ambiguous:
-      return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
-    case Verdict::unknown:
-      return where_sentence(diagnosis) + unknown_sentence(diagnosis);
-    case Verdict::named_and_unknown:
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + unknown_sentence(diagnosis);
-  }
-  return {};
+  std::string text;
+  for (const Mistake& mistake : diagnosis.mistakes) text += mistake.sentence + " ";
+  if (!text.empty()) text += "With that put right: ";
+  return text + answer_of_physics(diagnosis);
 }
 
 }  // namespace fathom

@@ -17,8 +17,8 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
       values.push_back({"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean)});
   if (estimates.interior.weight >= kFewestInside) {
     values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});
-    if (estimates.desk_intensity.mean > 0.0)
-      values.push_back({"ir_ratio", kWholeInterior, estimates.interior_intensity.mean / estimates.desk_intensity.mean});
+    const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;
+    if (inside > 0.0 && desk > 0.0) values.push_back({"log_brightness", kWholeInterior, std::log(inside / desk)});
   }
   const Eigen::Vector3d& normal = estimates.desk.normal;
   values.push_back({"desk_height_mm", kDesk, mm_from_metres(estimates.desk.offset)});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <tuple>
@@ -18,6 +19,7 @@ namespace {
 
 struct FrameReading {
   std::vector<NamedValue> values;
+  bool is_mirrored = false;  ///< no cup stands where it should, but on the other side
 };
 
 std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
@@ -61,6 +63,18 @@ void require_metres(const std::vector<SensedPoint>& points, const std::filesyste
   if (z > kFarthest) throw Error(file.string(), fmt::format("must be in metres: a point lies {:g} away", z));
 }
 
+/// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
+bool shows_cup(const std::optional<FrameEstimates>& estimates) {
+  constexpr double kLeastBottom = 0.002, kFewestPixels = 10.0;
+  return estimates && estimates->interior.weight >= kFewestPixels && estimates->interior.mean > kLeastBottom;
+}
+
+bool stands_mirrored(const std::vector<SensedPoint>& points, const LaboratoryRig& rig, const FrameRecord& frame,
+                     const std::optional<FrameEstimates>& as_written) {
+  if (frame.bare_desk() || frame.lateral_m == 0.0 || shows_cup(as_written)) return false;
+  return shows_cup(estimate_frame(points, rig, {Eigen::Vector2d(-frame.lateral_m, frame.distance_m), 0.0}));
+}
+
 FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder) {
   FrameReading reading;
   if (frame.cloud.empty()) {
@@ -74,6 +88,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates) return reading;
+  reading.is_mirrored = stands_mirrored(points, rig, frame, estimates);
   reading.values = named_values(*estimates);
   const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
     if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
@@ -138,6 +153,50 @@ Observation observation_of(const Trials& trials, const FrameRecord& frame, doubl
   return observation;
 }
 
+/// Whether most of the cups off the axis stand on its other side; then laterals are changed.
+bool put_axis_right(const std::vector<FrameReading>& readings, Measurement& measurement) {
+  constexpr int kFewest = 4;
+  int off_axis = 0, mirrored = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    off_axis += !measurement.frames[i].bare_desk() && measurement.frames[i].lateral_m != 0.0;
+    mirrored += readings[i].is_mirrored;
+  }
+  if (mirrored < kFewest || 2 * mirrored < off_axis) return false;
+  for (FrameRecord& frame : measurement.frames) frame.lateral_m = 0.0 - frame.lateral_m;
+  measurement.mistakes.push_back(
+      {"flipped_axis",
+       fmt::format("The lateral axis is flipped: {} of {} cups beside it stand mirrored.", mirrored, off_axis)});
+  return true;
+}
+
+/// Of the trials of each placement those that are no copies of earlier ones, by their readings. Where no trial differs
+/// from the others nothing is a copy: there is no noise.
+void leave_out_copies(const std::vector<FrameReading>& readings,
+                      std::map<PlacementKey, std::vector<std::size_t>>& placements, Measurement& measurement) {
+  constexpr std::size_t kFewestValues = 4;
+  const auto is_copy = [&](std::size_t a, std::size_t b) {
+    const auto &one = readings[a].values, &other = readings[b].values;
+    return one.size() >= kFewestValues &&
+           std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const NamedValue& x, const NamedValue& y) {
+             return x.observable == y.observable && x.value == y.value;
+           });
+  };
+  std::map<PlacementKey, std::vector<std::size_t>> different;
+  std::size_t copies = 0, repeats = 0;
+  for (const auto& [key, rows] : placements) {
+    std::vector<std::size_t>& kept = different[key];
+    for (const std::size_t row : rows)
+      if (std::none_of(kept.begin(), kept.end(), [&](std::size_t earlier) { return is_copy(earlier, row); }))
+        kept.push_back(row);
+    copies += rows.size() - kept.size();
+    repeats += rows.size() - 1;
+  }
+  if (copies == 0 || copies == repeats) return;
+  placements = std::move(different);
+  measurement.mistakes.push_back(
+      {"duplicated_trial", fmt::format("{} of {} repeated trials are copies of others.", copies, repeats)});
+}
+
 void add_observations(const std::vector<std::size_t>& rows, const std::vector<FrameReading>& readings,
                       Measurement& measurement) {
   std::vector<Trials> all;
@@ -180,10 +239,12 @@ Measurement read_measurement(const std::filesystem::path& folder) {
   Measurement measurement;
   measurement.rig = read_rig(folder / "rig.json");
   measurement.frames = read_frames(table, measurement.rig, folder);
-  const std::vector<FrameReading> readings = read_frames_of(measurement, folder, table);
+  std::vector<FrameReading> readings = read_frames_of(measurement, folder, table);
+  if (put_axis_right(readings, measurement)) readings = read_frames_of(measurement, folder, table);
   std::map<PlacementKey, std::vector<std::size_t>> placements;
   for (std::size_t row = 0; row < measurement.frames.size(); ++row)
     placements[key_of(measurement.frames[row])].push_back(row);
+  leave_out_copies(readings, placements, measurement);
   for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
   add_notes(readings, measurement);
   return measurement;

@@ -12,9 +12,8 @@
 namespace fathom {
 namespace {
 
-/// A wrong unit is a fill_scale until its factor is a unit's, which the statistics' hygiene looks for; the matcher's
-/// window is a nuisance.
-constexpr std::array<std::string_view, 2> kNotSought{"unit_error", "window_averaging"};
+/// Mistakes in writing down are looked for before any physics, with their exact values.
+constexpr std::array<std::string_view, 2> kNotSought{"unit_error", "label_swap"};
 
 Candidate candidate_of(const Predictor& predictor, const Effect& effect, const std::string& liquid) {
   const auto touched = conditions_where(predictor, [&](const Factors& f) {
@@ -82,10 +81,10 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
     const Effect* effect = find_effect(parts.id);
     if (!effect) throw Error("effects", unknown_name("effect", parts.id, effect_ids()));
     Candidate candidate = candidate_of(predictor, *effect, parts.liquid);
-    if (moves_anything(candidate))
-      candidates.seen.push_back(std::move(candidate));
-    else if (parts.liquid.empty())
-      candidates.unseen.push_back(parts.id);
+    const bool is_seen = moves_anything(candidate);
+    if (!is_seen) candidate.signature.setZero();
+    if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);
+    if (is_seen || parts.liquid.empty()) candidates.all.push_back(std::move(candidate));
   }
   return candidates;
 }

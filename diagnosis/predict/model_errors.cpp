@@ -3,59 +3,76 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
+
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {
 
-/// Which observations have the same error of the model, beside being of one observable and region.
-enum class SharedBy { all, session, place, liquid, condition };
+/// Which observations of an observable have the same error.
+enum class SharedBy { all, region, session, place, place_region, liquid, liquid_region, condition, condition_region };
 
-/// What few rays and direct light leave out of an observable (see surrogate.h and its test).
+/// What few rays and direct light leave out of an observable (see surrogate.h and its test), in its unit.
 struct ModelError {
   std::string_view observable;
   double sigma;
   SharedBy shared_by;
 };
 constexpr std::array kModelErrors{
-    ModelError{"height_mm", 0.05, SharedBy::liquid},      // against whole frames
-    ModelError{"height_mm", 0.10, SharedBy::condition},   // matching: the same dots fall the same way each time
-    ModelError{"desk_height_mm", 0.05, SharedBy::all},    // against whole frames, as the next two
-    ModelError{"desk_height_mm", 0.10, SharedBy::place},  // a cup hides what the plane was fitted to
-    ModelError{"desk_pitch_deg", 0.02, SharedBy::all},       ModelError{"desk_roll_deg", 0.02, SharedBy::all},
-    ModelError{"desk_residual_mm", 0.10, SharedBy::all},      // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
-    ModelError{"desk_residual_mm", 0.10, SharedBy::session},  // the same, as the dots fall that day
-    ModelError{"comb_strength", 0.10, SharedBy::session},     // depths are no even mixture of steps
+    ModelError{"height_mm", 0.03, SharedBy::liquid_region},     // against whole frames
+    ModelError{"height_mm", 0.05, SharedBy::place_region},      // a matcher's bias by place
+    ModelError{"height_mm", 0.05, SharedBy::condition},         // matching: the same dots fall the same way each time
+    ModelError{"height_mm", 0.05, SharedBy::condition_region},  // the same
+    ModelError{"desk_height_mm", 0.05, SharedBy::all},          // against whole frames, as the next two
+    ModelError{"desk_height_mm", 0.05, SharedBy::place},        // a cup hides what the plane was fitted to
+    ModelError{"desk_pitch_deg", 0.02, SharedBy::all},
+    ModelError{"desk_roll_deg", 0.02, SharedBy::all},
+    ModelError{"desk_residual_mm", 0.10, SharedBy::region},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
+    ModelError{"log_brightness", 0.30, SharedBy::all},       // nobody wrote down albedos; walls light the bottom
+    ModelError{"log_brightness", 0.10, SharedBy::liquid},    // what scatters has an albedo of its own
+    ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
+    ModelError{"log_brightness", 0.05, SharedBy::condition},
+    ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
     ModelError{"millimetre_comb", 0.02, SharedBy::all}};
 
 std::string shared_key(const Factors& f, SharedBy shared_by) {
-  std::string key = f.region;
-  if (shared_by == SharedBy::session) return key + fmt::format(", session {}", f.session);
-  if (shared_by == SharedBy::place) return key + fmt::format(", cup at ({:g}, {:g}) mm", f.lateral_mm, f.distance_mm);
-  if (shared_by != SharedBy::all) key += " of " + f.liquid;
-  if (shared_by == SharedBy::condition)
-    key += fmt::format(", {:g} mm, at ({:g}, {:g}) mm", f.fill_mm, f.lateral_mm, f.distance_mm);
-  return key;
+  const std::string place = fmt::format("({:g}, {:g}) mm", f.lateral_mm, f.distance_mm);
+  const std::string condition = fmt::format("{}, {:g} mm, at {}", f.liquid, f.fill_mm, place);
+  switch (shared_by) {
+    case SharedBy::all:
+      return "all";
+    case SharedBy::region:
+      return f.region;
+    case SharedBy::session:
+      return fmt::format("{}", f.session);
+    case SharedBy::place:
+      return place;
+    case SharedBy::place_region:
+      return f.region + " at " + place;
+    case SharedBy::liquid:
+      return f.liquid;
+    case SharedBy::liquid_region:
+      return f.region + " of " + f.liquid;
+    case SharedBy::condition:
+      return condition;
+    case SharedBy::condition_region:
+      return f.region + " of " + condition;
+  }
+  return {};
 }
 
 }  // namespace
 
-std::vector<Nuisance> model_errors(const std::vector<Observation>& observations) {
-  std::vector<Nuisance> nuisances;
+std::vector<SharedError> model_errors(const std::vector<Observation>& observations) {
+  std::vector<SharedError> errors;
   for (const ModelError& error : kModelErrors) {
-    std::map<std::string, Eigen::VectorXd> rows;
-    for (std::size_t row = 0; row < observations.size(); ++row) {
-      const Observation& o = observations[row];
-      if (o.observable != error.observable) continue;
-      Eigen::VectorXd& own = rows[shared_key(o.factors, error.shared_by)];
-      if (own.size() == 0) own = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()));
-      own[static_cast<Eigen::Index>(row)] = 1.0;
-    }
-    for (auto& [name, signature] : rows)
-      nuisances.push_back(
-          {"model of " + std::string(error.observable) + ", " + name, error.sigma, std::move(signature)});
+    Groups groups = group_by(observations, [&](const Observation& o) {
+      return o.observable == error.observable ? shared_key(o.factors, error.shared_by) : std::string();
+    });
+    if (groups.count == 0) continue;
+    errors.push_back({std::string(error.observable), std::move(groups.of), error.sigma});
   }
-  return nuisances;
+  return errors;
 }
 
 Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations) {

@@ -5,8 +5,8 @@
 
 namespace fathom {
 
-/// One nuisance for each observable, region and group of observations with the same error of the model.
-std::vector<Nuisance> model_errors(const std::vector<Observation>& observations);
+/// By what is shared: region, liquid, place, condition.
+std::vector<SharedError> model_errors(const std::vector<Observation>& observations);
 
 /// 1 σ of every prediction: what some hundred rays and the law's mean are off against a whole frame whose noise dithers
 /// the law.

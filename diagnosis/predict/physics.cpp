@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/candidates.h"
 #include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
@@ -22,10 +23,12 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
 
 }  // namespace
 
-Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
+Physics physics_of(Measurement measurement, const Json& model_effects, const std::string& file,
                    const std::vector<std::string>& only) {
   Physics physics;
   Evidence& evidence = physics.evidence;
+  put_bookkeeping_right(model_effects, file, measurement);
+  evidence.mistakes = measurement.mistakes;
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file);
   const std::vector<bool> kept = are_predicted(*predictor);
@@ -35,9 +38,9 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.predicted = predictor->predict({});
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);
-  for (Nuisance& nuisance : model_errors(evidence.observations)) evidence.nuisances.push_back(std::move(nuisance));
+  evidence.shared_errors = model_errors(evidence.observations);
   Candidates candidates = candidates_of(*predictor, only);
-  evidence.candidates = std::move(candidates.seen);
+  evidence.candidates = std::move(candidates.all);
   physics.unseen = std::move(candidates.unseen);
   physics.not_sought = std::move(candidates.not_sought);
   physics.predict = [predictor, nominal = evidence.predicted](const std::vector<EffectValue>& effects) {

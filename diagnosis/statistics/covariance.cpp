@@ -6,6 +6,7 @@
 
 #include "core/rng.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/shared_errors.h"
 
 namespace fathom {
 
@@ -77,8 +78,14 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
   covariance.total = covariance.nuisance * covariance.nuisance.transpose();
   covariance.total.diagonal() += repeats + covariance.numerical_variance;
   covariance.errors = estimate_errors(evidence, residual, covariance.total, repeats);
-  for (const ObservableErrors& errors : covariance.errors.observables)
-    for (const VarianceComponent& component : errors.components) add(component, covariance.total);
+  const auto add_all = [&](const std::vector<ObservableErrors>& observables) {
+    for (const ObservableErrors& errors : observables)
+      for (const VarianceComponent& component : errors.components) add(component, covariance.total);
+  };
+  add_all(covariance.errors.observables);
+  const std::vector<ObservableErrors> of_model = estimate_shared_errors(evidence, residual, covariance.total);
+  add_all(of_model);
+  covariance.errors.observables.insert(covariance.errors.observables.end(), of_model.begin(), of_model.end());
   covariance.factor.compute(covariance.total);
   return covariance;
 }

@@ -31,7 +31,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kKept = 20;             // sets of each size that are considered, …
+constexpr int kKept = 60;             // sets of each size that are considered, …
 constexpr double kHopeless = 12.0;    // … unless that far below the best in linear log evidence, …
 constexpr std::size_t kRefitted = 8;  // … and refitted, likeliest first
 constexpr int kVerified = 8;          // sets that are put to the tests, at most
@@ -70,11 +70,16 @@ Case prepare(const Evidence& evidence, const Predict& predict, const DecisionSet
   return c;
 }
 
-/// The likeliest sets, fitted with the model itself; the empty one among them, likeliest first.
-std::vector<Refit> fits(const Case& c) {
+/// By the signatures alone, likeliest first.
+std::vector<Hypothesis> screened(const Case& c) {
   std::vector<Hypothesis> hypotheses = screen(c.problem, kKept);
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence > b.log_evidence; });
+  return hypotheses;
+}
+
+/// The likeliest sets, fitted with the model itself; the empty one among them, likeliest first.
+std::vector<Refit> fits(const Case& c, const std::vector<Hypothesis>& hypotheses) {
   std::vector<Refit> result;
   const Eigen::Index n = c.problem.residual.size();
   result.push_back({{{}, Eigen::VectorXd(0), 0.0, 0.0}, Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 0), 0});
@@ -86,6 +91,27 @@ std::vector<Refit> fits(const Case& c) {
     return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
   });
   return result;
+}
+
+/// What was not worth a refit may still not be excluded: sets by their signatures, and effects that these observations
+/// do not show.
+void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
+                  std::vector<Option>& options) {
+  for (const Hypothesis& h : hypotheses) {
+    const bool is_fitted =
+        std::any_of(fits.begin(), fits.end(), [&](const Refit& fit) { return fit.hypothesis.effects == h.effects; });
+    if (is_fitted || h.log_evidence < options.front().log_posterior - c.settings.delta) continue;
+    options.push_back({h.effects, h.parameters, false, h.log_evidence,
+                       c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
+  }
+  for (std::size_t effect = 0; effect < c.problem.columns.size(); ++effect) {
+    const std::vector<int> alone{static_cast<int>(effect)};
+    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.problem.columns[effect].size()));
+    if (!c.problem.signatures(Eigen::all, c.problem.columns[effect]).isZero(0.0)) continue;
+    const Eigen::MatrixXd unseen = Eigen::MatrixXd::Zero(nothing.size(), nothing.size());
+    options.push_back({alone, nothing, false, log_evidence(c.problem, 0.0, alone, nothing, unseen),
+                       Eigen::VectorXd::Zero(c.problem.residual.size())});
+  }
 }
 
 std::vector<Option> options_of(const Case& c, const std::vector<Refit>& fits) {
@@ -281,6 +307,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   Diagnosis diagnosis;
   diagnosis.missing = missing_for_diagnosis(evidence);
   if (!diagnosis.missing.empty()) return diagnosis;
+  diagnosis.mistakes = evidence.mistakes;
   Case c = prepare(evidence, predict, settings);
   const Eigen::Index n = c.problem.residual.size();
   diagnosis.warnings = hygiene_warnings(evidence);
@@ -297,8 +324,10 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   diagnosis.where = locate(c.shapes.strata, c.shapes.stratum_columns, c.shapes.stratum_dof, c.problem.residual,
                            gap.scan_tail, settings.p_confirmation);
 
-  const std::vector<Refit> all = fits(c);
+  const std::vector<Hypothesis> hypotheses = screened(c);
+  const std::vector<Refit> all = fits(c, hypotheses);
   std::vector<Option> options = options_of(c, all);
+  add_unfitted(c, hypotheses, all, options);
   std::optional<Choice> choice = choose(c, all);
   const Refit& fit =
       choice ? choice->fit
@@ -319,7 +348,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
                                     log_posterior(options, {}, true) + kNamedBesideUnknown;
     diagnosis.verdict = adds ? Verdict::named_and_unknown : Verdict::unknown;
   } else if (!choice) {
-    diagnosis.verdict = Verdict::none;
+    diagnosis.verdict = evidence.mistakes.empty() ? Verdict::none : Verdict::named;
   } else {
     const bool is_first = likeliest.front().effects == fit.hypothesis.effects;
     diagnosis.verdict = is_first && all_name_the_same(evidence, set) ? Verdict::named : Verdict::ambiguous;

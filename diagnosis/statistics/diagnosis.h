@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "diagnosis/statistics/evidence.h"
+
 namespace fathom {
 
 enum class Verdict { none, named, ambiguous, unknown, named_and_unknown, insufficient };
@@ -91,6 +93,7 @@ struct Diagnosis {
   Verdict verdict = Verdict::insufficient;
   std::vector<std::string> missing;   ///< if insufficient: what it lacks
   std::vector<std::string> warnings;  ///< book-keeping that looks wrong; tests that could not be made
+  std::vector<Mistake> mistakes;      ///< of the laboratory, put right before all else
   double p_gap = 1.0;                 ///< that there is none
   std::vector<GapLocation> where;
   std::vector<NamedEffect> effects;

@@ -129,7 +129,10 @@ Json json_from(const Diagnosis& diagnosis) {
   json["warnings"] = diagnosis.warnings;
   json["p_gap"] = diagnosis.p_gap;
   json["where"] = array_of(diagnosis.where);
-  json["effects"] = array_of(diagnosis.effects);
+  json["effects"] = Json::array();
+  for (const Mistake& mistake : diagnosis.mistakes)
+    json["effects"].push_back({{"name", mistake.id}, {"sentence", mistake.sentence}});
+  for (const NamedEffect& effect : diagnosis.effects) json["effects"].push_back(json_from(effect));
   json["ambiguity_set"] = array_of(diagnosis.ambiguity_set);
   json["gap"] = {{"train", json_from(diagnosis.train)}, {"held_out", json_from(diagnosis.held_out)}};
   json["unknown"] = {{"p", diagnosis.unknown.p},

@@ -33,6 +33,13 @@ struct Nuisance {
   Eigen::VectorXd signature;  ///< change of every observation per unit
 };
 
+/// An error of the model that observations of one group have in common; how large it is, the data may say better.
+struct SharedError {
+  std::string observable;
+  std::vector<int> group_of;  ///< of each observation, from 0; -1: of no group, or another observable
+  double sigma = 0.0;         ///< 1 σ, as large as it is thought to be
+};
+
 struct Parameter {
   std::string name;          ///< with its unit: "scattering_per_mm"
   double nominal = 0.0;      ///< the value at which the effect is absent
@@ -47,12 +54,20 @@ struct Candidate {
   Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
 };
 
+/// A mistake in the laboratory's notes that its measurements show, and that was put right before anything else.
+struct Mistake {
+  std::string id;        ///< "label_swap"
+  std::string sentence;  ///< what it was
+};
+
 struct Evidence {
   std::vector<Observation> observations;
   Eigen::VectorXd predicted;  ///< by the nominal model, one for each observation
   std::vector<Nuisance> nuisances;
   std::vector<Candidate> candidates;
-  Eigen::VectorXd numerical_sd{};  ///< 1 σ of the predictions' own numerical error; empty: none is stated
+  Eigen::VectorXd numerical_sd{};            ///< 1 σ of the predictions' own numerical error; empty: none is stated
+  std::vector<SharedError> shared_errors{};  ///< of the predictions, too
+  std::vector<Mistake> mistakes{};           ///< put right in the observations
 };
 
 /// An effect switched on, with the values of its parameters in their order.

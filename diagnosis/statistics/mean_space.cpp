@@ -63,6 +63,14 @@ Eigen::MatrixXd polynomials(const std::vector<Observation>& observations) {
 
 }  // namespace
 
+Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::MatrixXd& weights) {
+  Span means(weights.rows(), weights.rows());
+  means.add(Eigen::VectorXd::Ones(weights.rows()));
+  for (const Candidate& candidate : evidence.candidates)
+    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k) means.add(weights * candidate.signature.col(k));
+  return means.complement();
+}
+
 MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
   const std::vector<Observation> observations = at(evidence.observations, rows);
   const auto n = static_cast<Eigen::Index>(rows.size());

@@ -13,6 +13,10 @@ struct MeanSpace {
   bool from_replicates = true;  ///< means are those of cells; else a smooth function's
 };
 
+/// Orthonormal contrasts of the rows of `weights` (sums of observations) that no candidate's signature changes, nor a
+/// constant.
+Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::MatrixXd& weights);
+
 /// For the rows of one observable. Where at least eight contrasts lie within cells (equal conditions, observable and
 /// region), those. Otherwise the mean may be anything that the candidates' signatures and second-degree polynomials in
 /// fill, distance and lateral, for each liquid and region, make: as many of them as leave half of the rows.

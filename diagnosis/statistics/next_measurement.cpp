@@ -59,9 +59,26 @@ Groups groups_of(const std::vector<Observation>& observations, const VarianceCom
         return pour_key(o);
       case ErrorLevel::session:
         return session_key(o);
+      case ErrorLevel::model:  // see model_variances()
+        break;
     }
     return std::string();
   });
+}
+
+/// Of the model's shared errors, in their order among those of their observable: as large as they were found.
+std::map<std::string, std::vector<double>> model_variances(const Covariance& covariance) {
+  std::map<std::string, std::vector<double>> variances;
+  for (const ObservableErrors& errors : covariance.errors.observables)
+    for (const VarianceComponent& component : errors.components)
+      if (component.level == ErrorLevel::model) variances[component.observable].push_back(component.variance);
+  return variances;
+}
+
+void add(const Groups& groups, double variance, Eigen::MatrixXd& total) {
+  for (const auto& members : groups.members())
+    for (const auto i : members)
+      for (const auto j : members) total(i, j) += variance;
 }
 
 /// Of the new observations, nuisances apart: numerical errors, repeats, and the components that the old ones show.
@@ -73,9 +90,16 @@ Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covaria
     total(i, i) = std::pow(added.numerical_sd[i], 2.0) + repeats(added.observations[i]) / added.observations[i].repeats;
   for (const ObservableErrors& errors : covariance.errors.observables)
     for (const VarianceComponent& component : errors.components)
-      for (const auto& members : groups_of(added.observations, component).members())
-        for (const auto i : members)
-          for (const auto j : members) total(i, j) += component.variance;
+      add(groups_of(added.observations, component), component.variance, total);
+  const std::map<std::string, std::vector<double>> found = model_variances(covariance);
+  std::map<std::string, std::size_t> ordinals;
+  for (const SharedError& shared : added.shared_errors) {
+    const std::size_t ordinal = ordinals[shared.observable]++;
+    const auto known = found.find(shared.observable);
+    const bool was_found = known != found.end() && ordinal < known->second.size();
+    const int count = *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1;
+    add({shared.group_of, count}, was_found ? known->second[ordinal] : shared.sigma * shared.sigma, total);
+  }
   return total;
 }
 

@@ -1,12 +1,11 @@
 #include "diagnosis/statistics/variance_components.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "core/median.h"
 #include "diagnosis/statistics/mean_space.h"
+#include "diagnosis/statistics/reml.h"
 
 namespace fathom {
 
@@ -15,8 +14,6 @@ namespace {
 constexpr double kPooledDof = 10.0;     // weight of the pooled scatter beside an observation's own
 constexpr double kOutlier = 3.0;        // times the median scatter
 constexpr std::size_t kFewestRows = 4;  // of an observable whose errors can be told from its mean
-constexpr int kScoringSteps = 30;
-constexpr double kEnough = 1e-4;  // change of a component, relative to all of them, at which scoring stops
 
 /// The components of one observable that can be told apart, over its rows.
 std::vector<VarianceComponent> candidates_of(const std::string& observable,
@@ -54,44 +51,6 @@ bool are_alike(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
   return one.cwiseProduct(other).sum() > kLeastCosine * one.norm() * other.norm();
 }
 
-/// Fisher scoring from `variances`, which stay at 0 or above. Returns the covariance of the estimates.
-Eigen::MatrixXd fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
-                    const std::vector<Eigen::MatrixXd>& shapes, Eigen::VectorXd& variances) {
-  const auto count = static_cast<Eigen::Index>(shapes.size());
-  Eigen::MatrixXd covariance;
-  for (int step = 0; step < kScoringSteps; ++step) {
-    Eigen::MatrixXd V = known;
-    for (Eigen::Index k = 0; k < count; ++k) V += variances[k] * shapes[k];
-    const Eigen::LLT<Eigen::MatrixXd> factor(V);
-    const Eigen::VectorXd solved = factor.solve(residual);
-    std::vector<Eigen::MatrixXd> weighted(count);
-    Eigen::VectorXd score(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      weighted[k] = factor.solve(shapes[k]);
-      score[k] = 0.5 * (solved.dot(shapes[k] * solved) - weighted[k].trace());
-    }
-    Eigen::MatrixXd information(count, count);
-    for (Eigen::Index k = 0; k < count; ++k)
-      for (Eigen::Index l = 0; l <= k; ++l)
-        information(k, l) = information(l, k) = 0.5 * weighted[k].cwiseProduct(weighted[l].transpose()).sum();
-    covariance = information.completeOrthogonalDecomposition().pseudoInverse();
-    // Components at 0 that want to be negative stay there; the others move.
-    for (Eigen::Index k = 0; k < count; ++k) {
-      if (variances[k] > 0.0 || score[k] > 0.0) continue;
-      information.row(k).setZero();
-      information.col(k).setZero();
-      information(k, k) = 1.0;
-      score[k] = 0.0;
-    }
-    const Eigen::VectorXd wanted = variances + information.completeOrthogonalDecomposition().solve(score);
-    const Eigen::VectorXd next = wanted.cwiseMax(0.0);
-    const bool is_done = (next - variances).norm() <= kEnough * (next.norm() + 1e-300);
-    variances = next;
-    if (is_done) break;
-  }
-  return covariance;
-}
-
 }  // namespace
 
 std::string name_of(ErrorLevel level) {
@@ -104,6 +63,8 @@ std::string name_of(ErrorLevel level) {
       return "pour";
     case ErrorLevel::session:
       return "session";
+    case ErrorLevel::model:
+      return "model";
   }
   return {};
 }
@@ -160,15 +121,12 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
       return false;
     });
     const Eigen::VectorXd left = contrasts.transpose() * residual(rows);
-    const double scale = std::max(left.squaredNorm() / static_cast<double>(left.size()), 1e-300);
-    Eigen::VectorXd variances = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(shapes.size()), 0.3);
-    const Eigen::MatrixXd known_left = contrasts.transpose() * known(rows, rows) * contrasts / scale;
-    const Eigen::MatrixXd floor = 1e-9 * Eigen::MatrixXd::Identity(left.size(), left.size());
+    const VarianceFit fit = fit_variances(left, contrasts.transpose() * known(rows, rows) * contrasts, shapes,
+                                          std::vector<VariancePrior>(shapes.size()));
     ObservableErrors errors;
-    if (!shapes.empty())
-      errors.covariance = scale * scale * fit(left / std::sqrt(scale), known_left + floor, shapes, variances);
+    errors.covariance = fit.covariance;
     for (std::size_t k = 0; k < components.size(); ++k)
-      components[k].variance = scale * variances[static_cast<Eigen::Index>(k)];
+      components[k].variance = fit.variances[static_cast<Eigen::Index>(k)];
     errors.components = std::move(components);
     budget.observables.push_back(std::move(errors));
   }

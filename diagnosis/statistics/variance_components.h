@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-enum class ErrorLevel { observation, placement, pour, session };
+enum class ErrorLevel { observation, placement, pour, session, model };
 std::string name_of(ErrorLevel level);
 
 /// A random error that is shared by all observations of one observable in a group.
@@ -38,7 +38,7 @@ struct ErrorBudget {
 /// region, weighed by degrees of freedom; outliers among the scatters count no more than three times their median.
 Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations);
 
-/// Restricted maximum likelihood (Patterson & Thompson 1971) by Fisher scoring, for each observable. `known` (n × n) is
+/// Restricted maximum likelihood (reml.h), for each observable. `known` (n × n) is
 /// what repeats and nuisances explain. Means are free in every cell where cells are repeated, so that no effect can
 /// pass for an error; otherwise a smooth function of the factors and all candidates' signatures are.
 ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,

@@ -88,7 +88,7 @@ TEST_F(MeasurementFolder, HeightsAreThoseOfTheRegionsOverTheTrials) {
   EXPECT_NEAR(find(measurement, "desk_roll_deg", "desk")->value, 0.0, 1e-4);
   EXPECT_NEAR(find(measurement, "desk_residual_mm", "middle")->value, 0.0, kRounding);
   EXPECT_EQ(find(measurement, "valid_fraction", "interior")->value, 1.0);
-  EXPECT_NEAR(find(measurement, "ir_ratio", "interior")->value, 1.0, 1e-6);
+  EXPECT_NEAR(find(measurement, "log_brightness", "interior")->value, 0.0, 1e-6);
   EXPECT_NEAR(find(measurement, "ir_contrast", "desk")->value, 0.0, 1e-6);
   EXPECT_LT(find(measurement, "comb_strength", "desk")->value, 0.05);  // even depths have no comb
 }

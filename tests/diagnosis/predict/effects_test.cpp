@@ -84,7 +84,7 @@ const Row kRows[] = {
     {R"({"name": "depth_wander", "sd_px": 0.1})", kEmpty, "desk_height_mm", "desk", 0.0, 0.0, "its mean is 0"},
     {R"({"name": "refractive_index", "index_change": 0.01})", kWater, "height_mm", "centre", 0.17, 0.20,
      "w n cos A / (n² − sin² A)^1.5 with A 26°: 0.18 mm"},
-    {R"({"name": "absorption", "absorption_per_mm": 0.005})", kWater, "ir_ratio", "interior", 0.715, 0.74,
+    {R"({"name": "absorption", "absorption_per_mm": 0.005})", kWater, "log_brightness", "interior", 0.715, 0.74,
      "exp(−0.005 · 2 · 30 / 0.945)"},
     {R"({"name": "subsurface_scattering", "transport_length_mm": 1})", kMilk, "height_mm", "centre", -0.28, -0.24,
      "entry and exit lie 1 / n · sin θ apart: (37.5 mm / 692 mm) (1 − 300 mm cos p / 688 mm) 623 mm / (75 mm n) = "
@@ -102,7 +102,7 @@ const Row kRows[] = {
     {R"({"name": "cup_bottom_height", "height_mm": 1})", kEmpty, "height_mm", "centre", 0.99, 1.01, "by definition"},
     {R"({"name": "concave_bottom", "depth_mm": 2})", kEmpty, "height_mm", "far", 0.67, 0.74,
      "2 mm times the ring's mean of (r/40 mm)²: 0.70 mm"},
-    {R"({"name": "wall_albedo", "albedo": 0.1})", kEmpty, "ir_ratio", "interior", 1.1427, 1.1430, "0.8 / 0.7"},
+    {R"({"name": "wall_albedo", "albedo": 0.1})", kEmpty, "log_brightness", "interior", 1.1427, 1.1430, "0.8 / 0.7"},
     {R"({"name": "cup_placement", "y_mm": 10})", kWater, "height_mm", "centre", 0.03, 0.12,
      "Eq. 7 at 310 mm less at 300 mm: 0.065 mm"},
     {R"({"name": "wall_multipath", "share": 1})", kWater, "height_mm", "centre", 0.0, 0.0, "no direct light"},
@@ -149,8 +149,8 @@ TEST(Effects, MoveWhatTheySayByWhatTheyShould) {
     const auto before = value_of(row.scenery, nullptr, row.observable, row.region);
     const auto after = value_of(row.scenery, Json::parse(row.effect), row.observable, row.region);
     ASSERT_TRUE(before && after) << row.effect;
-    const bool brightness = std::string_view(row.observable) == "ir_ratio";
-    const double change = brightness ? *after / *before : *after - *before;
+    const bool brightness = std::string_view(row.observable) == "log_brightness";
+    const double change = brightness ? std::exp(*after - *before) : *after - *before;
     EXPECT_TRUE(change >= row.low && change <= row.high)
         << row.effect << ' ' << row.observable << ' ' << row.region << ": " << change << ", " << row.why;
   }

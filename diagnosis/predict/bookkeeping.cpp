@@ -1,0 +1,122 @@
+#include "diagnosis/predict/bookkeeping.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/units.h"
+#include "diagnosis/predict/predictor.h"
+#include "diagnosis/predict/slope.h"
+
+namespace fathom {
+namespace {
+
+/// What the notes mean in a case: the factors as they should have been.
+using Reading = std::function<Factors(Factors)>;
+
+class Heights {
+ public:
+  Heights(const Json& model_effects, const std::string& file, const Measurement& measurement)
+      : model_effects_(model_effects), file_(file), rig_(measurement.rig) {
+    for (const Observation& observation : measurement.observations)
+      if (observation.observable == "height_mm" && has_liquid(observation.factors)) rows_.push_back(observation);
+    if (!rows_.empty()) as_written_ = predicted(rows_);
+  }
+
+  /// Whether the heights that another reading changes are met far better by it.
+  bool fit_far_better(const Reading& reading) const {
+    constexpr double kFarBetter = 3.0;    // ratio of residuals: most of them is gone
+    constexpr double kLeastChange = 1.0;  // [mm] in the mean square; less may be physics
+    constexpr int kFewest = 8;
+    std::vector<Observation> rows = rows_;
+    for (Observation& row : rows) {
+      row.factors = reading(row.factors);
+      if (metres_from_mm(row.factors.fill_mm) >= rig_.cup_height_m - rig_.bottom_m) return false;
+    }
+    if (rows.empty()) return false;
+    const Eigen::VectorXd other = predicted(rows);
+    double before = 0.0, after = 0.0, change = 0.0;
+    int changed = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      if (!std::isfinite(other[k]) || !std::isfinite(as_written_[k]) || other[k] == as_written_[k]) continue;
+      ++changed;
+      before += std::pow(rows[i].value - as_written_[k], 2);
+      after += std::pow(rows[i].value - other[k], 2);
+      change += std::pow(other[k] - as_written_[k], 2);
+    }
+    return changed >= kFewest && change > kLeastChange * changed && before > kFarBetter * kFarBetter * after;
+  }
+
+ private:
+  Eigen::VectorXd predicted(const std::vector<Observation>& rows) const {
+    return Predictor(rig_, rows, model_effects_, file_).predict({});
+  }
+
+  const Json& model_effects_;
+  const std::string& file_;
+  const LaboratoryRig& rig_;
+  std::vector<Observation> rows_;
+  Eigen::VectorXd as_written_;
+};
+
+void correct(const Reading& reading, Measurement& measurement) {
+  for (Observation& observation : measurement.observations) observation.factors = reading(observation.factors);
+}
+
+void put_units_right(const Heights& heights, Measurement& measurement) {
+  struct Unit {
+    const char* name;
+    double mm;
+  };
+  constexpr std::array kUnits{Unit{"centimetres", 10.0}, Unit{"inches", 25.4}, Unit{"metres", 1000.0},
+                              Unit{"tenths of a millimetre", 0.1}};
+  for (const Unit& unit : kUnits) {
+    const Reading reading = [&](Factors factors) {
+      factors.fill_mm *= unit.mm;
+      return factors;
+    };
+    if (!heights.fit_far_better(reading)) continue;
+    correct(reading, measurement);
+    measurement.mistakes.push_back(
+        {"unit_error", fmt::format("Fills were written down in {}, not in millimetres.", unit.name)});
+    return;
+  }
+}
+
+void put_labels_right(const Heights& heights, Measurement& measurement) {
+  std::set<std::string> liquids;
+  std::set<int> sessions;
+  for (const Observation& observation : measurement.observations) {
+    if (has_liquid(observation.factors)) liquids.insert(observation.factors.liquid);
+    sessions.insert(observation.factors.session);
+  }
+  for (auto one = liquids.begin(); one != liquids.end(); ++one)
+    for (auto other = std::next(one); other != liquids.end(); ++other)
+      for (const int session : sessions) {
+        const Reading reading = [&](Factors factors) {
+          if (factors.session != session) return factors;
+          if (factors.liquid == *one)
+            factors.liquid = *other;
+          else if (factors.liquid == *other)
+            factors.liquid = *one;
+          return factors;
+        };
+        if (!heights.fit_far_better(reading)) continue;
+        correct(reading, measurement);
+        measurement.mistakes.push_back(
+            {"label_swap", fmt::format("The labels of {} and {} are exchanged in session {}.", *one, *other, session)});
+      }
+}
+
+}  // namespace
+
+void put_bookkeeping_right(const Json& model_effects, const std::string& file, Measurement& measurement) {
+  const Heights heights(model_effects, file, measurement);
+  put_units_right(heights, measurement);
+  put_labels_right(heights, measurement);
+}
+
+}  // namespace fathom
