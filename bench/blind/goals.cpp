@@ -109,7 +109,7 @@ Goal coverage(std::span<const Judged> judged) {
   return goal;
 }
 
-/// F1 over liquids, in which an effect of s ≥ 5 shows by 3 at least.
+/// F1 over liquids, in which an effect of s ≥ 5 shows by 3 at least; a stratum that names none is of all.
 Goal localisation(std::span<const Judged> judged) {
   constexpr double kShows = 3.0, kJudged = 5.0;
   Goal goal{.metric = "localisation F1 over liquids", .low = 0.0, .high = 1.0, .bar = 0.85};
@@ -118,7 +118,7 @@ Goal localisation(std::span<const Judged> judged) {
     if (!has_effects(one) || one.strongest() < kJudged) continue;
     ++goal.trials;
     for (const auto& [liquid, s] : one.truth.strength_by_liquid) {
-      const bool found = one.answer.liquids_in_gap.contains(liquid);
+      const bool found = one.answer.gap_in_all_liquids || one.answer.liquids_in_gap.contains(liquid);
       if (s >= kShows) (found ? right : missed) += 1;
       if (s < kShows && found) ++wrong;
     }

@@ -73,8 +73,12 @@ Answer read_answer(const std::filesystem::path& folder) {
   read_ambiguity(report, answer);
   constexpr double kSignificant = 0.01;
   for (const JsonReader& where : report.items_or_none("where"))
-    if (const auto liquid = liquid_of(where.text("stratum")); liquid && where.number("p") < kSignificant)
-      answer.liquids_in_gap.insert(*liquid);
+    if (where.number("p") < kSignificant) {
+      if (const auto liquid = liquid_of(where.text("stratum")))
+        answer.liquids_in_gap.insert(*liquid);
+      else
+        answer.gap_in_all_liquids = true;
+    }
   for (const JsonReader& warning : report.items_or_none("warnings")) answer.warnings += warning.text() + "\n";
   if (report.has("gap") && report.at("gap").has("held_out")) {
     const JsonReader held_out = report.at("gap").at("held_out");

@@ -24,9 +24,10 @@ struct Answer {
     std::vector<Names> sets;  ///< what it holds for one: itself first, then what cannot be told from it
     double probability;
   };
-  std::vector<Explanation> ambiguity_set;                       ///< most probable first
-  Names liquids_in_gap;                                         ///< of its strata
-  std::string warnings;                                         ///< joined
+  std::vector<Explanation> ambiguity_set;  ///< most probable first
+  Names liquids_in_gap;                    ///< of its strata …
+  bool gap_in_all_liquids = false;         ///< … and whether one of them is of no liquid in particular
+  std::string warnings;                    ///< joined
   double before_rms = 0.0, after_rms = 0.0, noise_floor = 0.0;  ///< [mm] held out
   double next_sigma = 0.0;                                      ///< of the best measurement that it proposes
 

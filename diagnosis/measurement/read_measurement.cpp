@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "detector/quiet_pcl.h"
 #include "detector/read_cloud.h"
+#include "diagnosis/measurement/desk_wander.h"
 #include "diagnosis/measurement/named_values.h"
 
 namespace fathom {
@@ -246,6 +247,8 @@ Measurement read_measurement(const std::filesystem::path& folder) {
     placements[key_of(measurement.frames[row])].push_back(row);
   leave_out_copies(readings, placements, measurement);
   for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
+  for (Observation& wander : desk_wander(measurement.observations, measurement.rig))
+    measurement.observations.push_back(std::move(wander));
   add_notes(readings, measurement);
   return measurement;
 }

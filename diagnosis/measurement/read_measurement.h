@@ -17,6 +17,7 @@ struct Measurement {
 /// Reads rig.json, frames.csv and every cloud once, on all threads. Beside what named_values() lists: "valid_fraction"
 /// of the pixels that look into the cup's opening, "ir_contrast" (deviation over mean of the brightness, where a cloud
 /// has it) inside and on the desk. Placements whose frames hold heights only give "height_mm" of the whole interior.
+/// In sessions with repeats desk_wander() as well.
 /// Where cups off the axis stand mirrored, laterals change their sign; trials that are copies of others do not count.
 /// Throws Error naming file and place.
 Measurement read_measurement(const std::filesystem::path& folder);

@@ -15,6 +15,9 @@ namespace {
 /// Mistakes in writing down are looked for before any physics, with their exact values.
 constexpr std::array<std::string_view, 2> kNotSought{"unit_error", "label_swap"};
 
+/// A nuisance (nuisances.h) that goes as the effect does: nothing is left of it to be seen.
+constexpr std::string_view kAllowedFor = "window_averaging";
+
 Candidate candidate_of(const Predictor& predictor, const Effect& effect, const std::string& liquid) {
   const auto touched = conditions_where(predictor, [&](const Factors& f) {
     return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
@@ -81,7 +84,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
     const Effect* effect = find_effect(parts.id);
     if (!effect) throw Error("effects", unknown_name("effect", parts.id, effect_ids()));
     Candidate candidate = candidate_of(predictor, *effect, parts.liquid);
-    const bool is_seen = moves_anything(candidate);
+    const bool is_seen = parts.id != kAllowedFor && moves_anything(candidate);
     if (!is_seen) candidate.signature.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);
     if (is_seen || parts.liquid.empty()) candidates.all.push_back(std::move(candidate));

@@ -29,9 +29,10 @@ constexpr std::array kModelErrors{
     ModelError{"desk_roll_deg", 0.02, SharedBy::all},
     ModelError{"desk_residual_mm", 0.10, SharedBy::region},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
     ModelError{"log_brightness", 0.30, SharedBy::all},       // nobody wrote down albedos; walls light the bottom
-    ModelError{"log_brightness", 0.10, SharedBy::liquid},    // what scatters has an albedo of its own
+    ModelError{"log_brightness", 0.50, SharedBy::liquid},    // what scatters has an albedo of its own
     ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
     ModelError{"log_brightness", 0.05, SharedBy::condition},
+    ModelError{"desk_wander_mm", 0.02, SharedBy::all},     // noise reaches across the thirds' borders
     ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
     ModelError{"millimetre_comb", 0.02, SharedBy::all}};
 
@@ -80,7 +81,8 @@ Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations) {
   Eigen::VectorXd errors(static_cast<Eigen::Index>(observations.size()));
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const std::string& name = observations[i].observable;
-    errors[static_cast<Eigen::Index>(i)] = name.ends_with("_mm")    ? kLength_mm
+    errors[static_cast<Eigen::Index>(i)] = name == "desk_wander_mm" ? 0.0
+                                           : name.ends_with("_mm")  ? kLength_mm
                                            : name.ends_with("_deg") ? kAngle_deg
                                                                     : kShare;
   }

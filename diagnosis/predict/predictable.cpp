@@ -9,7 +9,8 @@
 namespace fathom {
 namespace {
 
-constexpr std::array<std::string_view, 3> kOfPlacements{"height_mm", "desk_height_mm", "log_brightness"};
+constexpr std::array<std::string_view, 4> kOfPlacements{"height_mm", "desk_height_mm", "log_brightness",
+                                                        "desk_wander_mm"};
 constexpr std::array<std::string_view, 5> kOfSessions{"desk_pitch_deg", "desk_roll_deg", "desk_residual_mm",
                                                       "comb_strength", "millimetre_comb"};
 

@@ -48,6 +48,13 @@ double interior_height_mm(const FrameEstimates& estimates) {
                                               : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// 1 σ of the desk's height when all disparities of a frame share an error: 1/z changes by it over f b, everywhere.
+double wander_mm(const SensorModel& sensor, const Plane& desk) {
+  const Calibration believed = sensor.calibration();
+  return mm_from_metres(desk.offset * desk.offset * std::abs(desk.normal.z()) * sensor.unit.wander_px /
+                        (believed.focal_px * believed.baseline));
+}
+
 }  // namespace
 
 Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects,
@@ -113,6 +120,10 @@ void Predictor::predict_condition(const Condition& condition, const Change& chan
   for (const std::size_t row : condition.rows) {
     if (observables_[row] == "height_mm" && regions_[row] == kWholeInterior) {
       values[row] = interior_height_mm(*estimates);
+      continue;
+    }
+    if (observables_[row] == "desk_wander_mm") {
+      values[row] = wander_mm(setup.rig.sensor, estimates->desk);
       continue;
     }
     for (const NamedValue& value : named)

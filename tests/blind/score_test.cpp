@@ -72,6 +72,18 @@ TEST(BlindScore, AWrongAnswerIsConfidentlyWrong) {
   EXPECT_EQ(reliability_table(judged).number(0, "true"), 0.0);
 }
 
+TEST(BlindScore, AGapOfNoLiquidInParticularIsInAll) {
+  SetTruth truth = single("sensor_height", 3.0, 12.0);
+  truth.strength_by_liquid = {{"empty", 6.0}, {"water", 8.0}, {"milk_tea", 2.0}};
+  const auto f1 = [&](const char* where) {
+    const Answer answer = answer_of(std::string(R"({"verdict": "unknown", "where": [)") + where + "]}");
+    return goal(goals_of(std::vector<Judged>{{truth, answer}}), "localisation F1 over liquids").value;
+  };
+  EXPECT_DOUBLE_EQ(f1(R"({"stratum": "distance_mm=300", "p": 1e-5})"), 0.8);                 // two right, one wrong
+  EXPECT_DOUBLE_EQ(f1(R"({"stratum": "liquid=water, fill_mm=30", "p": 1e-5})"), 2.0 / 3.0);  // one right, one missed
+  EXPECT_DOUBLE_EQ(f1(R"({"stratum": "distance_mm=300", "p": 0.2})"), 0.0);
+}
+
 TEST(BlindScore, NoAnswerIsNoGoodAnswer) {
   const std::vector<Judged> judged{{SetTruth{.kind = "null", .design = "full"}, read_answer("/no/such/folder")}};
   const std::vector<Goal> goals = goals_of(judged);

@@ -103,6 +103,47 @@ TEST_F(MeasurementFolder, RegionsAreTurnedAsTheirNamesSay) {
   EXPECT_NEAR(find(measurement, "height_mm", "right")->value, 20.0, kPixels);
 }
 
+TEST_F(MeasurementFolder, CopiesOfTrialsDoNotCountAndAreSaid) {
+  const std::string different = "0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/b.pcd\n",
+                    alike = "2,0,1,1,0,2,water,20,300,0,clouds/a.pcd\n3,0,1,1,1,3,water,20,300,0,clouds/a.pcd\n";
+  const Measurement measurement = read(different + alike);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].id, "duplicated_trial");
+  EXPECT_EQ(measurement.mistakes[0].sentence, "1 of 2 repeated trials are copies of others.");
+  EXPECT_EQ(measurement.observations.back().repeats, 1);
+  // Where all trials are alike there is no noise.
+  EXPECT_TRUE(read(alike).mistakes.empty());
+}
+
+TEST_F(MeasurementFolder, AMirroredAxisIsPutRight) {
+  // The disc stands at 75 mm: 37.5 mm of it is the camera's place.
+  const auto at = [](double lateral) {
+    const double pitch = radians_from_deg(kPitchDeg);
+    Image<CloudPoint> cloud = ideal_cloud(kHeight, 0.0);
+    for (int y = 0; y < 480; ++y)
+      for (int x = 0; x < 640; ++x) {
+        const double u = (x + 0.5 - 320.0) / kFocal, v = (y + 0.5 - 240.0) / kFocal;
+        const double z = (kHeight - 0.020) / (std::sin(pitch) + v * std::cos(pitch));
+        const double ahead = z * (std::cos(pitch) - v * std::sin(pitch));
+        if (std::hypot(z * u - 0.0375 - lateral, ahead - 0.3) < 0.040)
+          cloud(x, y) = {static_cast<float>(z * u), static_cast<float>(z * v), static_cast<float>(z), 100.0f};
+      }
+    return cloud;
+  };
+  write_pcd(folder / "clouds/right.pcd", at(0.1));
+  write_pcd(folder / "clouds/left.pcd", at(-0.1));
+  std::string rows;
+  for (int i = 0; i < 4; ++i)
+    rows += fmt::format("{},0,0,{},0,{},water,20,300,{},clouds/{}.pcd\n", i, i, i, i % 2 ? -100 : 100,
+                        i % 2 ? "right" : "left");
+  const Measurement measurement = read(rows);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].id, "flipped_axis");
+  EXPECT_EQ(measurement.observations.front().factors.lateral_mm, -100.0);
+  ASSERT_TRUE(find(measurement, "height_mm", "centre"));
+  EXPECT_NEAR(find(measurement, "height_mm", "centre")->value, 20.0, 0.01);  // mm: the desk's fit sees the disc's edge
+}
+
 TEST_F(MeasurementFolder, ABareDeskHasNoCup) {
   const Measurement measurement = read("0,0,0,0,0,0,none,0,0,0,clouds/a.pcd\n");
   EXPECT_TRUE(find(measurement, "desk_height_mm", "desk"));

@@ -5,50 +5,12 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <set>
 
-#include "diagnosis/measurement/named_values.h"
-#include "tests/diagnosis/predict/paper_laboratory.h"
+#include "tests/diagnosis/predict/paper_measurement.h"
 
 namespace fathom {
 namespace {
-
-/// Observations of everything that clouds of a campaign would give, without values.
-Measurement paper_measurement(bool bare_desk) {
-  Measurement measurement;
-  measurement.rig = paper_laboratory();
-  int pour = 0, placement = 0;
-  const auto add = [&](const Factors& factors, const char* observable, std::string_view region) {
-    Observation& observation = measurement.observations.emplace_back();
-    observation.observable = observable;
-    observation.factors = factors;
-    observation.factors.region = region;
-    observation.repeats = 10;
-  };
-  const auto add_desk = [&](const Factors& factors) {
-    for (const char* observable : {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg"})
-      add(factors, observable, "desk");
-    for (const std::string_view region : kDeskRegionNames) add(factors, "desk_residual_mm", region);
-  };
-  Factors factors;
-  factors.liquid = "none";
-  if (bare_desk) add_desk(factors);
-  for (const auto& [liquid, fill_mm] :
-       {std::pair{"empty", 0.0}, {"water", 10.0}, {"water", 30.0}, {"milk", 10.0}, {"milk", 30.0}}) {
-    for (const double distance_mm : {200.0, 300.0, 400.0}) {
-      factors.liquid = liquid;
-      factors.fill_mm = fill_mm;
-      factors.distance_mm = distance_mm;
-      factors.pour = pour;
-      factors.placement = placement++;
-      factors.time_s = 10.0 * factors.placement;
-      for (const std::string_view region : kCupRegionNames) add(factors, "height_mm", region);
-      add(factors, "height_sd_mm", kWholeInterior);
-      add_desk(factors);
-    }
-    ++pour;
-  }
-  return measurement;
-}
 
 const Candidate* find(const Evidence& evidence, std::string_view effect) {
   for (const Candidate& candidate : evidence.candidates)
@@ -69,7 +31,7 @@ TEST(Physics, RowsAreWhatTheModelPredicts) {
     EXPECT_EQ(candidate.signature.rows(), evidence.predicted.size()) << candidate.effect;
   }
   EXPECT_TRUE(find(evidence, "fill_offset") && find(evidence, "fill_offset@milk"));
-  for (const char* unseen : {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost"})
+  for (const char* unseen : {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost", "window_averaging"})
     EXPECT_TRUE(std::count(physics.unseen.begin(), physics.unseen.end(), unseen)) << unseen;
 }
 
@@ -82,15 +44,26 @@ TEST(Physics, NuisancesAreOnePerPourPlacementAndUncertainValue) {
   EXPECT_EQ(named("fill of pour "), 4);
   EXPECT_EQ(named("x of placement "), 15);
   EXPECT_EQ(named("y of placement "), 15);
-  EXPECT_EQ(named("model of desk_residual_mm, "), 9 + 9);  // of every third of the image, always and in the session
-  // Of each filling the far sector at least: the others lie in the wall's shadow where the cup is deep.
-  EXPECT_GE(named("model of height_mm, "), 3);
   for (const char* key : {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"})
     EXPECT_EQ(named(key), 1) << key;
   for (const Nuisance& nuisance : physics.evidence.nuisances) {
     EXPECT_GT(nuisance.sigma, 0.0) << nuisance.name;
     EXPECT_TRUE(nuisance.signature.allFinite()) << nuisance.name;
   }
+}
+
+TEST(Physics, ErrorsOfTheModelAreSharedByRegionsPlacesAndConditions) {
+  const Evidence evidence = physics_of(paper_measurement(false)).evidence;
+  std::set<int> groups_of_residual;
+  for (const SharedError& error : evidence.shared_errors) {
+    ASSERT_EQ(error.group_of.size(), evidence.observations.size());
+    EXPECT_GT(error.sigma, 0.0);
+    for (std::size_t i = 0; i < error.group_of.size(); ++i) {
+      EXPECT_EQ(error.group_of[i] >= 0, evidence.observations[i].observable == error.observable);
+      if (error.observable == "desk_residual_mm") groups_of_residual.insert(error.group_of[i]);
+    }
+  }
+  EXPECT_EQ(groups_of_residual.size(), 1u + 9u);  // none, and every third of the image
 }
 
 TEST(Physics, PredictionsWithoutEffectsAreThePredicted) {

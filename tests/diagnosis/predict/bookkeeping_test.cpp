@@ -1,0 +1,74 @@
+// Notes that are wrong are put right by exactly what is wrong with them; notes that are right are left alone.
+#include "diagnosis/predict/bookkeeping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/predict/predictor.h"
+#include "tests/diagnosis/predict/paper_measurement.h"
+
+namespace fathom {
+namespace {
+
+void leave_out_unseen(Measurement& measurement) {
+  std::erase_if(measurement.observations, [](const Observation& o) { return !std::isfinite(o.value); });
+}
+
+/// What the model itself predicts was measured, apart from 0.1 mm up and down.
+Measurement measured() {
+  Measurement measurement = paper_measurement(false);
+  const Eigen::VectorXd values = Predictor(measurement.rig, measurement.observations).predict({});
+  for (std::size_t i = 0; i < measurement.observations.size(); ++i)
+    measurement.observations[i].value = values[static_cast<Eigen::Index>(i)] + (i % 2 ? 0.1 : -0.1);
+  leave_out_unseen(measurement);
+  return measurement;
+}
+
+void put_right(Measurement& measurement) { put_bookkeeping_right(Json::array(), "rig.json", measurement); }
+
+TEST(Bookkeeping, RightNotesAreLeftAlone) {
+  Measurement measurement = measured();
+  put_right(measurement);
+  EXPECT_TRUE(measurement.mistakes.empty());
+}
+
+TEST(Bookkeeping, FillsInCentimetresAreFound) {
+  Measurement measurement = measured();
+  for (Observation& o : measurement.observations) o.factors.fill_mm *= 0.1;
+  put_right(measurement);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].id, "unit_error");
+  const Measurement truth = measured();
+  for (std::size_t i = 0; i < truth.observations.size(); ++i)
+    EXPECT_NEAR(measurement.observations[i].factors.fill_mm, truth.observations[i].factors.fill_mm, 1e-9);
+}
+
+TEST(Bookkeeping, ExchangedLabelsAreFound) {
+  Measurement measurement = measured();
+  for (Observation& o : measurement.observations)
+    if (o.factors.liquid == "water")
+      o.factors.liquid = "milk";
+    else if (o.factors.liquid == "milk")
+      o.factors.liquid = "water";
+  put_right(measurement);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].id, "label_swap");
+  const Measurement truth = measured();
+  for (std::size_t i = 0; i < truth.observations.size(); ++i)
+    EXPECT_EQ(measurement.observations[i].factors.liquid, truth.observations[i].factors.liquid);
+}
+
+TEST(Bookkeeping, AnEffectIsNoMistake) {
+  Measurement measurement = paper_measurement(false);
+  const Eigen::VectorXd values =
+      Predictor(measurement.rig, measurement.observations).predict(switch_on({{"fill_scale", {0.3}}}));
+  for (std::size_t i = 0; i < measurement.observations.size(); ++i)
+    measurement.observations[i].value = values[static_cast<Eigen::Index>(i)];
+  leave_out_unseen(measurement);
+  put_right(measurement);
+  EXPECT_TRUE(measurement.mistakes.empty());
+}
+
+}  // namespace
+}  // namespace fathom
