@@ -10,7 +10,8 @@
 namespace fathom {
 
 /// Of the mean over all observations of an observable in a condition: E = measured − predicted, u_D from repeats and
-/// variance components, u_input from the nuisances' priors, u_num of the prediction, u_val from all three.
+/// variance components, u_input from the nuisances' priors, u_num of the prediction with the errors of the model, u_val
+/// from all three.
 std::vector<ConditionBudget> uncertainty_budget(const Evidence& evidence, const Covariance& covariance);
 
 }  // namespace fathom
