@@ -87,7 +87,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
     const bool is_seen = parts.id != kAllowedFor && moves_anything(candidate);
     if (!is_seen) candidate.signature.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);
-    if (is_seen || parts.liquid.empty()) candidates.all.push_back(std::move(candidate));
+    if (is_seen || (only.empty() && parts.liquid.empty())) candidates.all.push_back(std::move(candidate));
   }
   return candidates;
 }

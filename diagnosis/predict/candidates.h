@@ -12,8 +12,8 @@ struct Candidates {
 };
 
 /// Every effect of the registry; those of liquids also for each liquid apart, as "id@liquid", where there are several.
-/// Or those named alone, whatever the liquids. Signatures are central differences over the prior scale, one-sided at a
-/// bound. Throws Error on an unknown name.
+/// Or of those named the ones that move anything. Signatures are central differences over the prior scale, one-sided at
+/// a bound. Throws Error on an unknown name.
 Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only = {});
 
 }  // namespace fathom
