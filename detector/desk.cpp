@@ -29,10 +29,15 @@ std::optional<Plane> desk_among(const Points& drawn, const std::optional<DeskPri
   const double fewest = std::max(3.0, search.share_min * static_cast<double>(drawn.size()));
   Points left = drawn;
   std::optional<Plane> any;
+  int most = 0;
   for (int round = 0; round < search.planes_max && static_cast<double>(left.size()) >= fewest; ++round) {
     const auto plane = largest_plane(left, search.threshold_m, search.iterations_max, round, may_be);
-    if (!plane || count_inliers(left, *plane, search.threshold_m) < fewest) break;
-    if (expected ? agrees(*plane, *expected, search) : below_a_camera_that_looks_ahead_or_down(*plane)) return plane;
+    const int points = plane ? count_inliers(left, *plane, search.threshold_m) : 0;
+    if (points < fewest) break;
+    most = std::max(most, points);
+    if (expected ? agrees(*plane, *expected, search)
+                 : below_a_camera_that_looks_ahead_or_down(*plane) && points >= search.share_of_largest_min * most)
+      return plane;
     if (!any) any = plane;
     erase_inliers(left, *plane, search.threshold_m);
   }

@@ -18,5 +18,14 @@ TEST(Desk, WhatLiesFlatOnItDoesNotLiftIt) {
   EXPECT_NEAR(desk.plane.offset, scene.sensor.height_m, 5e-5);
 }
 
+TEST(Desk, ABoxsFaceIsNoneForACameraThatHangsUpsideDown) {
+  synthetic::Scene scene;
+  scene.boxes = {{{-0.10, 0.35}, {0.10, 0.45}, 0.20}};
+  Points points = synthetic::cast(scene).points;
+  for (Eigen::Vector3f& point : points) point.head<2>() *= -1.0f;
+  const PlaneFit desk = std::get<PlaneFit>(find_desk(points, std::nullopt, {}));
+  EXPECT_NEAR(desk.plane.offset, scene.sensor.height_m, 1e-4);  // single precision
+}
+
 }  // namespace
 }  // namespace fathom
