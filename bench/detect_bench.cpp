@@ -46,17 +46,21 @@ Cloud cluttered_cloud() {
 void add_cloud(const std::string& name, Cloud cloud, const std::shared_ptr<const DetectorSettings>& settings) {
   const auto shared = std::make_shared<const Cloud>(std::move(cloud));
   const auto add = [&](std::string_view side, auto work) {
-    benchmark::RegisterBenchmark(fmt::format("detect/{}/{}", name, side).c_str(),
-                                 [work](benchmark::State& state) {
-                                   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-                                   for (auto _ : state) benchmark::DoNotOptimize(work());
-                                 })
+    return benchmark::RegisterBenchmark(fmt::format("detect/{}/{}", name, side).c_str(),
+                                        [work](benchmark::State& state) {
+                                          const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
+                                                                        1);
+                                          for (auto _ : state) benchmark::DoNotOptimize(work());
+                                        })
         ->MeasureProcessCPUTime()
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
   };
-  for (const char* method : {"robust", "paper"})  // registration takes seconds
-    add(method, [shared, settings, detect = method_named(method).detect] { return detect(*shared, *settings); });
+  for (const char* name_of_method : {"robust", "paper", "sac-ia"}) {
+    const Method& method = method_named(name_of_method);
+    auto* timed = add(method.name, [shared, settings, &method] { return method.detect(*shared, *settings); });
+    if (method.name == "sac-ia") timed->Iterations(1)->Repetitions(1);  // takes seconds
+  }
   add("pcl", [shared, settings] { return pcl_pipeline(*shared, settings->templates); });
 }
 

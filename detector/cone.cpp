@@ -13,7 +13,7 @@ constexpr double kLeanSigma = 0.15;  // cups lean 0 to 10°; where the points sp
 
 }  // namespace
 
-std::optional<ConeFit> fit_cone(const Points& points, Cone cone, double tolerance_m) {
+std::optional<ConeFit> fit_cone(const Points& points, WallCone cone, double tolerance_m) {
   ConeFit fit{};
   constexpr int kSteps = 6;  // each halves the tolerance's share of outliers; the fit itself needs three
   for (int step = 0; step < kSteps; ++step) {

@@ -11,7 +11,7 @@ namespace fathom {
 inline constexpr double kWallHeight = 0.045;  ///< [m] of a wall's radius and centre: the middle of the paper's band
 
 /// radius(z) = radius + lean · (z − kWallHeight).
-struct Cone {
+struct WallCone {
   Eigen::Vector2d center;
   double radius, lean;
 
@@ -19,7 +19,7 @@ struct Cone {
 };
 
 struct ConeFit {
-  Cone cone;
+  WallCone cone;
   Eigen::Matrix4d covariance;  ///< of the centre, the radius and the lean, with neighbours' errors alike
   double rms;
   int points;
@@ -27,6 +27,6 @@ struct ConeFit {
 
 /// Gauss–Newton on the distances of the points within the tolerance of the cone, from near the truth. Nothing when they
 /// are too few or fix no cone.
-std::optional<ConeFit> fit_cone(const Points& points, Cone cone, double tolerance_m);
+std::optional<ConeFit> fit_cone(const Points& points, WallCone cone, double tolerance_m);
 
 }  // namespace fathom

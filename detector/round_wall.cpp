@@ -65,7 +65,7 @@ std::optional<RoundWall> wall_from(const SlabCircle& circle, const Points& point
       if (point.z() >= low && point.z() <= high && !(filling && std::abs(point.z() - *filling) < kFillingMetres))
         near.push_back(point);
   };
-  const Cone start{circle.center.cast<double>(), circle.radius, 0.0};
+  const WallCone start{circle.center.cast<double>(), circle.radius, 0.0};
   between(circle.height - 0.03, circle.height + 0.03);
   std::optional<ConeFit> fit = fit_cone(near, start, search.tolerance_m);
   if (!fit) return std::nullopt;
