@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kParts = 3;              // of a session
+constexpr std::size_t kParts = 3;      // of a campaign: one session is cut into as many
 constexpr std::size_t kFewest = 4;     // placements in each
 constexpr double kUnexplained = 0.25;  // of the variance that local noise makes: noise reaches across borders
 
@@ -77,15 +77,18 @@ std::vector<Observation> desk_wander(const std::vector<Observation>& observation
     scatter.thirds += !is_height;
   }
   std::vector<Observation> result;
+  const std::size_t parts = sessions.size() < kParts ? kParts / std::max<std::size_t>(sessions.size(), 1) : 1;
   for (const auto& [session, placements] : sessions) {
     std::vector<Scatter> in_time;
     for (const auto& [key, scatter] : placements)
       if (scatter.thirds > 0 && scatter.residuals > 0.0) in_time.push_back(scatter);
-    if (in_time.size() < kParts * kFewest) continue;
+    if (in_time.size() < parts * kFewest) continue;
     std::stable_sort(in_time.begin(), in_time.end(),
                      [](const Scatter& a, const Scatter& b) { return a.time_s < b.time_s; });
-    for (int part = 0; part < kParts; ++part) {
-      const auto at = [&](int k) { return in_time.begin() + static_cast<std::ptrdiff_t>(in_time.size() * k / kParts); };
+    for (std::size_t part = 0; part < parts; ++part) {
+      const auto at = [&](std::size_t k) {
+        return in_time.begin() + static_cast<std::ptrdiff_t>(in_time.size() * k / parts);
+      };
       result.push_back(wander_of(session, at(part), at(part + 1), height_over_residual(rig)));
     }
   }
