@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/units.h"
 #include "sim/effects/changes.h"
 #include "sim/effects/effects.h"
@@ -7,7 +9,7 @@ namespace {
 
 void apply(Setup& setup, const EffectSetting& setting) {
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
-    filling.medium.absorption += per_metre_from_per_mm(setting.values[0]);
+    filling.medium.absorption = std::max(filling.medium.absorption + per_metre_from_per_mm(setting.values[0]), 0.0);
   });
 }
 
@@ -16,8 +18,9 @@ void apply(Setup& setup, const EffectSetting& setting) {
 Effect absorption() {
   return {.id = "absorption",
           .family = "liquid",
-          .sentence = "The liquid swallows more infrared light than its table says.",
-          .parameters = {{"absorption_per_mm", "added to the absorption coefficient", 0.0, 0.005, 0.0, 1.0}},
+          .sentence = "The liquid swallows more infrared light than its table says, or less.",
+          .parameters = {{"absorption_per_mm", "added to the absorption coefficient, which stays at 0 or above", 0.0,
+                          0.005, -0.05, 1.0}},
           .citation = "Kou, Labrie & Chylek 1993, Applied Optics 32, 3531: water's absorption in the near infrared",
           .twins = {"wall_albedo"},
           .discriminated_by = "two fills of the same liquid: absorption grows with the path, an albedo does not",
