@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/html.h"
 #include "core/files.h"
 
 namespace fathom {
@@ -22,21 +23,10 @@ constexpr std::array<Kind, 5> kKinds{{{"merged", "The cup's segment holds other 
                                       {"liquid", "A liquid is seen in an empty cup, or none in a filled one"},
                                       {"false_cup", "Something else is taken for a cup"}}};
 
-constexpr const char* kHead = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Fathom: what failed</title>
-<style>
-body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
-img { width: 100%; height: auto; } figure { margin: 1rem 0 2rem; } td, th { text-align: left; padding: .2rem 1.2rem .2rem 0; }
-</style></head><body><h1>What failed</h1>
+constexpr const char* kHead = R"(<h1>What failed</h1>
 <p>Infrared image and measured depth; below them the true depth and the difference. Green: outlines of cups that were found, red: of those that
 were not; blue: circles of what was taken for a cup. <code>fathom capture NUMBER_KIND.json</code> shoots the scene again.</p>
 )";
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return result;
-}
 
 bool is_wrong(const TrialCup& cup) { return cup.liquid_found == (cup.liquid == "empty" ? "yes" : "no"); }
 
@@ -51,7 +41,7 @@ std::string caption(const TrialResult& trial) {
                                   cup.p_liquid.value_or(0.0), cup.surface_mm.value_or(0.0)));
   }
   for (const std::string& name : trial.false_cups) lines.push_back(name + ": taken for a cup");
-  for (std::string& line : lines) line = escaped(line);
+  for (std::string& line : lines) line = html_escaped(line);
   return fmt::format("{}", fmt::join(lines, "<br>"));
 }
 
@@ -70,7 +60,8 @@ void write_failure_gallery(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "failures"))
     if (entry.path().extension() == ".png") names.push_back(entry.path().stem());
   std::sort(names.begin(), names.end());
-  std::string counts = "<table>\n", figures;
+  std::vector<std::vector<std::string>> counts;
+  std::string figures;
   for (const Kind& kind : kKinds) {
     int count = 0;
     for (const std::string& name : names) {
@@ -83,9 +74,10 @@ void write_failure_gallery(const fs::path& folder) {
       figures += fmt::format("<figure><img src=\"{0}.png\" alt=\"{0}\"><figcaption>{0}: {1}</figcaption></figure>\n",
                              name, caption(trial));
     }
-    counts += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", count, kind.name, kind.words);
+    counts.push_back({fmt::format("{}", count), std::string(kind.name), std::string(kind.words)});
   }
-  write_text(folder / "failures" / "index.html", kHead + counts + "</table>\n" + figures + "</body></html>\n");
+  write_text(folder / "failures" / "index.html",
+             html_page("Fathom: what failed", kHead + html_table({"trials", "kind", "what"}, counts) + figures));
 }
 
 }  // namespace fathom
