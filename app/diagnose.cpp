@@ -34,19 +34,40 @@ struct DiagnoseOptions {
   std::vector<std::string> without;
 };
 
-/// The effects that the model had, then those that were named: the same list as a scene's.
+/// The effects that the model had, then those that were named: the same list as a scene's. `had` is an earlier
+/// model.json or empty.
 Json model_json(const Json& had, const Diagnosis& diagnosis, const Json& provenance) {
-  Json effects = had;
+  Json model{{"effects", Json::array()}, {"provenance", provenance}};
+  if (!had.empty()) {
+    model["effects"] = had["effects"];
+    model["provenance"]["earlier"] = had.value("provenance", Json::object());
+  }
   const bool is_sure = diagnosis.verdict == Verdict::named || diagnosis.verdict == Verdict::named_and_unknown;
-  if (is_sure)
-    for (const NamedEffect& named : diagnosis.effects) {
-      const EffectName name = effect_name(named.name);
-      Json effect{{"name", name.id}};
-      if (!name.liquid.empty()) effect["liquid"] = name.liquid;
-      for (const NamedParameter& parameter : named.parameters) effect[parameter.name] = parameter.value;
-      effects.push_back(std::move(effect));
+  if (!is_sure) return model;
+  std::vector<std::string> parameters;  // of the covariance's rows: the effect's place in the list and the key
+  for (const NamedEffect& named : diagnosis.effects) {
+    const EffectName name = effect_name(named.name);
+    Json effect{{"name", name.id}};
+    if (!name.liquid.empty()) effect["liquid"] = name.liquid;
+    for (const NamedParameter& parameter : named.parameters) {
+      effect[parameter.name] = parameter.value;
+      parameters.push_back(fmt::format("/effects/{}/{}", model["effects"].size(), parameter.name));
     }
-  return {{"effects", effects}, {"provenance", provenance}};
+    model["effects"].push_back(std::move(effect));
+    model["provenance"]["named"].push_back(
+        {{"effect", named.name}, {"p_discovery", named.p_discovery}, {"p_confirmation", named.p_confirmation}});
+  }
+  model["covariance"] = {{"parameters", parameters}, {"matrix", diagnosis.parameter_covariance}};
+  model["provenance"]["gap"] = json_from(diagnosis)["gap"];
+  return model;
+}
+
+/// report.json's effects have the inverses of their parameters too, where tables do.
+void add_inverses(const Diagnosis& diagnosis, Json& report) {
+  for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
+    for (const NamedParameter& parameter : shown_parameters(diagnosis.effects[i]))
+      report["effects"][i]["parameters"][parameter.name] = {{"value", parameter.value},
+                                                            {"ci95", {parameter.low95, parameter.high95}}};
 }
 
 std::string rows_text(const Diagnosis& diagnosis, const fs::path& output, bool as_json) {
@@ -76,6 +97,7 @@ void write_next(const fs::path& folder, const Diagnosis& diagnosis, const std::v
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   require_gnuplot();
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
+  const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Progress progress("diagnose", 3, common.quiet);
   const Measurement measurement = read_measurements(options.folders);
   progress.step();
@@ -114,12 +136,13 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                            {"observations", campaign.observations.size()}};
   make_directory(common.output);
   Json report = json_from(campaign.diagnosis);
+  add_inverses(campaign.diagnosis, report);
   report["answer"] = answer(campaign.diagnosis);
   report["notes"] = campaign.notes;
   report["provenance"] = provenance;
   write_diagnosis_report(common.output, campaign);
   write_next(common.output, campaign.diagnosis, plans, measurement.rig);
-  write_json(common.output / "model.json", model_json(had, campaign.diagnosis, provenance));
+  write_json(common.output / "model.json", model_json(earlier, campaign.diagnosis, provenance));
   write_json(common.output / "report.json", report);
   fmt::print("{}", rows_text(campaign.diagnosis, common.output, common.json));
 }

@@ -37,7 +37,7 @@ std::string effects_html(const Diagnosis& diagnosis) {
   for (const NamedEffect& named : diagnosis.effects) {
     const Effect* effect = find_effect(effect_name(named.name).id);
     std::vector<std::string> lines;
-    for (const NamedParameter& parameter : named.parameters) lines.push_back(parameter_words(parameter));
+    for (const NamedParameter& parameter : shown_parameters(named)) lines.push_back(parameter_words(parameter));
     lines.push_back(
         fmt::format("p = {:.1g} among all candidates; {:.1g} in conditions that had no part in choosing it; "
                     "it improves {} of {} groups of conditions",
@@ -55,10 +55,17 @@ std::string gap_html(const Diagnosis& diagnosis) {
     return std::vector<std::string>{name, fmt::format("{:.3f}", gap.before_rms_mm),
                                     fmt::format("{:.3f}", gap.after_rms_mm), fmt::format("{:.3f}", gap.noise_floor_mm)};
   };
-  return html_table(
+  std::string html = html_table(
       {"heights, root mean square [mm]", "before", "after", "expected of errors alone"},
       {row("all conditions", diagnosis.train), row("each group of conditions, fitted without it", diagnosis.held_out)},
       true);
+  Rows rows;
+  for (const StratumGap& stratum : diagnosis.strata)
+    rows.push_back({stratum.stratum, fmt::format("{:.3f}", stratum.train.before_rms_mm),
+                    fmt::format("{:.3f}", stratum.train.after_rms_mm),
+                    fmt::format("{:.3f}", stratum.held_out.after_rms_mm),
+                    fmt::format("{:.3f}", stratum.train.noise_floor_mm)});
+  return html + html_table({"heights in the cup where", "before", "after", "held out", "errors"}, rows, true);
 }
 
 std::string rivals_html(const Diagnosis& diagnosis) {

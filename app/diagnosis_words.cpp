@@ -58,7 +58,7 @@ std::string named_sentence(const Diagnosis& diagnosis) {
   for (const NamedEffect& effect : diagnosis.effects) {
     const Effect* known = find_effect(effect_name(effect.name).id);
     std::vector<std::string> values;
-    for (const NamedParameter& parameter : effect.parameters) values.push_back(parameter_words(parameter));
+    for (const NamedParameter& parameter : shown_parameters(effect)) values.push_back(parameter_words(parameter));
     text += fmt::format("{} Adding {} with {} ", known ? known->sentence : "", effect_words(effect.name),
                         joined(values, "and"));
     text += &effect == &diagnosis.effects.back() ? "" : "helps. ";
@@ -190,6 +190,15 @@ std::string stratum_words(const GapLocation& where) {
     text += fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit);
   }
   return text;
+}
+
+std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {
+  std::vector<NamedParameter> shown = named.parameters;
+  const Effect* effect = find_effect(effect_name(named.name).id);
+  for (std::size_t i = 0; effect && i < shown.size(); ++i)
+    if (const std::string_view inverse = effect->parameters[i].inverse; !inverse.empty() && shown[i].value != 0.0)
+      shown[i] = {std::string(inverse), 1.0 / shown[i].value, 1.0 / shown[i].high95, 1.0 / shown[i].low95};
+  return shown;
 }
 
 std::string parameter_words(const NamedParameter& parameter) {

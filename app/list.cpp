@@ -37,7 +37,8 @@ Json json_of(const Effect& effect) {
                           {"nominal", p.nominal},
                           {"prior_scale", p.scale},
                           {"lower", p.lower},
-                          {"upper", p.upper}});
+                          {"upper", p.upper},
+                          {"inverse", p.inverse}});
   return {{"name", effect.id},
           {"family", effect.family},
           {"sentence", effect.sentence},

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -218,9 +219,27 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
   return std::nullopt;
 }
 
-void add_parameters(const Case& c, Choice& choice) {
+/// Of the parameters in prior scales.
+Eigen::MatrixXd parameter_covariance(const Choice& choice) {
   const Eigen::MatrixXd& J = choice.fit.jacobian;
-  const Eigen::MatrixXd covariance = (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+  return (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+}
+
+/// The same in the parameters' units.
+std::vector<std::vector<double>> covariance_in_units(const Case& c, const Choice& choice) {
+  std::vector<double> scales;
+  for (const int effect : choice.fit.hypothesis.effects)
+    for (const Parameter& parameter : c.evidence.candidates[effect].parameters) scales.push_back(parameter.prior_scale);
+  const Eigen::MatrixXd covariance = parameter_covariance(choice);
+  std::vector<std::vector<double>> rows(scales.size());
+  for (std::size_t i = 0; i < scales.size(); ++i)
+    for (std::size_t j = 0; j < scales.size(); ++j)
+      rows[i].push_back(scales[i] * scales[j] * covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+  return rows;
+}
+
+void add_parameters(const Case& c, Choice& choice) {
+  const Eigen::MatrixXd covariance = parameter_covariance(choice);
   const std::vector<EffectSize> sizes =
       sizes_beside_others(c.problem, c.covariance, choice.fit.hypothesis, choice.fit.jacobian);
   Eigen::Index next = 0;
@@ -258,10 +277,23 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
     if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
   if (heights.empty()) return;
-  diagnosis.train = {rms(before(heights)), rms(after(heights)), std::sqrt(errors(heights).mean())};
   const HeldOut other =
       held_out(c.covariance, linear_fit(c, fit), deal_folds(c.evidence.observations, c.settings.seed));
-  diagnosis.held_out = {rms(before(heights)), rms(other.residual(heights)), std::sqrt(other.variance(heights).mean())};
+  const auto train = [&](const std::vector<Eigen::Index>& rows) {
+    return GapSize{rms(before(rows)), rms(after(rows)), std::sqrt(errors(rows).mean())};
+  };
+  const auto held = [&](const std::vector<Eigen::Index>& rows) {
+    return GapSize{rms(before(rows)), rms(other.residual(rows)), std::sqrt(other.variance(rows).mean())};
+  };
+  diagnosis.train = train(heights);
+  diagnosis.held_out = held(heights);
+  for (const std::string factor : {"liquid", "fill_mm", "distance_mm", "lateral_mm"}) {
+    std::map<std::string, std::vector<Eigen::Index>> levels;
+    for (const Eigen::Index row : heights)
+      if (const Observation& o = c.evidence.observations[row]; o.factors.liquid != "none")
+        levels[level(o, factor)].push_back(row);
+    for (const auto& [name, rows] : levels) diagnosis.strata.push_back({factor + "=" + name, train(rows), held(rows)});
+  }
 }
 
 std::vector<std::string> words(const Evidence& evidence, const Option& option) {
@@ -362,6 +394,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   if (choice && diagnosis.verdict != Verdict::unknown) {
     add_parameters(c, *choice);
     diagnosis.effects = choice->effects;
+    diagnosis.parameter_covariance = covariance_in_units(c, *choice);
   }
   if (designs && (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none))
     diagnosis.next = next_measurements(evidence, c.covariance, designs, set);

@@ -47,6 +47,12 @@ struct GapSize {
   double before_rms_mm = 0.0, after_rms_mm = 0.0, noise_floor_mm = 0.0;
 };
 
+/// The heights of one level of one factor.
+struct StratumGap {
+  std::string stratum;  ///< "liquid=milk"
+  GapSize train, held_out;
+};
+
 struct UpperLimit {
   std::string effect, parameter;
   double limit95 = 0.0;        ///< departure from nominal that would have been seen
@@ -98,7 +104,10 @@ struct Diagnosis {
   std::vector<GapLocation> where;
   std::vector<NamedEffect> effects;
   std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
+  /// Of all effects' parameters, in their order, in their units: rows of the matrix.
+  std::vector<std::vector<double>> parameter_covariance;
   GapSize train, held_out;
+  std::vector<StratumGap> strata;
   std::vector<UpperLimit> upper_limits;
   std::vector<ConfusablePair> confusable;
   std::vector<NearNullDirection> near_null;

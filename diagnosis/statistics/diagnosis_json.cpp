@@ -57,6 +57,10 @@ Json json_from(const GapSize& gap) {
       {"before_rms_mm", gap.before_rms_mm}, {"after_rms_mm", gap.after_rms_mm}, {"noise_floor_mm", gap.noise_floor_mm}};
 }
 
+Json json_from(const StratumGap& stratum) {
+  return {{"stratum", stratum.stratum}, {"train", json_from(stratum.train)}, {"held_out", json_from(stratum.held_out)}};
+}
+
 /// "scattering_per_mm" → "per_mm", "height_mm" → "mm": what stands behind a parameter's first word.
 std::string unit_of(const std::string& parameter) {
   for (const std::string unit : {"_per_mm", "_mm", "_deg", "_px", "_s"})
@@ -134,7 +138,9 @@ Json json_from(const Diagnosis& diagnosis) {
     json["effects"].push_back({{"name", mistake.id}, {"sentence", mistake.sentence}});
   for (const NamedEffect& effect : diagnosis.effects) json["effects"].push_back(json_from(effect));
   json["ambiguity_set"] = array_of(diagnosis.ambiguity_set);
-  json["gap"] = {{"train", json_from(diagnosis.train)}, {"held_out", json_from(diagnosis.held_out)}};
+  json["gap"] = {{"train", json_from(diagnosis.train)},
+                 {"held_out", json_from(diagnosis.held_out)},
+                 {"strata", array_of(diagnosis.strata)}};
   json["unknown"] = {{"p", diagnosis.unknown.p},
                      {"formula", diagnosis.unknown.formula},
                      {"most_similar", diagnosis.unknown.most_similar},

@@ -16,6 +16,7 @@ struct EffectParameter {
   double nominal;  ///< where the effect is absent
   double scale;    ///< a typical departure from that
   double lower, upper;
+  std::string_view inverse = {};  ///< key of 1 / value, where that is what tables have: files may give either
 };
 
 /// The values of an effect's parameters, in their order, and of which liquid.

@@ -19,19 +19,29 @@ const Effect& effect_named_in(const JsonReader& json) {
 
 void require_known_keys(const JsonReader& json, const Effect& effect) {
   std::vector<std::string> keys;
-  for (const EffectParameter& parameter : effect.parameters) keys.emplace_back(parameter.name);
+  for (const EffectParameter& parameter : effect.parameters) {
+    keys.emplace_back(parameter.name);
+    if (!parameter.inverse.empty()) keys.emplace_back(parameter.inverse);
+  }
   if (effect.of_liquids) keys.emplace_back("liquid");
   for (const auto& [key, value] : json.value().items())
     if (key != "name" && std::find(keys.begin(), keys.end(), key) == keys.end())
       json.fail_at(key, unknown_name(fmt::format("parameter of {}", effect.id), key, keys));
 }
 
+double value_of(const JsonReader& json, const EffectParameter& parameter) {
+  if (parameter.inverse.empty() || !json.has(parameter.inverse))
+    return json.number_or(parameter.name, parameter.nominal, {parameter.lower, parameter.upper});
+  if (json.has(parameter.name)) json.fail_at(parameter.inverse, fmt::format("cannot stand beside {}", parameter.name));
+  return 1.0 / json.number(parameter.inverse,
+                           {1.0 / parameter.upper, parameter.lower > 0.0 ? 1.0 / parameter.lower : Range{}.high});
+}
+
 void switch_on(const JsonReader& json, Setup& setup) {
   const Effect& effect = effect_named_in(json);
   require_known_keys(json, effect);
   std::vector<double> values;
-  for (const EffectParameter& parameter : effect.parameters)
-    values.push_back(json.number_or(parameter.name, parameter.nominal, {parameter.lower, parameter.upper}));
+  for (const EffectParameter& parameter : effect.parameters) values.push_back(value_of(json, parameter));
   const std::string liquid = json.text_or("liquid", "");
   effect.apply(setup, {values, liquid});
 }

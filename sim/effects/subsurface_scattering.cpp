@@ -6,6 +6,7 @@ namespace fathom::effects {
 namespace {
 
 void apply(Setup& setup, const EffectSetting& setting) {
+  if (setting.values[0] > 0.0) setup.light.thrown_on = 1.0;  // direct light ends at a turbid liquid's surface
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     Medium& medium = filling.medium;
     if (!medium.scatters()) return;
@@ -20,7 +21,8 @@ Effect subsurface_scattering() {
   return {.id = "subsurface_scattering",
           .family = "liquid",
           .sentence = "Light enters the liquid before it scatters back, so the surface reads too low.",
-          .parameters = {{"transport_length_mm", "added to 1 / reduced scattering coefficient", 0.0, 1.0, 0.0, 20.0}},
+          .parameters = {{"transport_length_mm", "added to 1 / reduced scattering coefficient", 0.0, 1.0, 0.0, 20.0,
+                          "scattering_per_mm"}},
           .citation = "Wang & Jacques 1995, Applied Optics 34, 2362: oblique-incidence reflectometry",
           .twins = {"fill_offset"},
           .discriminated_by = "several laterals: the shift follows the distance from below the projector",
