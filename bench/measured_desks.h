@@ -9,11 +9,9 @@
 
 #include "core/image.h"
 #include "detector/plane.h"
+#include "sim/sensor/colour_view.h"
 
 namespace fathom {
-
-/// Depth as an application gets it that asks for registration to the colour camera, whose focal length is 525 px.
-inline constexpr double kColourFocalPx = 525.0;
 
 struct DeskImage {
   std::string name;
@@ -30,9 +28,5 @@ std::optional<DeskImage> with_desk(std::string name, Image<float> depth);
 
 /// The camera's point of a pixel of the colour camera's image.
 Eigen::Vector3d point_in_colour(const Image<float>& depth, int x, int y);
-
-/// What the colour camera, 25 mm to the right, has in each pixel of a depth image of focal length `focal_px`: the
-/// nearest. Depths stay as they are, as the device leaves them.
-Image<float> in_colour_view(const Image<float>& depth, double focal_px);
 
 }  // namespace fathom

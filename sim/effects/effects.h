@@ -16,6 +16,10 @@ Effect radial_distortion();
 Effect depth_quantization();
 Effect thermal_drift();
 Effect depth_wander();
+Effect depth_step_phase();
+Effect depth_truncation();
+Effect noise_correlation();
+Effect reference_residue();
 Effect refractive_index();
 Effect absorption();
 Effect subsurface_scattering();
@@ -38,5 +42,6 @@ Effect unit_error();
 Effect wrong_cup();
 Effect window_averaging();
 Effect skew_approximation();
+Effect colour_registration();
 
 }  // namespace fathom::effects

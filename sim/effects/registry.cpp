@@ -17,6 +17,10 @@ const std::vector<Effect>& effect_registry() {
                                             effects::depth_quantization(),
                                             effects::thermal_drift(),
                                             effects::depth_wander(),
+                                            effects::depth_step_phase(),
+                                            effects::depth_truncation(),
+                                            effects::noise_correlation(),
+                                            effects::reference_residue(),
                                             effects::refractive_index(),
                                             effects::absorption(),
                                             effects::subsurface_scattering(),
@@ -38,7 +42,8 @@ const std::vector<Effect>& effect_registry() {
                                             effects::unit_error(),
                                             effects::wrong_cup(),
                                             effects::window_averaging(),
-                                            effects::skew_approximation()};
+                                            effects::skew_approximation(),
+                                            effects::colour_registration()};
   return registry;
 }
 

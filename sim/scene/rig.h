@@ -68,6 +68,8 @@ struct SensorModel {
   double near = 0.45, far = 10.0;  ///< depths outside are invalid; nearer ones the search does not reach
   double radiant_dn_mm2 = 5.90e8;  ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
   bool quantized = true;           ///< depth on the device's law; false: float depth
+  double step_phase = 0.5;         ///< where the law's depths lie between whole codes [steps]; the vendor's own SDK: 0
+  double cut = 1e-3;               ///< [m] the law's depths are cut to whole multiples of it; 0: they are not
   PatternModel pattern;
   OpticsModel optics;
   NoiseModel noise;

@@ -8,6 +8,7 @@
 #include "core/timed.h"
 #include "sim/effects/effects_json.h"
 #include "sim/render/intersect.h"
+#include "sim/sensor/colour_view.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
 #include "sim/sensor/reading.h"
@@ -60,6 +61,15 @@ void average(double width_px, Image<float>& disparity) {
         disparity(x, y) = static_cast<float>(sum / known);
       }
   });
+}
+
+/// Depth and cloud as an application gets them that asks for them in the colour camera's image; what that image shows
+/// is not simulated, so the points have no intensity.
+void move_to_colour_view(const SensorModel& sensor, Frame& shot) {
+  SensorModel colour = sensor;
+  colour.believed = Calibration{sensor.baseline, kColourFocalPx, sensor.principal_px};
+  shot.depth = in_colour_view(shot.depth, sensor.focal_px);
+  shot.cloud = cloud_of_depth(colour, shot.depth, Image<float>(shot.depth.width(), shot.depth.height()));
 }
 
 Eigen::Vector2d pixel_centre(int number, int width) { return {number % width + 0.5, number / width + 0.5}; }
@@ -116,8 +126,9 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
         disparity_with_noise(sensor, shot.disparity_px, intensity, still_chance_, block_chance(sensor, seed_, frame));
   add_residue(sensor, residue_, shot.disparity_px);
   misread(sensor, frame, shot.disparity_px);
-  shot.depth = depth_image(sensor, shot.disparity_px);
+  shot.depth = depth_image(sensor, shot.disparity_px, sensor.cut);
   shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);
+  if (setup_.processing.colour_view) move_to_colour_view(sensor, shot);
   return shot;
 }
 
@@ -130,8 +141,9 @@ Frame Camera::shoot_photometric(std::uint64_t frame) {
   shot.ir = expose(light, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
   misread(sensor, frame, shot.disparity_px);
-  shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px); });
+  shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px, sensor.cut); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));
+  if (setup_.processing.colour_view) move_to_colour_view(sensor, shot);
   return shot;
 }
 

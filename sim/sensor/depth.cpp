@@ -15,16 +15,17 @@ double steps_per_inverse_mm(const SensorModel& sensor) {
 }  // namespace
 
 std::optional<double> device_depth(const SensorModel& sensor, int code, double unit) {
-  const double inverse_mm = 1.0 / mm_from_metres(sensor.reference) - (code + 0.5) / steps_per_inverse_mm(sensor);
+  const double inverse_mm =
+      1.0 / mm_from_metres(sensor.reference) - (code + sensor.step_phase) / steps_per_inverse_mm(sensor);
   if (inverse_mm <= 0.0) return std::nullopt;
   const double unit_mm = mm_from_metres(unit);
-  return metres_from_mm(std::floor(1.0 / inverse_mm / unit_mm) * unit_mm);
+  return metres_from_mm(unit_mm > 0.0 ? std::floor(1.0 / inverse_mm / unit_mm) * unit_mm : 1.0 / inverse_mm);
 }
 
 int device_code(const SensorModel& sensor, double depth) {
   const double inverse_mm = 1.0 / mm_from_metres(depth);
-  return static_cast<int>(
-      std::lround(steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - 0.5));
+  return static_cast<int>(std::lround(
+      steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - sensor.step_phase));
 }
 
 double disparity_of_depth(const SensorModel& sensor, double depth) { return sensor.focal_px * sensor.baseline / depth; }

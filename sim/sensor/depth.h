@@ -11,10 +11,11 @@
 
 namespace fathom {
 
-/// The device's depth law: z = floor(1 / (1/z_ref − (n + ½) p / 36000)) in mm with p = 0.1052 for the Xtion PRO LIVE;
-/// in terms of the rig, p / 36000 mm⁻¹ = 1 / (8 f b), a step of 1/8 px of disparity. Verified on recorded depth without
-/// a fitted parameter (OpenNI's shift-to-depth table). `code` n is any integer, growing with distance. [m], nothing
-/// where the law has no positive depth. `unit` [m] is what depths are cut to: the device has outputs of 1 and 0.1 mm.
+/// The device's depth law: z = floor(1 / (1/z_ref − (n + ½) p / 36000)) in mm (½: SensorModel::step_phase) with p =
+/// 0.1052 for the Xtion PRO LIVE; in terms of the rig, p / 36000 mm⁻¹ = 1 / (8 f b), a step of 1/8 px of disparity.
+/// Verified on recorded depth without a fitted parameter (OpenNI's shift-to-depth table). `code` n is any integer,
+/// growing with distance. [m], nothing where the law has no positive depth. `unit` [m] is what depths are cut to, 0:
+/// nothing; the device has outputs of 1 and 0.1 mm.
 std::optional<double> device_depth(const SensorModel& sensor, int code, double unit = kMetresPerMm);
 
 /// The code whose exact depth (before truncation to whole mm) is nearest in disparity to `depth` [m].

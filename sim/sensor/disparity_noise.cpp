@@ -116,8 +116,12 @@ BlockChance block_chance(const SensorModel& sensor, std::uint64_t seed, std::uin
   });
   BlockChance chance{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height)};
   const auto per_level = static_cast<float>(1.0 / std::sqrt(columns * rows));
-  const auto per_across = static_cast<float>(1.0 / std::sqrt(second_moment(columns) * rows));
-  const auto per_down = static_cast<float>(1.0 / std::sqrt(columns * second_moment(rows)));
+  // Light cannot lie elsewhere in a block of one pixel.
+  const auto per_moment = [](double moment) {
+    return static_cast<float>(moment > 0.0 ? 1.0 / std::sqrt(moment) : 0.0);
+  };
+  const float per_across = per_moment(second_moment(columns) * rows),
+              per_down = per_moment(columns * second_moment(rows));
   parallel_ranges(height, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int j = 0; j < rows; ++j) {
