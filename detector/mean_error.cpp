@@ -100,14 +100,15 @@ MeanError::MeanError(const Points& points, double camera_height_m) : camera_heig
 }
 
 double MeanError::of_height(int points, const Eigen::Vector3d& place) const {
+  constexpr double kLeast = 2e-5;  // no floor of a cup is flatter; a cloud without noise would be sure of anything
   const double scale = height_per_depth(place, camera_height_m_);
   const int size = size_of(points);
   for (int fewer = size; fewer >= 0; --fewer)
-    if (depth_error_m_[fewer]) return *depth_error_m_[fewer] * scale * beside_walls(points);
+    if (depth_error_m_[fewer]) return std::max(kLeast, *depth_error_m_[fewer] * scale * beside_walls(points));
   double root = 1.0;  // errors of so few points may be independent
   for (int more = size + 1; more < kSizes; ++more) {
     root *= std::sqrt(2.0);
-    if (depth_error_m_[more]) return *depth_error_m_[more] * root * scale * beside_walls(points);
+    if (depth_error_m_[more]) return std::max(kLeast, *depth_error_m_[more] * root * scale * beside_walls(points));
   }
   const double independent = std::max(1.0, points / kPointsPerIndependent);
   return std::hypot(depth_noise_m(1.0) / std::sqrt(independent), mean_error_m(1.0)) * scale;

@@ -55,6 +55,10 @@ TEST(MeanError, GrowsWithTheSquareOfTheRangeAndShrinksWithIncidence) {
   EXPECT_NEAR(aside / near, std::sqrt(2.0), 1e-12);  // twice the depth's error, at 45°
 }
 
+TEST(MeanError, IsNeverNothing) {
+  EXPECT_GE(MeanError(desk(0.0, 0.0), kCamera).of_height(100000, kPlace), 1e-5);  // a hundredth of a millimetre
+}
+
 TEST(MeanError, WithoutABareDeskItIsWhatRecordedDesksShow) {
   EXPECT_NEAR(MeanError({}, kCamera).of_height(100000, kPlace), mean_error_m(1.0) * scale(), 0.1 * mean_error_m(1.0));
 }
