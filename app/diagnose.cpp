@@ -15,6 +15,7 @@
 #include "core/progress.h"
 #include "core/rows.h"
 #include "diagnosis/measurement/joined.h"
+#include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/designs.h"
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/statistics/decide.h"
@@ -99,9 +100,10 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Progress progress("diagnose", 3, common.quiet);
-  const Measurement measurement = read_measurements(options.folders);
-  progress.step();
+  Measurement measurement = read_measurements(options.folders);
   const std::string rig_file = (options.folders.front() / "rig.json").string();
+  put_bookkeeping_right(had, rig_file, measurement);
+  progress.step();
   Physics physics = physics_of(measurement, had, rig_file);
   std::erase_if(physics.evidence.candidates, [&](const Candidate& candidate) {
     return std::find(options.without.begin(), options.without.end(), effect_name(candidate.effect).id) !=

@@ -55,6 +55,7 @@ void append(Measurement more, Measurement& all) {
   }
   all.rig.liquids.insert(more.rig.liquids.begin(), more.rig.liquids.end());
   for (std::string& note : more.notes) all.notes.push_back(std::move(note));
+  for (Mistake& mistake : more.mistakes) all.mistakes.push_back(std::move(mistake));
 }
 
 }  // namespace

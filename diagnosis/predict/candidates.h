@@ -6,8 +6,8 @@
 namespace fathom {
 
 struct Candidates {
-  std::vector<Candidate> all;           ///< signatures are 0 of …
-  std::vector<std::string> unseen;      ///< … those that move no observation
+  std::vector<Candidate> all;           ///< without `only` also, with signatures of 0, …
+  std::vector<std::string> unseen;      ///< … what moves no observation
   std::vector<std::string> not_sought;  ///< are no candidates at all
 };
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <memory>
 
-#include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/candidates.h"
 #include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
@@ -23,11 +22,10 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
 
 }  // namespace
 
-Physics physics_of(Measurement measurement, const Json& model_effects, const std::string& file,
+Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
                    const std::vector<std::string>& only) {
   Physics physics;
   Evidence& evidence = physics.evidence;
-  put_bookkeeping_right(model_effects, file, measurement);
   evidence.mistakes = measurement.mistakes;
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file);
