@@ -22,3 +22,8 @@ if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
     -D simulator=${FATHOM_SIMULATOR}
     -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
 endif()
+
+if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
+  add_test(NAME blind_smoke COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/blind/smoke.py $<TARGET_FILE:fathom>)
+  set_tests_properties(blind_smoke PROPERTIES RUN_SERIAL ON TIMEOUT 1500)
+endif()

@@ -41,6 +41,21 @@ std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector
   return conditions;
 }
 
+void number_equals(std::vector<Condition>& conditions) {
+  std::map<std::tuple<std::string, double, double, double>, std::size_t> first;
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const Factors& f = conditions[i].factors;
+    conditions[i].equal = first.try_emplace({f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm}, i).first->second;
+  }
+}
+
+bool goes_by_time(const Json& model_effects) {
+  return std::any_of(model_effects.begin(), model_effects.end(), [](const Json& named) {
+    const Effect* effect = find_effect(named.value("name", ""));
+    return effect && effect->of_time;
+  });
+}
+
 /// A whole interior's mean height, as tables without clouds have it.
 double interior_height_mm(const FrameEstimates& estimates) {
   constexpr double kFewest = 10.0;
@@ -61,8 +76,10 @@ Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& o
                      std::string file)
     : model_(nominal_model(rig, file)),
       model_effects_(std::move(model_effects)),
+      model_goes_by_time_(goes_by_time(model_effects_)),
       file_(std::move(file)),
       conditions_(conditions_of(rig, observations)) {
+  number_equals(conditions_);
   for (const Observation& observation : observations) {
     observables_.push_back(observation.observable);
     regions_.push_back(observation.factors.region);
@@ -108,22 +125,30 @@ void Predictor::keep(const std::vector<bool>& kept) {
     for (std::size_t& row : condition.rows) row = new_row[row];
   }
   std::erase_if(conditions_, [](const Condition& condition) { return condition.rows.empty(); });
+  number_equals(conditions_);
 }
 
-void Predictor::predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const {
+std::optional<Predictor::Foreseen> Predictor::foresee(const Condition& condition, const Change& change) const {
   Setup setup = nominal_setup(condition);
-  if (change) change(setup, condition.factors);
-  const auto estimates = surrogate_frame(setup, model_.laboratory, place_of(condition.factors), condition.pixels);
+  if (change.apply) change.apply(setup);
+  auto estimates = surrogate_frame(setup, model_.laboratory, place_of(condition.factors), condition.pixels);
+  if (!estimates) return std::nullopt;
+  const double wander = wander_mm(setup.rig.sensor, estimates->desk);
+  return Foreseen{std::move(*estimates), wander};
+}
+
+void Predictor::set_rows(const Condition& condition, const std::optional<Foreseen>& foreseen,
+                         Eigen::VectorXd& values) const {
   for (const std::size_t row : condition.rows) values[row] = std::numeric_limits<double>::quiet_NaN();
-  if (!estimates) return;
-  const std::vector<NamedValue> named = named_values(*estimates);
+  if (!foreseen) return;
+  const std::vector<NamedValue> named = named_values(foreseen->estimates);
   for (const std::size_t row : condition.rows) {
     if (observables_[row] == "height_mm" && regions_[row] == kWholeInterior) {
-      values[row] = interior_height_mm(*estimates);
+      values[row] = interior_height_mm(foreseen->estimates);
       continue;
     }
     if (observables_[row] == "desk_wander_mm") {
-      values[row] = wander_mm(setup.rig.sensor, estimates->desk);
+      values[row] = foreseen->wander_mm;
       continue;
     }
     for (const NamedValue& value : named)
@@ -132,9 +157,17 @@ void Predictor::predict_condition(const Condition& condition, const Change& chan
 }
 
 Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
+  std::map<std::size_t, std::vector<std::size_t>> alike;
+  for (const std::size_t i : conditions)
+    alike[change.of_time || model_goes_by_time_ ? i : conditions_[i].equal].push_back(i);
+  const std::vector<std::pair<std::size_t, std::vector<std::size_t>>> groups(alike.begin(), alike.end());
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
-  parallel_ranges(static_cast<int>(conditions.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) predict_condition(conditions_[conditions[i]], change, values);
+  parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
+    for (int group = begin; group < end; ++group) {
+      const std::vector<std::size_t>& members = groups[group].second;
+      const std::optional<Foreseen> foreseen = foresee(conditions_[members.front()], change);
+      for (const std::size_t i : members) set_rows(conditions_[i], foreseen, values);
+    }
   });
   return values;
 }
@@ -162,9 +195,11 @@ Change switch_on(const std::vector<EffectValue>& effects) {
       on.values[i] = std::clamp(on.values[i], effect->parameters[i].lower, effect->parameters[i].upper);
     switched.push_back(std::move(on));
   }
-  return [switched](Setup& setup, const Factors&) {
-    for (const On& on : switched) on.effect->apply(setup, {on.values, on.liquid});
-  };
+  const bool of_time = std::any_of(switched.begin(), switched.end(), [](const On& on) { return on.effect->of_time; });
+  return {[switched](Setup& setup) {
+            for (const On& on : switched) on.effect->apply(setup, {on.values, on.liquid});
+          },
+          of_time};
 }
 
 }  // namespace fathom

@@ -15,10 +15,14 @@ struct Condition {
   Factors factors;                ///< without a region
   std::vector<std::size_t> rows;  ///< its observations
   SampledPixels pixels;
+  std::size_t equal = 0;  ///< number of the first condition that differs from it in time, pour and placement alone
 };
 
 /// What changes a set-up, at given values.
-using Change = std::function<void(Setup& setup, const Factors& factors)>;
+struct Change {
+  std::function<void(Setup& setup)> apply = {};
+  bool of_time = false;  ///< whether it changes otherwise equal conditions each in its own way
+};
 
 class Predictor {
  public:
@@ -42,11 +46,18 @@ class Predictor {
   const NominalModel& model() const { return model_; }
 
  private:
+  struct Foreseen {
+    FrameEstimates estimates;
+    double wander_mm;  ///< of the desk between frames, 1 σ
+  };
+
   Setup nominal_setup(const Condition& condition) const;
-  void predict_condition(const Condition& condition, const Change& change, Eigen::VectorXd& values) const;
+  std::optional<Foreseen> foresee(const Condition& condition, const Change& change) const;
+  void set_rows(const Condition& condition, const std::optional<Foreseen>& foreseen, Eigen::VectorXd& values) const;
 
   NominalModel model_;
   Json model_effects_;
+  bool model_goes_by_time_;
   std::string file_;
   std::vector<std::string> observables_, regions_;
   std::vector<Condition> conditions_;

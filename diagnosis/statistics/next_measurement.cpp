@@ -151,7 +151,7 @@ class Together {
 
 /// Norm of what columns cannot take from a difference, all whitened.
 double left(const Eigen::VectorXd& difference, const Eigen::MatrixXd& hiding) {
-  if (hiding.cols() == 0) return difference.norm();
+  if (hiding.isZero(0.0)) return difference.norm();  // effects that move nothing, or none
   return (difference - hiding * hiding.colPivHouseholderQr().solve(difference)).norm();
 }
 

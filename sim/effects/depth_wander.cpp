@@ -23,7 +23,8 @@ Effect depth_wander() {
       .citation = "an empty pot's floor over three Kinect scenes: 0.6 mm where independent points would give 0.04 mm",
       .twins = {"thermal_drift"},
       .discriminated_by = "many trials without touching anything: the desk itself moves from frame to frame",
-      .apply = apply};
+      .apply = apply,
+      .of_time = true};
 }
 
 }  // namespace fathom::effects

@@ -25,7 +25,8 @@ Effect evaporation() {
           .twins = {"thermal_drift", "fill_offset"},
           .discriminated_by = "the same pour at the beginning and the end of a session",
           .apply = apply,
-          .of_liquids = true};
+          .of_liquids = true,
+          .of_time = true};
 }
 
 }  // namespace fathom::effects

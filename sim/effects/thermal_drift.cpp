@@ -20,7 +20,8 @@ Effect thermal_drift() {
           .citation = "one Kinect v1, measured: 8 mm in 6 min at 2.5 m; unit_model.h",
           .twins = {"disparity_offset", "evaporation"},
           .discriminated_by = "the same bare desk at the beginning and the end of a session",
-          .apply = apply};
+          .apply = apply,
+          .of_time = true};
 }
 
 }  // namespace fathom::effects

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "sim/effects/registry.h"
+#include "tests/diagnosis/predict/paper_laboratory.h"
 #include "tests/diagnosis/predict/paper_measurement.h"
 
 namespace fathom {
@@ -34,6 +36,29 @@ TEST(Physics, RowsAreWhatTheModelPredicts) {
   for (const char* unseen :
        {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost", "window_averaging"})
     EXPECT_TRUE(std::count(physics.unseen.begin(), physics.unseen.end(), unseen)) << unseen;
+}
+
+TEST(Predictor, SeesTimeWhereEffectsGoByItAndNowhereElse) {
+  // The same shot at the beginning of a session and after an hour.
+  Observation early{.observable = "height_mm", .factors = {.liquid = "water", .region = "centre"}};
+  early.factors.fill_mm = 20.0, early.factors.distance_mm = 200.0;
+  Observation late = early;
+  late.factors.placement = 1, late.factors.time_s = 3600.0;
+  const Predictor predictor(paper_laboratory(), {early, late});
+  ASSERT_EQ(predictor.conditions().size(), 2u);
+  for (const Effect& effect : effect_registry()) {
+    std::vector<double> values;
+    for (const EffectParameter& p : effect.parameters) values.push_back(std::min(p.nominal + p.scale, p.upper));
+    const Change change = switch_on({{std::string(effect.id), values}});
+    const double at_once = predictor.predict(change, {0})[0], after = predictor.predict(change, {1})[1];
+    EXPECT_EQ(change.of_time, effect.of_time) << effect.id;
+    if (effect.id == "evaporation" || effect.id == "thermal_drift")
+      EXPECT_GT(std::abs(after - at_once), 0.01) << effect.id;  // [mm] desk and bottom drift nearly alike
+    else
+      EXPECT_EQ(after, at_once) << effect.id;
+    // All at once is as one by one.
+    EXPECT_EQ(predictor.predict(change)[1], after) << effect.id;
+  }
 }
 
 TEST(Physics, NuisancesAreOnePerPourPlacementAndUncertainValue) {
