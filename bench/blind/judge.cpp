@@ -59,8 +59,10 @@ bool Judged::is_right() const {
 
 bool Judged::is_confidently_wrong() const {
   constexpr double kConfident = 0.9;
-  return !is_right() && truth.book_keeping.empty() && answer.confidence() >= kConfident &&
-         !is_true(answer.ambiguity_set.front().sets.front());
+  if (is_right() || !truth.book_keeping.empty() || answer.confidence() < kConfident) return false;
+  // An explanation is put first together with what it says cannot be told from it.
+  const std::vector<Names>& first = answer.ambiguity_set.front().sets;
+  return std::none_of(first.begin(), first.end(), [&](const Names& names) { return is_true(names); });
 }
 
 bool Judged::holds_truth() const {

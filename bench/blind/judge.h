@@ -20,7 +20,7 @@ struct Judged {
   bool is_right() const;
   /// The same of a set of effects.
   bool is_true(const Names& effects) const;
-  /// Puts something wrong first with a probability of at least 0.9.
+  /// Puts something wrong first, with all that it calls indistinguishable from it, with a probability of at least 0.9.
   bool is_confidently_wrong() const;
   /// What is hidden is among its explanations.
   bool holds_truth() const;
