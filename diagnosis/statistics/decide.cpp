@@ -326,6 +326,14 @@ std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguityS
   return result;
 }
 
+/// Whether the model as it is, is one of the explanations.
+bool holds_nothing(const AmbiguitySet& set) {
+  return std::any_of(set.classes.begin(), set.classes.end(), [](const std::vector<Option>& options) {
+    return std::any_of(options.begin(), options.end(),
+                       [](const Option& o) { return o.effects.empty() && !o.has_unknown; });
+  });
+}
+
 double log_posterior(const std::vector<Option>& options, const std::vector<int>& effects, bool has_unknown) {
   for (const Option& option : options)
     if (option.effects == effects && option.has_unknown == has_unknown) return option.log_posterior;
@@ -380,7 +388,10 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
                                     log_posterior(options, {}, true) + kNamedBesideUnknown;
     diagnosis.verdict = adds ? Verdict::named_and_unknown : Verdict::unknown;
   } else if (!choice) {
-    diagnosis.verdict = evidence.mistakes.empty() ? Verdict::none : Verdict::named;
+    // What no test singles out may still be needed: then nothing at all is no explanation any more.
+    diagnosis.verdict = !evidence.mistakes.empty() ? Verdict::named
+                        : holds_nothing(set)       ? Verdict::none
+                                                   : Verdict::ambiguous;
   } else {
     const bool is_first = likeliest.front().effects == fit.hypothesis.effects;
     diagnosis.verdict = is_first && all_name_the_same(evidence, set) ? Verdict::named : Verdict::ambiguous;
