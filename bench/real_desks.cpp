@@ -8,6 +8,7 @@
 
 #include "bench/desk_rows.h"
 #include "bench/sensor_scenes.h"
+#include "diagnosis/predict/candidates.h"
 #include "diagnosis/statistics/decide.h"
 #include "sim/effects/registry.h"
 
@@ -89,22 +90,11 @@ class TwinPredictor {
 };
 
 Candidate candidate_of(const Effect& effect, TwinPredictor& predict) {
-  Candidate candidate{.effect = std::string(effect.id), .parameters = {}, .signature = {}};
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
-    const EffectParameter& p = effect.parameters[i];
-    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper});
-    const auto at = [&](double x) {
-      std::vector<double> values;
-      for (const EffectParameter& parameter : effect.parameters) values.push_back(parameter.nominal);
-      values[i] = x;
-      return predict({{candidate.effect, values}});
-    };
-    const double low = std::max(p.nominal - p.scale, p.lower), high = std::min(p.nominal + p.scale, p.upper);
-    const Eigen::VectorXd column = (at(high) - at(low)) / (high - low);
-    candidate.signature.conservativeResize(column.size(), static_cast<Eigen::Index>(i) + 1);
-    candidate.signature.col(static_cast<Eigen::Index>(i)) = column;
-  }
-  return candidate;
+  const auto slope = [&](const std::function<EffectValue(double)>& at, double low, double high) {
+    const Eigen::VectorXd at_high = predict({at(high)}), at_low = predict({at(low)});
+    return Eigen::VectorXd((at_high - at_low) / (high - low));
+  };
+  return candidate_by_slopes(effect, std::string(effect.id), slope);
 }
 
 /// What all desks share of the twin's error: of each row, and of one region at all distances.

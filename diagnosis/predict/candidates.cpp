@@ -22,24 +22,11 @@ Candidate candidate_of(const Predictor& predictor, const Effect& effect, const s
   const auto touched = conditions_where(predictor, [&](const Factors& f) {
     return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
   });
-  Candidate candidate;
-  candidate.effect = name_of(EffectName{std::string(effect.id), liquid});
-  const std::size_t count = effect.parameters.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const EffectParameter& p = effect.parameters[i];
-    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper});
-    const auto at = [&](double x) {
-      std::vector<double> values;
-      for (const EffectParameter& parameter : effect.parameters) values.push_back(parameter.nominal);
-      values[i] = x;
-      return switch_on({{candidate.effect, values}});
-    };
-    const Eigen::VectorXd column =
-        slope(predictor, at, std::max(p.nominal - p.scale, p.lower), std::min(p.nominal + p.scale, p.upper), touched);
-    candidate.signature.conservativeResize(column.size(), static_cast<Eigen::Index>(i) + 1);
-    candidate.signature.col(static_cast<Eigen::Index>(i)) = column;
-  }
-  return candidate;
+  const auto slope_there = [&](const std::function<EffectValue(double)>& at, double low, double high) {
+    return slope(
+        predictor, [&](double x) { return switch_on({at(x)}); }, low, high, touched);
+  };
+  return candidate_by_slopes(effect, name_of(EffectName{std::string(effect.id), liquid}), slope_there);
 }
 
 std::vector<std::string> poured_liquids(const Predictor& predictor) {
@@ -68,6 +55,25 @@ std::vector<std::string> names_of(const Effect& effect, const std::vector<std::s
 }
 
 }  // namespace
+
+Candidate candidate_by_slopes(const Effect& effect, const std::string& name, const Slope& slope) {
+  Candidate candidate{.effect = name, .parameters = {}, .signature = {}};
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    const EffectParameter& p = effect.parameters[i];
+    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper});
+    const auto at = [&](double x) {
+      EffectValue value{name, {}};
+      for (const EffectParameter& parameter : effect.parameters) value.values.push_back(parameter.nominal);
+      value.values[i] = x;
+      return value;
+    };
+    const Eigen::VectorXd column =
+        slope(at, std::max(p.nominal - p.scale, p.lower), std::min(p.nominal + p.scale, p.upper));
+    candidate.signature.conservativeResize(column.size(), static_cast<Eigen::Index>(i) + 1);
+    candidate.signature.col(static_cast<Eigen::Index>(i)) = column;
+  }
+  return candidate;
+}
 
 Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only) {
   Candidates candidates;

@@ -11,6 +11,12 @@ struct Candidates {
   std::vector<std::string> not_sought;  ///< are no candidates at all
 };
 
+/// Change per unit of all observations between `at(low)` and `at(high)`.
+using Slope = std::function<Eigen::VectorXd(const std::function<EffectValue(double)>& at, double low, double high)>;
+
+/// The effect by the name `name`, its signature central differences over the prior scale, one-sided at a bound.
+Candidate candidate_by_slopes(const Effect& effect, const std::string& name, const Slope& slope);
+
 /// Every effect of the registry; those of liquids also for each liquid apart, as "id@liquid", where there are several.
 /// Or of those named the ones that move anything. Signatures are central differences over the prior scale, one-sided at
 /// a bound. Throws Error on an unknown name.
