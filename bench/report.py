@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""usage: bench/report.py FOLDER
-Prints the measurements of FOLDER/*.json: first a table of ours, what stands beside it, their ratio and the goal; then
+"""usage: bench/report.py FOLDER GROUP...
+Prints the measurements in FOLDER/GROUP.json: first a table of ours, what stands beside it, their ratio and the goal; then
 error against time, with pictures in FOLDER. Times are medians over the repetitions, of the whole process's processor
 time; "by wall" is the ratio of the times that passed. U is what Embree alone needs for ten million camera rays. RMSE of
 dots is relative to their own root mean square, after a scale of the whole image has been taken off."""
@@ -100,31 +100,31 @@ def report_detection(table):
 
 
 def report_memory(table, folder):
-    if (folder / "memory.json").exists():
-        memory = json.loads((folder / "memory.json").read_text())
-        table.add("fathom capture: peak memory [MB]", f"{memory['peak_mb']:.0f}", "", memory["peak_mb"], None, 600)
-        table.add("fathom capture: cpu (wall) s", f"{memory['cpu_s']:.1f} ({memory['wall_s']:.1f})")
+    memory = json.loads((folder / "memory.json").read_text())
+    table.add("fathom capture: peak memory [MB]", f"{memory['peak_mb']:.0f}", "", memory["peak_mb"], None, 600)
+    table.add("fathom capture: cpu (wall) s", f"{memory['cpu_s']:.1f} ({memory['wall_s']:.1f})")
 
 
 def report_diagnosis(table, folder):
-    if (folder / "diagnosis_cost.json").exists():
-        cost = json.loads((folder / "diagnosis_cost.json").read_text())
-        table.add("diagnose / measure, the paper's 35 conditions × 10", f"{cost['diagnose_s']:.1f} s",
-                  f"{cost['measure_s']:.1f} s", cost["diagnose_s"] / cost["measure_s"], None, 3.0)
+    cost = json.loads((folder / "diagnosis_cost.json").read_text())
+    table.add("diagnose / measure, the paper's 35 conditions × 10", f"{cost['diagnose_s']:.1f} s",
+              f"{cost['measure_s']:.1f} s", cost["diagnose_s"] / cost["measure_s"], None, 3.0)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    results = Path(sys.argv[1])
-    runs = Runs(results)
+    results, groups = Path(sys.argv[1]), sys.argv[2:]
+    runs = Runs(results, groups)
     everything = Table(runs)
     report_tracing(everything)
     report_light(everything)
     report_matching(everything)
     report_detection(everything)
-    report_memory(everything, results)
-    report_diagnosis(everything, results)
+    if "memory" in groups:
+        report_memory(everything, results)
+    if "diagnosis" in groups:
+        report_diagnosis(everything, results)
     if len(everything.rows) > 1:
         print(aligned(everything.rows))
     report_convergence(runs, results)

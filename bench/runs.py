@@ -5,10 +5,10 @@ from statistics import median
 UNIT_RAYS = 10e6  # camera rays in the unit of work U
 
 class Runs:
-    def __init__(self, folder):
+    def __init__(self, folder, groups):
         self.repetitions = {}  # of each benchmark
-        for file in sorted(folder.glob("*.json")):
-            for run in json.loads(file.read_text()).get("benchmarks", []):
+        for file in (folder / f"{group}.json" for group in groups):
+            for run in json.loads(file.read_text()).get("benchmarks", []) if file.exists() else []:
                 if run["run_type"] == "iteration":
                     name = run["run_name"].split("/process_time")[0].split("/iterations:")[0]
                     self.repetitions.setdefault(name, []).append(run)
