@@ -67,8 +67,9 @@ void compare_desks(CaptureMode mode) {
   std::vector<DeskWindow> measured, simulated;
   const std::vector<DeskImage> clouds = measured_desks();
   for (const DeskImage& image : clouds) append(measured, windows_of(sensor, image));
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
-    if (const auto image = with_desk("twin", in_colour_view(shoot(twin, seed, mode).depth, sensor.focal_px)))
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    if (const auto image =
+            with_desk("twin", registered_to_colour(shoot(twin, seed, mode).depth, sensor.focal_px, kColourFocalPx)))
       append(simulated, windows_of(sensor, *image));
   print_title("Bare desk: windows of 31 x 31 pixels, their plane of disparity removed (registered to colour)");
   if (clouds.empty()) print_note("skipped: no measured clouds (FATHOM_REAL_DATA); published figures instead");

@@ -90,8 +90,9 @@ void compare_pots(CaptureMode mode) {
         "inner_radius_mm": 82.5, "outer_radius_mm": 84.5, "albedo": 0.5}}, "position_mm": [{}, {}]}}])",
                                           kRight[scene] - 37.5, scene == 0 ? 554.0 : 548.0));
       setup.rig.sensor.unit.serial = unit;
-      const auto image = with_desk("twin", in_colour_view(shoot(setup, 1 + scene + kRight.size() * unit, mode).depth,
-                                                          setup.rig.sensor.focal_px));
+      const auto image =
+          with_desk("twin", registered_to_colour(shoot(setup, 1 + scene + kRight.size() * unit, mode).depth,
+                                                 setup.rig.sensor.focal_px, kColourFocalPx));
       if (!image) continue;
       floors.push_back(floor_of(*image, {0, 0}));
       print_floor(fmt::format("unit {}", unit), floors.back());

@@ -27,11 +27,11 @@ bool on_law(const SensorModel& sensor, float depth) {
 }  // namespace
 
 void compare_ranges(CaptureMode mode) {
-  print_title("Facing wall, no slope: axial sigma [mm], mean over four places within a step of disparity");
+  print_title("Facing wall, no slope: axial sigma [mm], mean over eight places within a step of disparity");
   constexpr std::array kDistances{0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0};
   double least_valid = 1.0, measured = 0.0, on_device_law = 0.0;
   for (const double distance : kDistances) {
-    constexpr int kPlaces = 4;
+    constexpr int kPlaces = 8;
     double variance = 0.0;
     int windows = 0;
     for (int place = 0; place < kPlaces; ++place) {

@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "sim/sensor/depth.h"
-#include "sim/sensor/device_outputs.h"
+#include "sim/sensor/registration.h"
 
 namespace fathom {
 
 Image<std::uint16_t> depth_pixels(const SensorModel& sensor, const Frame& frame, double unit, bool registered) {
   const Image<float> depth = depth_image(sensor, frame.disparity_px, unit);
-  return depth_in_units(registered ? registered_to_colour(sensor, depth) : depth, unit);
+  return depth_in_units(registered ? registered_to_colour(depth, sensor.focal_px, sensor.focal_px) : depth, unit);
 }
 
 int infrared_full_scale(const SensorModel& sensor) {

@@ -8,10 +8,10 @@
 #include "core/timed.h"
 #include "sim/effects/effects_json.h"
 #include "sim/render/intersect.h"
-#include "sim/sensor/colour_view.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
 #include "sim/sensor/reading.h"
+#include "sim/sensor/registration.h"
 #include "sim/sensor/speckle.h"
 
 namespace fathom {
@@ -68,7 +68,7 @@ void average(double width_px, Image<float>& disparity) {
 void move_to_colour_view(const SensorModel& sensor, Frame& shot) {
   SensorModel colour = sensor;
   colour.believed = Calibration{sensor.baseline, kColourFocalPx, sensor.principal_px};
-  shot.depth = in_colour_view(shot.depth, sensor.focal_px);
+  shot.depth = registered_to_colour(shot.depth, sensor.focal_px, kColourFocalPx);
   shot.cloud = cloud_of_depth(colour, shot.depth, Image<float>(shot.depth.width(), shot.depth.height()));
 }
 

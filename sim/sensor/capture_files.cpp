@@ -13,6 +13,7 @@
 #include "sim/sensor/depth.h"
 #include "sim/sensor/device_outputs.h"
 #include "sim/sensor/preview.h"
+#include "sim/sensor/registration.h"
 
 namespace fathom {
 namespace {
@@ -72,7 +73,8 @@ void write_device_outputs(const std::filesystem::path& folder, const SensorModel
   constexpr double kTenth = 0.1 * kMetresPerMm;
   write_png(folder / "depth_100um.png", depth_in_units(depth_image(sensor, frame.disparity_px, kTenth), kTenth));
   write_png(folder / "shift.png", shift_image(sensor, frame.disparity_px));
-  write_png(folder / "depth_registered.png", depth_in_units(registered_to_colour(sensor, frame.depth), kMetresPerMm));
+  write_png(folder / "depth_registered.png",
+            depth_in_units(registered_to_colour(frame.depth, sensor.focal_px, sensor.focal_px), kMetresPerMm));
 }
 
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth) {

@@ -1,8 +1,5 @@
 #include "sim/sensor/device_outputs.h"
 
-#include <cmath>
-
-#include "core/parallel.h"
 #include "sim/sensor/depth.h"
 
 namespace fathom {
@@ -18,22 +15,6 @@ Image<std::uint16_t> shift_image(const SensorModel& sensor, const Image<float>& 
     if (shift >= 0 && shift < kNoShift) shifts.pixels()[i] = static_cast<std::uint16_t>(shift);
   }
   return shifts;
-}
-
-Image<float> registered_to_colour(const SensorModel& sensor, const Image<float>& depth) {
-  Image<float> registered(depth.width(), depth.height());
-  parallel_ranges(depth.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < depth.width(); ++x) {
-        const float z = depth(x, y);
-        if (z <= 0.0f) continue;
-        const int moved = static_cast<int>(std::floor(x + 0.5 - sensor.focal_px * kColourCamera / z));
-        if (moved < 0 || moved >= depth.width()) continue;
-        float& there = registered(moved, y);
-        if (there == 0.0f || z < there) there = z;
-      }
-  });
-  return registered;
 }
 
 }  // namespace fathom

@@ -16,11 +16,4 @@ inline constexpr int kNoShift = 2047;  ///< nothing measured; also the first tha
 /// Raw shifts 0 … 2046 of disparities relative to infinity [px]; kNoShift where depth_image() has no depth.
 Image<std::uint16_t> shift_image(const SensorModel& sensor, const Image<float>& disparity_px);
 
-/// The colour camera stands beside the infrared camera, towards the projector, with the same axes.
-inline constexpr double kColourCamera = 0.025;  ///< [m]
-
-/// OpenNI2's depth-to-colour registration: each depth [m] moves to where the colour camera, of the depth image's
-/// intrinsics, sees its point; the nearest wins, and what no point meets is a hole, 0.
-Image<float> registered_to_colour(const SensorModel& sensor, const Image<float>& depth);
-
 }  // namespace fathom

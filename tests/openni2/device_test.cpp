@@ -10,6 +10,7 @@
 #include "sim/sensor/depth.h"
 #include "sim/sensor/device_outputs.h"
 #include "sim/sensor/read_capture.h"
+#include "sim/sensor/registration.h"
 #include "tests/core/expect_error.h"
 #include "tests/openni2/client.h"
 
@@ -210,7 +211,8 @@ TEST_F(Device, RegistersDepthToWhereAColourCameraStands) {
   ASSERT_EQ(client.stream.start(), STATUS_OK);
   const RecordedCapture recorded = read_capture(captured().frames);
   const Image<float> depth = depth_image(recorded.sensor, read_frame(recorded, 0, false).disparity_px);
-  EXPECT_EQ(client.read().pixels, in_units(registered_to_colour(recorded.sensor, depth), 1e-3));
+  EXPECT_EQ(client.read().pixels,
+            in_units(registered_to_colour(depth, recorded.sensor.focal_px, recorded.sensor.focal_px), 1e-3));
 }
 
 TEST_F(Device, MirrorsAndCrops) {
