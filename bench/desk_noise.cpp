@@ -67,6 +67,7 @@ std::vector<DeskWindow> desk_windows(const SensorModel& sensor, const Image<floa
       if (!desk) continue;
       const Codes rest = without_plane(inside);
       DeskWindow window;
+      window.left = left, window.top = top;
       window.depth = depth(left + kNoiseWindow / 2, top + kNoiseWindow / 2);
       window.height = height_sum / (kNoiseWindow * kNoiseWindow);
       window.sigma_steps = std::sqrt(rest.squaredNorm() / (kNoiseWindow * kNoiseWindow - 3));

@@ -18,6 +18,7 @@ inline constexpr std::array kLagsY{1, 2, 4};
 
 /// One window of desk, its own plane of codes removed.
 struct DeskWindow {
+  int left, top;                                   ///< its first pixel
   double depth;                                    ///< [m] in the middle
   double sigma_steps;                              ///< standard deviation about the plane
   double height;                                   ///< [m] of its middle above the desk's plane, towards the sensor

@@ -62,6 +62,22 @@ std::optional<double> shadow_share(const Image<float>& depth) {
   return left_mm / (left_mm + right_mm);
 }
 
+/// Of the heights of windows side by side within a band [m]: root mean square of what they differ by, over √2, so that
+/// it is their deviation where nothing is shared; nothing of fewer than five pairs.
+std::optional<double> rough_bias(const std::vector<DeskWindow>& windows, double from, double to) {
+  const auto is_in = [&](const DeskWindow& window) { return window.depth >= from && window.depth < to; };
+  double squares = 0.0;
+  int pairs = 0;
+  for (std::size_t i = 1; i < windows.size(); ++i) {
+    const DeskWindow &left = windows[i - 1], &right = windows[i];
+    if (!is_in(left) || !is_in(right) || left.top != right.top || left.left + kNoiseWindow != right.left) continue;
+    squares += 0.5 * std::pow(right.height - left.height, 2.0);
+    ++pairs;
+  }
+  if (pairs < kFewestWindows) return std::nullopt;
+  return std::sqrt(squares / pairs);
+}
+
 }  // namespace
 
 std::vector<DeskRow> desk_rows(const SensorModel& sensor, const DeskImage& image) {
@@ -82,6 +98,8 @@ std::vector<DeskRow> desk_rows(const SensorModel& sensor, const DeskImage& image
     for (std::size_t i = 0; i < kLagsY.size(); ++i)
       rows.push_back({"correlation", fmt::format("y {}", kLagsY[i]), middle_mm, noise.correlation_y[i]});
     rows.push_back({"slow_bias_mm", "desk", middle_mm, mm_from_metres(std::sqrt(squares / noise.windows))});
+    if (const auto rough = rough_bias(windows, from, to))
+      rows.push_back({"rough_bias_mm", "desk", middle_mm, mm_from_metres(*rough)});
     rows.push_back({"comb_strength", "desk", middle_mm, comb.steps});
     rows.push_back({"millimetre_comb", "desk", middle_mm, comb.millimetres});
   }

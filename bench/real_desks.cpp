@@ -18,14 +18,17 @@ namespace {
 /// Which may be mistaken for them.
 constexpr const char* kRivals[] = {"disparity_offset", "radial_distortion"};
 
-/// What a model of the device's noise by statistics is known to be off by (scripts/bench accuracy), 1 σ. A unit's bias
-/// of place is one draw of a field, of which a band of distance holds a dozen patches; shadows are of other things.
+/// What a model of the device's noise by statistics is known to be off by (scripts/bench accuracy), 1 σ; shadows are of
+/// other things. A unit's bias of place is one draw of a field: units differ (unit_spread).
 struct TwinError {
   const char* observable;
   double sigma;
 };
-constexpr TwinError kTwinErrors[] = {{"sigma_steps", 0.07},   {"correlation", 0.06},     {"slow_bias_mm", 0.5},
-                                     {"comb_strength", 0.10}, {"millimetre_comb", 0.02}, {"shadow_share", 0.08}};
+constexpr TwinError kTwinErrors[] = {{"sigma_steps", 0.07},
+                                     {"correlation", 0.06},
+                                     {"comb_strength", 0.10},
+                                     {"millimetre_comb", 0.02},
+                                     {"shadow_share", 0.08}};
 
 /// The Kinect over such a desk, with things that throw shadows.
 Setup whole_twin() {
@@ -49,13 +52,31 @@ Setup twin_without(const std::string& effect) {
 
 using RowKey = std::tuple<std::string, std::string, double>;
 std::map<RowKey, double> rows_of(const Setup& setup) {
-  constexpr std::uint64_t kSeed = 1;  // the same noise for all effects
+  constexpr std::uint64_t kSeed = 1;  // the same noise for all effects and units
   std::map<RowKey, double> values;
   const auto image = with_desk("twin", shoot(setup, kSeed, CaptureMode::geometric).depth);
   if (!image) return values;
   for (const DeskRow& row : desk_rows(setup.rig.sensor, *image))
     values[{row.observable, row.region, row.distance_mm}] = row.value;
   return values;
+}
+
+/// 1 σ of each row of bias, unit to unit.
+std::map<RowKey, double> unit_spread() {
+  constexpr int kUnits = 8;
+  std::map<RowKey, std::vector<double>> values;
+  for (int serial = 1; serial <= kUnits; ++serial) {
+    Setup twin = whole_twin();
+    twin.rig.sensor.unit.serial = static_cast<std::uint64_t>(serial);
+    for (const auto& [key, value] : rows_of(twin))
+      if (std::get<0>(key).ends_with("bias_mm")) values[key].push_back(value);
+  }
+  std::map<RowKey, double> spread;
+  for (const auto& [key, all] : values) {
+    const Eigen::Map<const Eigen::ArrayXd> units(all.data(), static_cast<Eigen::Index>(all.size()));
+    if (units.size() > 1) spread[key] = std::sqrt((units - units.mean()).square().sum() / (units.size() - 1.0));
+  }
+  return spread;
 }
 
 /// Rows of the observations as the twin has them; each set of effects is shot once.
@@ -97,9 +118,18 @@ Candidate candidate_of(const Effect& effect, TwinPredictor& predict) {
   return candidate_by_slopes(effect, std::string(effect.id), slope);
 }
 
+RowKey key_of(const Observation& o) { return {o.observable, o.factors.region, o.factors.distance_mm}; }
+
 /// What all desks share of the twin's error: of each row, and of one region at all distances.
 std::vector<Nuisance> twin_errors(const std::vector<Observation>& observations) {
   std::vector<Nuisance> nuisances;
+  for (const auto& [key, sigma] : unit_spread()) {
+    Eigen::VectorXd row(static_cast<Eigen::Index>(observations.size()));
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      row[static_cast<Eigen::Index>(i)] = key_of(observations[i]) == key;
+    nuisances.push_back({std::get<0>(key) + " of the unit at " + std::to_string(std::lround(std::get<2>(key))) + " mm",
+                         sigma, std::move(row)});
+  }
   for (const TwinError& error : kTwinErrors)
     for (const bool at_all_distances : {true, false}) {
       std::map<std::pair<std::string, double>, Eigen::VectorXd> groups;
@@ -156,8 +186,7 @@ std::optional<DeskDiagnosis> diagnose_desks(const std::string& without) {
   Evidence evidence;
   evidence.observations = measured_rows(twin.rig.sensor, desks, rows_of(twin));
   std::vector<RowKey> keys;
-  for (const Observation& o : evidence.observations)
-    keys.emplace_back(o.observable, o.factors.region, o.factors.distance_mm);
+  for (const Observation& o : evidence.observations) keys.push_back(key_of(o));
   const auto predict = std::make_shared<TwinPredictor>(twin, keys);
   evidence.predicted = (*predict)({});
   evidence.numerical_sd = Eigen::VectorXd::Constant(evidence.predicted.size(), 0.01);

@@ -12,6 +12,7 @@ namespace {
 constexpr int kSteps = 6;
 constexpr double kEnough = 1e-3;      // of the squared norm, in units of its error: nothing that a test would see
 constexpr double kDifference = 0.02;  // of a typical departure
+constexpr double kNoAnswer = 1e-6;    // errors per typical departure: rounding
 
 /// The model with some effects on, in whitened units.
 class Model {
@@ -32,7 +33,8 @@ class Model {
     return covariance_.whiten(predict_(values) - evidence_.predicted);
   }
 
-  /// One-sided towards the inside of the bounds.
+  /// One-sided towards the inside of the bounds. What is on or off, or goes in steps, answers to no small difference:
+  /// its slope is the chord from where it is absent.
   Eigen::MatrixXd differences(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
                               const Eigen::VectorXd& upper) {
     Eigen::MatrixXd jacobian(change_at.size(), at.size());
@@ -41,6 +43,9 @@ class Model {
       const double step = at[k] + kDifference <= upper[k] ? kDifference : -kDifference;
       moved[k] += step;
       jacobian.col(k) = (change(moved) - change_at) / step;
+      if (jacobian.col(k).norm() > kNoAnswer || at[k] == 0.0) continue;
+      moved[k] = 0.0;
+      jacobian.col(k) = (change_at - change(moved)) / at[k];
     }
     return jacobian;
   }
