@@ -99,7 +99,7 @@ std::string confusable_html(const Diagnosis& diagnosis) {
 std::string next_html(const Diagnosis& diagnosis) {
   Rows rows;
   for (const NextMeasurement& next : diagnosis.next)
-    rows.push_back({set_words(next.separates[0]), set_words(next.separates[1]),
+    rows.push_back({effects_words(next.separates[0]), effects_words(next.separates[1]),
                     next.settles() ? next.measurement : "none of these will settle it; the best is " + next.measurement,
                     fmt::format("{:.1f} σ", next.sigma), fmt::format("{:.0f} min", next.cost)});
   return html_table({"to tell", "from", "measure", "by", "for"}, rows);

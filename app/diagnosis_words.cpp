@@ -66,20 +66,9 @@ std::string named_sentence(const Diagnosis& diagnosis) {
   return text + fmt::format("leaves {} of the heights' differences. ", gap_words(diagnosis.train));
 }
 
-/// Of "foam+surface_tilt".
-std::vector<std::string> names_in(const std::string& set) {
-  std::vector<std::string> names;
-  for (std::size_t at = 0; at <= set.size();) {
-    const std::size_t plus = std::min(set.find('+', at), set.size());
-    names.push_back(set.substr(at, plus - at));
-    at = plus + 1;
-  }
-  return names;
-}
-
 /// "foam from surface tilt"
 std::string pair_words(const NextMeasurement& next) {
-  return fmt::format("{} from {}", set_words(next.separates[0]), set_words(next.separates[1]));
+  return fmt::format("{} from {}", effects_words(next.separates[0]), effects_words(next.separates[1]));
 }
 
 std::string next_sentences(const std::vector<NextMeasurement>& all) {
@@ -88,8 +77,8 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
   for (const NextMeasurement& next : all) {
     if (!next.settles()) {
       open.push_back(pair_words(next));
-      for (const std::string& set : next.separates)
-        for (const std::string& name : names_in(set))
+      for (const std::vector<std::string>& set : next.separates)
+        for (const std::string& name : set)
           if (std::find(unsettled.begin(), unsettled.end(), name) == unsettled.end()) unsettled.push_back(name);
       continue;
     }
@@ -161,8 +150,6 @@ std::string effect_words(const std::string& name) {
   const EffectName effect = effect_name(name);
   return spaced(effect.id) + (effect.liquid.empty() ? "" : " of " + spaced(effect.liquid));
 }
-
-std::string set_words(const std::string& set) { return set == "none" ? "nothing" : effects_words(names_in(set)); }
 
 std::string effects_words(const std::vector<std::string>& effects) {
   if (effects.empty()) return "nothing";

@@ -10,7 +10,6 @@ namespace fathom {
 
 std::string effect_words(const std::string& name);           ///< "subsurface scattering of milk tea"
 std::string effects_words(const std::vector<std::string>&);  ///< "foam and surface tilt", "nothing"
-std::string set_words(const std::string& set);               ///< of "foam+surface_tilt", as `separates` has them
 std::string stratum_words(const GapLocation& where);         ///< "height of milk tea at 400 mm"
 /// As people know them: where a parameter's inverse has a name, that.
 std::vector<NamedParameter> shown_parameters(const NamedEffect& effect);

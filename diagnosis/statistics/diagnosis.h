@@ -73,9 +73,9 @@ struct NearNullDirection {
 
 struct NextMeasurement {
   std::string measurement;
-  std::vector<std::string> separates;
-  double sigma = 0.0;  ///< by which it would tell them apart
-  double cost = 1.0;   ///< minutes
+  std::vector<std::vector<std::string>> separates;  ///< two sets of effects; one of none is the model as it is
+  double sigma = 0.0;                               ///< by which it would tell them apart
+  double cost = 1.0;                                ///< minutes
   bool settles() const { return sigma >= 3.0; }
 };
 

@@ -85,9 +85,18 @@ Json json_from(const NearNullDirection& direction) {
   return {{"effects", direction.effects}, {"weights", direction.weights}, {"strength", direction.strength}};
 }
 
+/// "foam+surface_tilt", as entries of `next` name a set.
+std::string joined(const std::vector<std::string>& effects) {
+  std::string names;
+  for (const std::string& effect : effects) names += (names.empty() ? "" : "+") + effect;
+  return names.empty() ? "none" : names;
+}
+
 Json json_from(const NextMeasurement& next) {
+  Json separates = Json::array();
+  for (const std::vector<std::string>& effects : next.separates) separates.push_back(joined(effects));
   return {{"measurement", next.measurement},
-          {"separates", next.separates},
+          {"separates", separates},
           {"sigma", next.sigma},
           {"minutes", next.cost},
           {"settles", next.settles()}};

@@ -169,10 +169,10 @@ double t_criterion(const Together& together, const Option& first, const Option& 
   return std::min(first_true, second_true);
 }
 
-std::string words(const Evidence& evidence, const Option& option) {
-  std::string result;
-  for (const int effect : option.effects) result += (result.empty() ? "" : "+") + evidence.candidates[effect].effect;
-  return result.empty() ? "none" : result;
+std::vector<std::string> names(const Evidence& evidence, const Option& option) {
+  std::vector<std::string> result;
+  for (const int effect : option.effects) result.push_back(evidence.candidates[effect].effect);
+  return result;
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
       std::vector<NextMeasurement> each;
       for (std::size_t d = 0; d < possible.size(); ++d)
         each.push_back({possible[d].name,
-                        {words(evidence, options[i]), words(evidence, options[j])},
+                        {names(evidence, options[i]), names(evidence, options[j])},
                         t_criterion(together[d], options[i], options[j]),
                         possible[d].cost});
       const auto best =
