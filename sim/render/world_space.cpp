@@ -23,8 +23,12 @@ WorldSpace::Boundary WorldSpace::next_boundary(const Walker& walker, double reac
   const double rise = *body->level - walker.position.z();
   const double to_level =
       walker.direction.z() > 0.0 ? std::max(rise, 0.0) / walker.direction.z() : std::numeric_limits<double>::infinity();
-  if (body->vessel && std::min(reach, to_level) < body->vessel->clearance(walker.position))
-    return {to_level, std::nullopt, true};
+  if (body->vessel) {
+    const double clearance = body->vessel->clearance(walker.position);
+    // So far from any wall is outside: who slipped through where two triangles meet would walk there for ever.
+    if (clearance > 2.0 * body->vessel->profile.back().x()) return {0.0, std::nullopt, false};
+    if (std::min(reach, to_level) < clearance) return {to_level, std::nullopt, true};
+  }
   std::optional<Hit> hit = world_.first_opaque(ray);
   if (hit && hit->distance < to_level) return {hit->distance, hit, false};
   return std::isfinite(to_level) ? Boundary{to_level, std::nullopt, true} : Boundary{0.0, std::nullopt, false};
