@@ -155,7 +155,8 @@ int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& set
   if (missing.empty()) return 0;
   const std::uint64_t seed = placement.filling ? Rng(common.seed, Draw::camera, placement.number).bits()
                                                : Rng(common.seed, Draw::camera, placement.session, -1).bits();
-  Camera camera(setup, spec.mode, options.spp, seed);
+  const Setup shot = with_effects(setup);
+  Camera camera(shot, spec.mode, options.spp, seed, measured_light(shot));
   for (const int trial : missing)
     write_pcd(common.output / cloud_file(placement, trial), camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
   return static_cast<int>(missing.size());

@@ -76,6 +76,18 @@ Eigen::Vector2d pixel_centre(int number, int width) { return {number % width + 0
 
 }  // namespace
 
+LightModel measured_light(const Setup& setup) {
+  // [1/m] of reduced scattering: from less than 0.05 mm deep light comes as from a surface, and walks there for ever.
+  constexpr double kSurface = 2e4;
+  bool is_let_in = setup.light.any();
+  for (const Cup& cup : setup.scene.cups) {
+    if (!cup.filling || !cup.filling->medium.scatters()) continue;
+    if (cup.filling->medium.reduced_scattering() >= kSurface) return LightModel::direct;
+    is_let_in = true;
+  }
+  return is_let_in ? LightModel::full : LightModel::direct;
+}
+
 Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed, LightModel light)
     : setup_(with_effects(setup)), mode_(mode), seed_(seed) {
   const SensorModel& sensor = setup_.rig.sensor;
@@ -91,7 +103,7 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
     residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);
     return;
   }
-  if (setup_.light.any()) light = LightModel::full;
+  if (setup_.light.any() && measured_light(setup_) == LightModel::full) light = LightModel::full;
 
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);

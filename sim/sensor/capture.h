@@ -22,6 +22,11 @@ enum class CaptureMode {
   photometric  ///< infrared image → matching → depth
 };
 
+/// The light that a measurement's images are made of: all of it where a liquid lets it in before it scatters it back or
+/// an effect is about it, else direct light, which carries no noise of its own. Where a liquid sends it back from less
+/// than 0.05 mm below its surface it is direct, too: walks in there would hardly end. Effects are switched on already.
+LightModel measured_light(const Setup& setup);
+
 struct Frame {
   Image<float> ir;            ///< [DN] ir_width × ir_height; empty in geometric mode
   Image<float> disparity_px;  ///< f b / Z, 0 = invalid
