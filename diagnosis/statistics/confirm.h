@@ -7,15 +7,9 @@
 
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/linear_fit.h"
 
 namespace fathom {
-
-/// Observations linearised at the fit, not whitened: residual ≈ jacobian · parameters + errors.
-struct LinearFit {
-  Eigen::VectorXd residual;
-  Eigen::MatrixXd jacobian;                        ///< per prior scale
-  std::vector<std::vector<Eigen::Index>> columns;  ///< of each effect
-};
 
 struct Confirmation {
   double p = 1.0;          ///< one-sided: the effect has the same sign and shape where it was not fitted

@@ -54,12 +54,6 @@ struct Case {
   MaximumTail discovery, scan;
 };
 
-Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
-  Eigen::VectorXd residual = -evidence.predicted;
-  for (Eigen::Index i = 0; i < residual.size(); ++i) residual[i] += evidence.observations[i].value;
-  return residual;
-}
-
 Case prepare(const Evidence& evidence, const Predict& predict, const DecisionSettings& settings) {
   Case c{evidence, predict, settings, estimate_covariance(evidence, measured_minus_predicted(evidence)), {}, {}, {},
          {},       {},      {}};
@@ -137,19 +131,6 @@ std::vector<Option> options_of(const Case& c, const std::vector<Refit>& fits) {
   return options;
 }
 
-LinearFit linear_fit(const Case& c, const Refit& fit) {
-  const auto unwhitened = [&](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(c.covariance.factor.matrixL() * x); };
-  LinearFit linear;
-  linear.jacobian = unwhitened(fit.jacobian);
-  linear.residual = unwhitened(c.problem.residual - fit.prediction + fit.jacobian * fit.hypothesis.parameters);
-  Eigen::Index first = 0;
-  for (const int effect : fit.hypothesis.effects) {
-    linear.columns.emplace_back();
-    for (std::size_t k = 0; k < c.problem.columns[effect].size(); ++k) linear.columns.back().push_back(first++);
-  }
-  return linear;
-}
-
 /// Whether some main stratum becomes significantly worse, by more than its u_val.
 bool worsens(const Case& c, const Refit& fit) {
   for (std::size_t k = 0; k < c.shapes.strata.size(); ++k) {
@@ -181,8 +162,8 @@ std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit
   for (const EffectSize& size : sizes) dof.push_back(size.dof);
   const Eigen::MatrixXd draws =
       c.covariance.factor.matrixL() * c.draws.leftCols(std::min<Eigen::Index>(kConfirmationDraws, c.draws.cols()));
-  const std::vector<Confirmation> confirmations =
-      confirm(c.evidence.observations, c.covariance, linear_fit(c, fit), draws, dof, c.settings.seed);
+  const std::vector<Confirmation> confirmations = confirm(
+      c.evidence.observations, c.covariance, linear_fit(c.covariance, c.problem, fit), draws, dof, c.settings.seed);
   for (std::size_t e = 0; e < sizes.size(); ++e) {
     const Confirmation& confirmation = confirmations[e];
     effects[e].p_confirmation = confirmation.p;
@@ -277,8 +258,8 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
     if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
   if (heights.empty()) return;
-  const HeldOut other =
-      held_out(c.covariance, linear_fit(c, fit), deal_folds(c.evidence.observations, c.settings.seed));
+  const HeldOut other = held_out(c.covariance, linear_fit(c.covariance, c.problem, fit),
+                                 deal_folds(c.evidence.observations, c.settings.seed));
   const auto train = [&](const std::vector<Eigen::Index>& rows) {
     return GapSize{rms(before(rows)), rms(after(rows)), std::sqrt(errors(rows).mean())};
   };

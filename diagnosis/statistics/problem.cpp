@@ -11,13 +11,17 @@ namespace {
 constexpr double kExpectedEffects = 0.5;
 }
 
+Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
+  Eigen::VectorXd residual = -evidence.predicted;
+  for (Eigen::Index i = 0; i < residual.size(); ++i) residual[i] += evidence.observations[i].value;
+  return residual;
+}
+
 Problem whitened_problem(const Evidence& evidence, const Covariance& covariance) {
-  Eigen::VectorXd measured(static_cast<Eigen::Index>(evidence.observations.size()));
-  for (Eigen::Index i = 0; i < measured.size(); ++i) measured[i] = evidence.observations[i].value;
   Eigen::Index parameters = 0;
   for (const Candidate& candidate : evidence.candidates) parameters += candidate.signature.cols();
   Problem problem;
-  Eigen::MatrixXd signatures(measured.size(), parameters);
+  Eigen::MatrixXd signatures(evidence.predicted.size(), parameters);
   problem.lower.resize(parameters);
   problem.upper.resize(parameters);
   Eigen::Index column = 0;
@@ -33,7 +37,7 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
       problem.columns.back().push_back(column++);
     }
   }
-  problem.residual = covariance.whiten(measured - evidence.predicted);
+  problem.residual = covariance.whiten(measured_minus_predicted(evidence));
   problem.signatures = covariance.whiten(signatures);
   return problem;
 }

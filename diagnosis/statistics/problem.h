@@ -17,6 +17,8 @@ struct Problem {
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each candidate
 };
 
+Eigen::VectorXd measured_minus_predicted(const Evidence& evidence);
+
 Problem whitened_problem(const Evidence& evidence, const Covariance& covariance);
 
 /// The columns of several candidates, in their order.
