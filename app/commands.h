@@ -51,7 +51,8 @@ inline constexpr std::array kCommands{
     Command{"diagnose",
             "Finds where model and measurement disagree, names the effect that explains it, and what is left",
             "  fathom diagnose out/paper -o out/diagnosis\n"
-            "  fathom diagnose out/paper --model out/diagnosis/model.json -o out/rest",
+            "  fathom diagnose out/paper --model out/diagnosis/model.json -o out/rest\n"
+            "  fathom diagnose out/paper --fidelity photometric -o out/traced",
             define_diagnose},
     Command{"reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
             "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce fig5 fig14 --trials 10 -o "

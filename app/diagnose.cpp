@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/diagnosis_report.h"
 #include "app/diagnosis_words.h"
 #include "app/gnuplot.h"
 #include "app/next_campaign.h"
+#include "app/ray_traced_report.h"
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/rows.h"
@@ -33,6 +35,7 @@ struct DiagnoseOptions {
   std::vector<fs::path> folders;
   fs::path model;
   std::vector<std::string> without;
+  std::string fidelity = "geometric";
 };
 
 /// The effects that the model had, then those that were named: the same list as a scene's. `had` is an earlier
@@ -67,8 +70,8 @@ Json model_json(const Json& had, const Diagnosis& diagnosis, const Json& provena
 void add_inverses(const Diagnosis& diagnosis, Json& report) {
   for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
     for (const NamedParameter& parameter : shown_parameters(diagnosis.effects[i]))
-      report["effects"][i]["parameters"][parameter.name] = {{"value", parameter.value},
-                                                            {"ci95", {parameter.low95, parameter.high95}}};
+      report["effects"][diagnosis.mistakes.size() + i]["parameters"][parameter.name] = {
+          {"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
 }
 
 std::string rows_text(const Diagnosis& diagnosis, const fs::path& output, bool as_json) {
@@ -123,8 +126,17 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   DiagnosedCampaign campaign{.name = fmt::format("{}", fmt::join(names, " and ")),
                              .observations = physics.evidence.observations,
                              .notes = measurement.notes,
-                             .diagnosis = decide(physics.evidence, physics.predict, designs, settings)};
+                             .diagnosis = decide(physics.evidence, physics.predict, designs, settings),
+                             .ray_traced_html = {}};
   progress.step();
+  std::optional<RayTracedDiagnosis> traced;
+  const Diagnosis by_few_rays = campaign.diagnosis;
+  if (options.fidelity == "photometric" && by_few_rays.verdict != Verdict::insufficient) {
+    traced = ray_traced_diagnosis(physics, by_few_rays, designs, settings, common.quiet);
+    campaign.observations = traced->observations;
+    campaign.diagnosis = traced->diagnosis;
+    campaign.ray_traced_html = ray_traced_html(*traced, by_few_rays);
+  }
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
   if (!physics.not_sought.empty())
@@ -133,12 +145,14 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                            {"measurement", campaign.name},
                            {"model", options.model.string()},
                            {"without", options.without},
+                           {"fidelity", options.fidelity},
                            {"seed", common.seed},
                            {"frames", measurement.frames.size()},
                            {"observations", campaign.observations.size()}};
   make_directory(common.output);
   Json report = json_from(campaign.diagnosis);
   add_inverses(campaign.diagnosis, report);
+  if (traced) add_ray_traced(*traced, by_few_rays, report);
   report["answer"] = answer(campaign.diagnosis);
   report["notes"] = campaign.notes;
   report["provenance"] = provenance;
@@ -165,6 +179,11 @@ std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common
       ->delimiter(',')
       ->check(CLI::IsMember(effect_ids()))
       ->type_name("EFFECT");
+  app.add_option("--fidelity", options->fidelity,
+                 "What predicts: geometric (some hundred rays a condition), or after that photometric (whole simulated "
+                 "images of what is left, minutes)")
+      ->check(CLI::IsMember({"geometric", "photometric"}))
+      ->capture_default_str();
   return [options, &common] {
     require_output(common);
     run_diagnose(*options, common);

@@ -106,6 +106,7 @@ std::string next_html(const Diagnosis& diagnosis) {
 }
 
 std::string budget_html(const Diagnosis& diagnosis) {
+  const bool is_traced = !diagnosis.budget.empty() && diagnosis.budget.front().surrogate_difference;
   Rows rows;
   for (const ConditionBudget& line : diagnosis.budget)
     rows.push_back({line.condition, line.observable, fmt::format("{:+.3f}", line.comparison_error),
@@ -113,8 +114,9 @@ std::string budget_html(const Diagnosis& diagnosis) {
                     fmt::format("{:.3f}", line.u_numerical), fmt::format("{:.3f}", line.u_validation)});
   return fmt::format(
       "<details><summary>{} conditions (ASME V&amp;V 20: E = measured − model, its uncertainty u_val of "
-      "data, inputs and numerics)</summary>{}</details>\n",
-      rows.size(), html_table({"condition", "observable", "E", "u_D", "u_input", "u_num", "u_val"}, rows, true));
+      "data, inputs and numerics{})</summary>{}</details>\n",
+      rows.size(), is_traced ? "; u_num is by how much few rays differ from ray tracing" : "",
+      html_table({"condition", "observable", "E", "u_D", "u_input", "u_num", "u_val"}, rows, true));
 }
 
 }  // namespace
@@ -135,6 +137,7 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
   html += heading("Before and after");
   if (draw_heights(folder, campaign)) html += html_picture(folder / "heights.png", "Heights: measured minus model");
   html += gap_html(diagnosis);
+  if (!campaign.ray_traced_html.empty()) html += heading("Few rays and ray tracing") + campaign.ray_traced_html;
   html += heading("What else it could be") + rivals_html(diagnosis) + confusable_html(diagnosis);
   html += heading("What could still hide") + limits_html(diagnosis);
   if (!diagnosis.next.empty()) html += heading("What to measure next") + next_html(diagnosis);

@@ -16,6 +16,7 @@ struct DiagnosedCampaign {
   std::vector<Observation> observations;
   std::vector<std::string> notes;  ///< what limits the measurement or the model of it, one sentence each
   Diagnosis diagnosis;
+  std::string ray_traced_html;  ///< what ray tracing says of it; empty: few rays predicted all
 };
 
 /// Writes residuals.csv, heights.png, map.png (and their .gp and .svg) and report.html, which holds the pictures.

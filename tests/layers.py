@@ -21,6 +21,7 @@ LAYERS = {
     "diagnosis/statistics": ["core"],
     "diagnosis/measurement": ["core", "detector", "diagnosis/statistics"],
     "diagnosis/predict": ["core", "sim/*", "theory", "diagnosis/statistics", "diagnosis/measurement"],
+    "diagnosis/ray_traced": ["core", "sim/*", "diagnosis/statistics", "diagnosis/measurement", "diagnosis/predict"],
     "examples": ["core", "detector", "sim/*"],
     "app": EVERYTHING,
     "bench": EVERYTHING,

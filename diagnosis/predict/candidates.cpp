@@ -19,9 +19,7 @@ constexpr std::array<std::string_view, 2> kNotSought{"unit_error", "label_swap"}
 constexpr std::string_view kAllowedFor = "window_averaging";
 
 Candidate candidate_of(const Predictor& predictor, const Effect& effect, const std::string& liquid) {
-  const auto touched = conditions_where(predictor, [&](const Factors& f) {
-    return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
-  });
+  const std::vector<std::size_t> touched = conditions_touched(predictor, effect, liquid);
   const auto slope_there = [&](const std::function<EffectValue(double)>& at, double low, double high) {
     return slope(
         predictor, [&](double x) { return switch_on({at(x)}); }, low, high, touched);

@@ -41,6 +41,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.candidates = std::move(candidates.all);
   physics.unseen = std::move(candidates.unseen);
   physics.not_sought = std::move(candidates.not_sought);
+  physics.predictor = predictor;
   physics.predict = [predictor, nominal = evidence.predicted](const std::vector<EffectValue>& effects) {
     Eigen::VectorXd values = predictor->predict(switch_on(effects));
     for (Eigen::Index row = 0; row < values.size(); ++row)

@@ -1,15 +1,18 @@
 // The physical half of a diagnosis: the evidence of a measurement, and predictions for any effects.
 #pragma once
 
+#include <memory>
+
 #include "diagnosis/predict/predictor.h"
 
 namespace fathom {
 
 struct Physics {
   Evidence evidence;
-  Predict predict;                      ///< for the rows of the evidence; deterministic, on all threads
-  std::vector<std::string> unseen;      ///< effects of the registry that move no row
-  std::vector<std::string> not_sought;  ///< those that are no candidates
+  Predict predict;                             ///< for the rows of the evidence; deterministic, on all threads
+  std::shared_ptr<const Predictor> predictor;  ///< of these rows
+  std::vector<std::string> unseen;             ///< effects of the registry that move no row
+  std::vector<std::string> not_sought;         ///< those that are no candidates
 };
 
 /// Rows: of the observations those that direct light predicts (predictable.h), without regions of the cup in or near

@@ -19,11 +19,6 @@ namespace {
 
 using ConditionKey = std::tuple<int, int, int, std::string, double, double, double>;
 
-std::optional<Eigen::Vector2d> place_of(const Factors& factors) {
-  if (factors.liquid == "none") return std::nullopt;
-  return Eigen::Vector2d(metres_from_mm(factors.lateral_mm), metres_from_mm(factors.distance_mm));
-}
-
 std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector<Observation>& observations) {
   std::map<ConditionKey, Condition> found;
   for (std::size_t row = 0; row < observations.size(); ++row) {
@@ -86,11 +81,13 @@ Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& o
   }
 }
 
-Setup Predictor::nominal_setup(const Condition& condition) const {
+Setup Predictor::setup(const Condition& condition, const Change& change) const {
   Setup setup = setup_of(model_, condition.factors);
   setup.effects = model_effects_;
   setup.file = file_;
-  return with_effects(std::move(setup));
+  setup = with_effects(std::move(setup));
+  if (change.apply) change.apply(setup);
+  return setup;
 }
 
 std::vector<bool> Predictor::near_shadows() const {
@@ -100,7 +97,7 @@ std::vector<bool> Predictor::near_shadows() const {
     const std::optional<Eigen::Vector2d> place = place_of(condition.factors);
     if (!place) continue;
     const std::array<double, 5> shares =
-        shares_near_shadows(nominal_setup(condition), model_.laboratory, *place, condition.pixels);
+        shares_near_shadows(setup(condition), model_.laboratory, *place, condition.pixels);
     for (const std::size_t row : condition.rows)
       for (std::size_t i = 0; i < shares.size(); ++i)
         if (observables_[row] == "height_mm" && regions_[row] == kCupRegionNames[i] && shares[i] > kTooMuch)
@@ -128,12 +125,12 @@ void Predictor::keep(const std::vector<bool>& kept) {
   number_equals(conditions_);
 }
 
-std::optional<Predictor::Foreseen> Predictor::foresee(const Condition& condition, const Change& change) const {
-  Setup setup = nominal_setup(condition);
-  if (change.apply) change.apply(setup);
-  auto estimates = surrogate_frame(setup, model_.laboratory, place_of(condition.factors), condition.pixels);
+std::optional<Predictor::Foreseen> Predictor::foresee(const Look& look, const Condition& condition,
+                                                      const Change& change) const {
+  const Setup shot = setup(condition, change);
+  auto estimates = look(shot, condition);
   if (!estimates) return std::nullopt;
-  const double wander = wander_mm(setup.rig.sensor, estimates->desk);
+  const double wander = wander_mm(shot.rig.sensor, estimates->desk);
   return Foreseen{std::move(*estimates), wander};
 }
 
@@ -156,19 +153,38 @@ void Predictor::set_rows(const Condition& condition, const std::optional<Foresee
   }
 }
 
-Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
-  std::map<std::size_t, std::vector<std::size_t>> alike;
+std::vector<std::vector<std::size_t>> Predictor::alike(const Change& change,
+                                                       const std::vector<std::size_t>& conditions) const {
+  std::map<std::size_t, std::vector<std::size_t>> by_first;
   for (const std::size_t i : conditions)
-    alike[change.of_time || model_goes_by_time_ ? i : conditions_[i].equal].push_back(i);
-  const std::vector<std::pair<std::size_t, std::vector<std::size_t>>> groups(alike.begin(), alike.end());
+    by_first[change.of_time || model_goes_by_time_ ? i : conditions_[i].equal].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& [first, members] : by_first) groups.push_back(std::move(members));
+  return groups;
+}
+
+void Predictor::predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
+                              Eigen::VectorXd& values) const {
+  const std::optional<Foreseen> foreseen = foresee(look, conditions_[conditions.front()], change);
+  for (const std::size_t i : conditions) set_rows(conditions_[i], foreseen, values);
+}
+
+Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
+  const Look by_few_rays = [this](const Setup& shot, const Condition& condition) {
+    return surrogate_frame(shot, model_.laboratory, place_of(condition.factors), condition.pixels);
+  };
+  const std::vector<std::vector<std::size_t>> groups = alike(change, conditions);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
   parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
-    for (int group = begin; group < end; ++group) {
-      const std::vector<std::size_t>& members = groups[group].second;
-      const std::optional<Foreseen> foreseen = foresee(conditions_[members.front()], change);
-      for (const std::size_t i : members) set_rows(conditions_[i], foreseen, values);
-    }
+    for (int group = begin; group < end; ++group) predict_alike(by_few_rays, change, groups[group], values);
   });
+  return values;
+}
+
+Eigen::VectorXd Predictor::predict_by(const Look& look, const Change& change,
+                                      const std::vector<std::size_t>& conditions) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+  for (const std::vector<std::size_t>& group : alike(change, conditions)) predict_alike(look, change, group, values);
   return values;
 }
 
@@ -176,6 +192,11 @@ Eigen::VectorXd Predictor::predict(const Change& change) const {
   std::vector<std::size_t> all(conditions_.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   return predict(change, all);
+}
+
+std::optional<Eigen::Vector2d> place_of(const Factors& factors) {
+  if (factors.liquid == "none") return std::nullopt;
+  return Eigen::Vector2d(metres_from_mm(factors.lateral_mm), metres_from_mm(factors.distance_mm));
 }
 
 Change switch_on(const std::vector<EffectValue>& effects) {

@@ -18,6 +18,9 @@ struct Condition {
   std::size_t equal = 0;  ///< number of the first condition that differs from it in time, pour and placement alone
 };
 
+/// What a laboratory would find in clouds of a condition's set-up. Nothing when no desk is seen.
+using Look = std::function<std::optional<FrameEstimates>(const Setup& setup, const Condition& condition)>;
+
 /// What changes a set-up, at given values.
 struct Change {
   std::function<void(Setup& setup)> apply = {};
@@ -35,6 +38,14 @@ class Predictor {
   Eigen::VectorXd predict(const Change& change) const;
   /// The same of the conditions listed, all other values 0.
   Eigen::VectorXd predict(const Change& change, const std::vector<std::size_t>& conditions) const;
+  /// The same as somebody else looks at it, at one condition after the other.
+  Eigen::VectorXd predict_by(const Look& look, const Change& change, const std::vector<std::size_t>& conditions) const;
+
+  /// Some conditions, those together that the change leaves alike: they are predicted once.
+  std::vector<std::vector<std::size_t>> alike(const Change& change, const std::vector<std::size_t>& conditions) const;
+
+  /// What is shot in a condition, all effects switched on.
+  Setup setup(const Condition& condition, const Change& change = {}) const;
 
   /// Whether each observation is of a region of the cup that the model puts into shadow, or near one.
   std::vector<bool> near_shadows() const;
@@ -51,9 +62,11 @@ class Predictor {
     double wander_mm;  ///< of the desk between frames, 1 σ
   };
 
-  Setup nominal_setup(const Condition& condition) const;
-  std::optional<Foreseen> foresee(const Condition& condition, const Change& change) const;
+  std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;
   void set_rows(const Condition& condition, const std::optional<Foreseen>& foreseen, Eigen::VectorXd& values) const;
+  /// Rows of conditions that are alike.
+  void predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
+                     Eigen::VectorXd& values) const;
 
   NominalModel model_;
   Json model_effects_;
@@ -62,6 +75,9 @@ class Predictor {
   std::vector<std::string> observables_, regions_;
   std::vector<Condition> conditions_;
 };
+
+/// Where the cup of a condition should stand in the world [m]; nothing on a bare desk.
+std::optional<Eigen::Vector2d> place_of(const Factors& factors);
 
 /// Switches effects on, each named as in effect_name.h. Values outside their bounds are taken at the bound. Throws
 /// Error on an unknown id.

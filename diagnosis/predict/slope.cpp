@@ -14,6 +14,13 @@ std::vector<std::size_t> conditions_where(const Predictor& predictor, const std:
   return found;
 }
 
+std::vector<std::size_t> conditions_touched(const Predictor& predictor, const Effect& effect,
+                                            const std::string& liquid) {
+  return conditions_where(predictor, [&](const Factors& f) {
+    return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
+  });
+}
+
 Eigen::VectorXd slope(const Predictor& predictor, const std::function<Change(double)>& at, double low, double high,
                       const std::vector<std::size_t>& conditions) {
   Eigen::VectorXd difference =

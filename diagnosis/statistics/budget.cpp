@@ -23,14 +23,16 @@ double of_model(const Covariance& covariance, const std::vector<Eigen::Index>& r
   return variance / std::pow(static_cast<double>(rows.size()), 2.0);
 }
 
+std::vector<std::vector<Eigen::Index>> budget_lines(const std::vector<Observation>& observations) {
+  return group_by(observations, [](const Observation& o) { return condition_key(o) + "/" + o.observable; }).members();
+}
+
 }  // namespace
 
 std::vector<ConditionBudget> uncertainty_budget(const Evidence& evidence, const Covariance& covariance) {
   std::vector<ConditionBudget> result;
   const auto& observations = evidence.observations;
-  const Groups groups =
-      group_by(observations, [](const Observation& o) { return condition_key(o) + "/" + o.observable; });
-  for (const auto& rows : groups.members()) {
+  for (const auto& rows : budget_lines(observations)) {
     const double n = static_cast<double>(rows.size());
     const Observation& first = observations[rows[0]];
     ConditionBudget line{condition_key(first), first.observable};
@@ -45,6 +47,17 @@ std::vector<ConditionBudget> uncertainty_budget(const Evidence& evidence, const 
     result.push_back(line);
   }
   return result;
+}
+
+void set_surrogate_differences(const Evidence& evidence, const Eigen::VectorXd& by_surrogate,
+                               std::vector<ConditionBudget>& budget) {
+  const std::vector<std::vector<Eigen::Index>> lines = budget_lines(evidence.observations);
+  for (std::size_t i = 0; i < budget.size(); ++i) {
+    const double difference = (by_surrogate - evidence.predicted)(lines[i]).mean();
+    budget[i].surrogate_difference = difference;
+    budget[i].u_numerical = std::abs(difference);
+    budget[i].u_validation = std::hypot(budget[i].u_data, budget[i].u_input, difference);
+  }
 }
 
 }  // namespace fathom

@@ -14,4 +14,9 @@ namespace fathom {
 /// from all three.
 std::vector<ConditionBudget> uncertainty_budget(const Evidence& evidence, const Covariance& covariance);
 
+/// Of a budget of these observations: by how much a surrogate's predictions differ from those of the evidence becomes
+/// u_num, for by that model everything was chosen.
+void set_surrogate_differences(const Evidence& evidence, const Eigen::VectorXd& by_surrogate,
+                               std::vector<ConditionBudget>& budget);
+
 }  // namespace fathom

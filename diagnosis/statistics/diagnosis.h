@@ -1,6 +1,7 @@
 // What a diagnosis says: whether model and measurement disagree, where, by which effects, and what stays open.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -84,6 +85,8 @@ struct ConditionBudget {
   std::string condition, observable;
   double comparison_error = 0.0;  ///< E, measured − predicted
   double u_data = 0.0, u_input = 0.0, u_numerical = 0.0, u_validation = 0.0;
+  std::optional<double> surrogate_difference =
+      {};  ///< few rays' prediction minus the ray tracer's, where that is known
 };
 
 /// What no model can explain: the shape of the rest.

@@ -103,9 +103,11 @@ Json json_from(const NextMeasurement& next) {
 }
 
 Json json_from(const ConditionBudget& line) {
-  return {{"condition", line.condition}, {"observable", line.observable}, {"E", line.comparison_error},
-          {"u_D", line.u_data},          {"u_input", line.u_input},       {"u_num", line.u_numerical},
-          {"u_val", line.u_validation}};
+  Json json{{"condition", line.condition}, {"observable", line.observable}, {"E", line.comparison_error},
+            {"u_D", line.u_data},          {"u_input", line.u_input},       {"u_num", line.u_numerical},
+            {"u_val", line.u_validation}};
+  if (line.surrogate_difference) json["surrogate_minus_ray_traced"] = *line.surrogate_difference;
+  return json;
 }
 
 template <class T>

@@ -1,0 +1,97 @@
+#include "diagnosis/ray_traced/plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnosis/statistics/effect_name.h"
+#include "sim/sensor/capture.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kMost_s = 1000.0;  // of processor time
+
+using Set = std::vector<std::string>;
+
+Set named_set(const Diagnosis& diagnosis) {
+  Set set;
+  for (const NamedEffect& effect : diagnosis.effects) set.push_back(effect.name);
+  return set;
+}
+
+/// A prior scale off nominal.
+EffectValue typical_departure(const Candidate& candidate) {
+  EffectValue value{candidate.effect, {}};
+  for (const Parameter& parameter : candidate.parameters)
+    value.values.push_back(parameter.nominal + parameter.prior_scale);
+  return value;
+}
+
+/// Whether the effect lets in light that few rays know nothing of.
+bool brings_light(const Candidate& candidate, const Predictor& predictor) {
+  const Change change = switch_on({typical_departure(candidate)});
+  const auto& conditions = predictor.conditions();
+  return std::any_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+    return measured_light(predictor.setup(condition, change)) != measured_light(predictor.setup(condition));
+  });
+}
+
+bool is_unseen(const Candidate& candidate) { return candidate.signature.isZero(0.0); }
+
+/// Each effect of light in all liquids. Images have all light or none, so the first that few rays do not see at all
+/// stands for all of those.
+std::vector<Set> light_sets(const Physics& physics) {
+  std::vector<Set> sets;
+  bool has_unseen = false;
+  for (const Candidate& candidate : physics.evidence.candidates) {
+    if (!effect_name(candidate.effect).liquid.empty() || !brings_light(candidate, *physics.predictor)) continue;
+    if (is_unseen(candidate) && std::exchange(has_unseen, true)) continue;
+    sets.push_back({candidate.effect});
+  }
+  return sets;
+}
+
+std::vector<Set> all_sets(const Physics& physics, const Diagnosis& diagnosis) {
+  std::vector<Set> sets{named_set(diagnosis)};
+  for (Set& set : light_sets(physics)) sets.push_back(std::move(set));
+  for (const Explanation& explanation : diagnosis.ambiguity_set) {
+    sets.push_back(explanation.effects);
+    for (const Set& twin : explanation.alternatives) sets.push_back(twin);
+  }
+  std::vector<Set> different;
+  for (Set& set : sets) {
+    std::erase(set, "unknown");
+    if (!set.empty() && std::find(different.begin(), different.end(), set) == different.end())
+      different.push_back(std::move(set));
+  }
+  return different;
+}
+
+}  // namespace
+
+TracingPlan plan_tracing(const Physics& physics, const Diagnosis& diagnosis, const RayTracer& tracer) {
+  TracingPlan plan;
+  RayTracer::Cost total = tracer.cost({});
+  for (Set& set : all_sets(physics, diagnosis)) {
+    std::vector<EffectValue> typical;
+    std::size_t predictions = 1;
+    for (const Candidate& candidate : physics.evidence.candidates) {
+      if (std::find(set.begin(), set.end(), candidate.effect) == set.end()) continue;
+      typical.push_back(typical_departure(candidate));
+      if (!is_unseen(candidate)) predictions += 1 + 2 * candidate.parameters.size();  // nearer to the fit, and slopes
+    }
+    const RayTracer::Cost once = tracer.cost(typical);
+    const double seconds = static_cast<double>(predictions) * once.seconds;
+    if (!plan.sets.empty() && total.seconds + seconds > kMost_s) {
+      ++plan.left_out;
+      continue;
+    }
+    total.seconds += seconds;
+    total.conditions += predictions * once.conditions;
+    plan.sets.push_back(std::move(set));
+  }
+  plan.conditions = total.conditions;
+  return plan;
+}
+
+}  // namespace fathom

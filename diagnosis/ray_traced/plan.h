@@ -1,0 +1,20 @@
+// Which sets of effects are worth ray tracing after few rays have screened all.
+#pragma once
+
+#include "diagnosis/predict/physics.h"
+#include "diagnosis/ray_traced/ray_tracer.h"
+#include "diagnosis/statistics/diagnosis.h"
+
+namespace fathom {
+
+struct TracingPlan {
+  std::vector<std::vector<std::string>> sets;  ///< the named one first
+  std::size_t conditions = 0;                  ///< that will be traced, more or less
+  std::size_t left_out = 0;                    ///< sets that would take too long
+};
+
+/// What was named; each effect that lets in light of which few rays know nothing; then the sets of the ambiguity set
+/// as they come, while all together takes no more than some ten minutes of two processors.
+TracingPlan plan_tracing(const Physics& physics, const Diagnosis& diagnosis, const RayTracer& tracer);
+
+}  // namespace fathom
