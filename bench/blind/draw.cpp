@@ -69,7 +69,7 @@ void hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& truth) {
   std::vector<const Hidden*> registry;
   for (const Hidden& effect : hidden_effects())
     if (effect.registered && effect.name != truth.left_out) registry.push_back(&effect);
-  const Eigen::VectorXd signature = strengths.signature(std::span(&hidden->active, 1));
+  const Eigen::MatrixXd signature = strengths.signature(std::span(&hidden->active, 1));
   // What shows in the spread of repeats alone escapes every signature of a mean.
   truth.escape = signature.norm() > 0.0 ? strengths.escape(signature, registry) : hidden->strength;
 }

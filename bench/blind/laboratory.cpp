@@ -29,12 +29,11 @@ const std::array kSession{
     SessionError{0.005, [](World& w, double px) { w.sensor.disparity_offset_px += px; }},
 };
 
-void add_dust(World& world, std::uint64_t seed) {
-  Rng rng(seed, Draw::dust);
-  world.dust.pattern_bend_px = 0.02 * rng.normal();
-  world.dust.band_px = 0.006 * rng.normal();
-  world.dust.bright_px = 0.004 * rng.normal();
-}
+const std::array kDust{
+    Uncertain{"pattern_bend_px", 0.02, [](World& w, double px) { w.dust.pattern_bend_px += px; }},
+    Uncertain{"band_px", 0.006, [](World& w, double px) { w.dust.band_px += px; }},
+    Uncertain{"bright_px", 0.004, [](World& w, double px) { w.dust.bright_px += px; }},
+};
 
 }  // namespace
 
@@ -54,6 +53,7 @@ World believed(const Placement& placement) {
 
 std::span<const Uncertain> uncertain_rig() { return kRig; }
 std::span<const SessionError> session_errors() { return kSession; }
+std::span<const Uncertain> dust() { return kDust; }
 
 World true_world(const Placement& placement, std::uint64_t seed, double scale) {
   World world = believed(placement);
@@ -67,7 +67,8 @@ World true_world(const Placement& placement, std::uint64_t seed, double scale) {
   world.cup.centre.x() += scale * kPlacementSigma * place.normal();
   world.cup.centre.y() += scale * kPlacementSigma * place.normal();
   world.noise_scale = scale;
-  add_dust(world, seed);
+  Rng specks(seed, Draw::dust);
+  for (const Uncertain& value : kDust) value.add(world, value.sigma * specks.normal());
   return world;
 }
 

@@ -28,6 +28,9 @@ struct SessionError {
 };
 std::span<const SessionError> session_errors();
 
+/// What every set has a little of and no registry describes (world.h), in pixels; no file says so either.
+std::span<const Uncertain> dust();
+
 inline constexpr double kFillSigma = 0.5e-3, kPlacementSigma = 0.5e-3;
 
 /// Moves the truth away from what is believed, by draws keyed by the set's seed: the rig's errors, a little more for

@@ -146,16 +146,22 @@ TEST_F(BlindStrength, OfWhatIsUncertainAnywayIsAtMostItsPrior) {
   // A departure of one prior σ has s < 1, whatever the data: s² = x² / (σ² + …).
   EXPECT_LT(strengths.of({&hidden_effect("baseline"), 0.05}), 1.0);
   EXPECT_LT(strengths.of({&hidden_effect("sensor_height"), 0.5}), 1.0);
+  // So at any size: of dots that fall into other windows nothing may be left. A tenth: refraction is not quite linear.
+  EXPECT_LT(strengths.of({&hidden_effect("sensor_pitch"), 0.2}), 1.1 * 0.2 / 0.05);
+  EXPECT_LT(strengths.of({&hidden_effect("baseline"), -0.7}), 1.1 * 0.7 / 0.05);
+  // Nobody wrote down albedos: −0.2 of 0.7 are 0.34 in the logarithm, of a prior of 0.3. Twice that: blocks that see
+  // wall and bottom at once go with the brighter.
+  EXPECT_LT(strengths.of({&hidden_effect("wall_albedo"), -0.2}), 2.0 * 0.34 / 0.3);
 }
 
 TEST_F(BlindStrength, TwinsDoNotEscapeEachOther) {
   const Strengths strengths = of("opaque_only");
   const Hidden* bottom = &hidden_effect("cup_bottom_height");
   const Active fill{&hidden_effect("fill_offset"), bottom->typical};
-  const Eigen::VectorXd signature = strengths.signature(std::span(&fill, 1));
+  const Eigen::MatrixXd signature = strengths.signature(std::span(&fill, 1));
   EXPECT_GT(signature.norm(), 3.0);
   // Both raise an opaque surface; the tenth that is left is the wetted wall's and the prior of the bottom's.
-  EXPECT_LT(strengths.escape(signature, std::span(&bottom, 1)), 0.15 * signature.norm());
+  EXPECT_LT(strengths.escape(signature, std::span(&bottom, 1)), 0.15 * Strengths::common_norm(signature));
 }
 
 }  // namespace
