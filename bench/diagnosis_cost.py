@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """usage: bench/diagnosis_cost.py RESULT.json FATHOM FOLDER
 Simulates the paper's campaign without pictures in FOLDER and writes what a diagnosis of it costs beside reading its
-clouds: processor seconds on one thread, medians of turns."""
+clouds: processor seconds on one thread, medians of turns; and what it costs by ray tracing, once, on two threads."""
 import json
 import shutil
 import sys
@@ -25,7 +25,10 @@ def cost(fathom, folder):
         for name, options in commands.items():
             run = measure([fathom, name, str(folder / "campaign"), *options, "--threads", "1", "--quiet"])
             seconds[name].append(run["cpu_s"])
-    return {f"{name}_s": median(of_turns) for name, of_turns in seconds.items()}
+    traced = measure([fathom, "diagnose", str(folder / "campaign"), "-o", str(folder / "traced"), "--fidelity",
+                      "photometric", "--threads", "2", "--quiet"])
+    return {f"{name}_s": median(of_turns) for name, of_turns in seconds.items()} | {
+        "traced_s": traced["cpu_s"], "traced_wall_s": traced["wall_s"]}
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@
 namespace fathom {
 namespace {
 
-constexpr double kMost_s = 1000.0;  // of processor time
+constexpr double kMost_s = 800.0;      // of processor time
+constexpr std::size_t kLikeliest = 4;  // explanations that are traced
 
 using Set = std::vector<std::string>;
 
@@ -38,6 +39,13 @@ bool brings_light(const Candidate& candidate, const Predictor& predictor) {
 
 bool is_unseen(const Candidate& candidate) { return candidate.signature.isZero(0.0); }
 
+/// Whether few rays see something of a set.
+bool sees_some(const Evidence& evidence, const Set& set) {
+  return std::any_of(evidence.candidates.begin(), evidence.candidates.end(), [&](const Candidate& candidate) {
+    return !is_unseen(candidate) && std::find(set.begin(), set.end(), candidate.effect) != set.end();
+  });
+}
+
 /// Each effect of light in all liquids. Images have all light or none, so the first that few rays do not see at all
 /// stands for all of those.
 std::vector<Set> light_sets(const Physics& physics) {
@@ -54,10 +62,9 @@ std::vector<Set> light_sets(const Physics& physics) {
 std::vector<Set> all_sets(const Physics& physics, const Diagnosis& diagnosis) {
   std::vector<Set> sets{named_set(diagnosis)};
   for (Set& set : light_sets(physics)) sets.push_back(std::move(set));
-  for (const Explanation& explanation : diagnosis.ambiguity_set) {
-    sets.push_back(explanation.effects);
-    for (const Set& twin : explanation.alternatives) sets.push_back(twin);
-  }
+  for (std::size_t i = 0; i < std::min(kLikeliest, diagnosis.ambiguity_set.size()); ++i)
+    if (sees_some(physics.evidence, diagnosis.ambiguity_set[i].effects))
+      sets.push_back(diagnosis.ambiguity_set[i].effects);
   std::vector<Set> different;
   for (Set& set : sets) {
     std::erase(set, "unknown");

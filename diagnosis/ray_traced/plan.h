@@ -13,8 +13,8 @@ struct TracingPlan {
   std::size_t left_out = 0;                    ///< sets that would take too long
 };
 
-/// What was named; each effect that lets in light of which few rays know nothing; then the sets of the ambiguity set
-/// as they come, while all together takes no more than some ten minutes of two processors.
+/// What was named; each effect that lets in light of which few rays know nothing; the likeliest sets of the ambiguity
+/// set, of several that cannot be told apart the first; while all takes no more than some minutes of two processors.
 TracingPlan plan_tracing(const Physics& physics, const Diagnosis& diagnosis, const RayTracer& tracer);
 
 }  // namespace fathom

@@ -2,6 +2,8 @@
 // it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/files.h"
 #include "core/json.h"
 #include "tests/app/run_fathom.h"
@@ -132,6 +134,34 @@ TEST_F(DiagnoseCommand, SaysWhatIsMissing) {
   const Json report = diagnosis("out");
   EXPECT_EQ(report["verdict"], "insufficient");
   EXPECT_FALSE(report["missing"].empty());
+}
+
+TEST_F(DiagnoseCommand, KnowsTwoFidelities) {
+  const ProgramRun run = run_fathom("diagnose " + path("campaign") + " --fidelity exact -o " + path("out"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--fidelity: exact not in {geometric,photometric}"), std::string::npos) << run.err;
+}
+
+// Three conditions, so that some twenty images are enough.
+TEST_F(DiagnoseCommand, WholeFramesSayWhatFewRaysSaidOfAShallowerSensor) {
+  Json spec = kSpec;
+  spec["fillings"] = {{{"liquid", "empty"}}};
+  spec["lateral_mm"] = {0};
+  spec["effects"] = {{{"name", "sensor_pitch"}, {"pitch_deg", -1.0}}};
+  write_json(folder / "spec.json", spec);
+  ASSERT_EQ(run_fathom("campaign " + path("spec.json") + " -o " + path("campaign")).exit_code, 0);
+  const Json report = diagnosis("out", "--fidelity photometric");
+  ASSERT_EQ(report["verdict"], "named") << report["answer"];
+  ASSERT_EQ(report["effects"].size(), 1u);
+  const Json& effect = report["effects"][0];
+  EXPECT_EQ(effect["name"], "sensor_pitch");
+  EXPECT_TRUE(effect["fit"]) << effect["cosine"];
+  const Json& interval = effect["parameters"]["pitch_deg"]["ci95"];
+  EXPECT_NEAR(effect["parameters"]["pitch_deg"]["value"], -1.0, interval[1].get<double>() - interval[0].get<double>());
+  EXPECT_EQ(report["geometric"]["effects"][0]["name"], "sensor_pitch");
+  EXPECT_LT(report["gap"]["train"]["after_rms_mm"], report["gap"]["train"]["before_rms_mm"]);
+  for (const Json& line : report["budget"]["conditions"])
+    EXPECT_EQ(line["u_num"], std::abs(line["surrogate_minus_ray_traced"].get<double>())) << line;
 }
 
 TEST_F(DiagnoseCommand, RefusesWhatIsNoMeasurement) {
