@@ -12,6 +12,13 @@
 namespace fathom {
 namespace {
 
+/// Without the blanks that people and spreadsheets leave around a cell.
+std::string trimmed(const std::string& cell) {
+  constexpr std::string_view kBlanks = " \t";
+  const std::size_t first = cell.find_first_not_of(kBlanks);
+  return first == std::string::npos ? std::string() : cell.substr(first, cell.find_last_not_of(kBlanks) - first + 1);
+}
+
 std::vector<std::string> split_line(std::string_view line, std::string_view file, std::size_t number) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -28,6 +35,7 @@ std::vector<std::string> split_line(std::string_view line, std::string_view file
     }
   }
   if (quoted) throw Error(file, fmt::format("line {}", number), "has a quotation mark that is not closed");
+  std::transform(cells.begin(), cells.end(), cells.begin(), trimmed);
   return cells;
 }
 
@@ -127,7 +135,7 @@ Table read_table(const std::filesystem::path& path) {
       table.emplace(std::move(cells), path.string());
       continue;
     }
-    if (line.empty() && start >= text.size()) break;
+    if (text.find_first_not_of(" \t\r\n", end - line.size()) == std::string::npos) break;
     if (cells.size() != table->columns().size())
       throw Error(path.string(), fmt::format("line {}", number),
                   fmt::format("has {} cells, the header has {}", cells.size(), table->columns().size()));

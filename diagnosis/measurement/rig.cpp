@@ -1,5 +1,7 @@
 #include "diagnosis/measurement/rig.h"
 
+#include <fmt/format.h>
+
 #include "core/units.h"
 
 namespace fathom {
@@ -18,6 +20,9 @@ void read_sigma(const JsonReader& owner, std::initializer_list<std::string_view>
     if (json.has(key)) sigma[std::string(key)] = json.number(key, kNonNegative);
 }
 
+/// Of the infrared camera at 640 x 480 [px], as spec sheets and OpenNI's drivers have it.
+double usual_focal_px(std::string_view sensor_model) { return sensor_model.starts_with("kinect") ? 575.816 : 570.342; }
+
 void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   json.allow_only(
       {"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "sigma"});
@@ -26,14 +31,18 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   rig.pitch_rad = radians_from_deg(json.number("pitch_deg", {-90.0, 90.0}));
   rig.roll_rad = read_deg(json, "roll_deg", {-180.0, 180.0});
   rig.baseline_m = json.metres_or("baseline_mm", rig.baseline_m, kPositive);
-  rig.focal_px = json.number_or("focal_px", rig.focal_px, kPositive);
+  rig.focal_px = json.number_or("focal_px", usual_focal_px(rig.sensor_model), kPositive);
   rig.disparity_offset_px = json.number_or("disparity_offset_px", rig.disparity_offset_px);
   read_sigma(json, {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"}, rig.sigma);
 }
 
 void read_cup(const JsonReader& json, LaboratoryRig& rig) {
   json.allow_only({"shape", "height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm", "sigma"});
-  rig.cup_shape = json.text_or("shape", rig.cup_shape);
+  const LaboratoryRig papers;
+  rig.cup_shape = json.text_or("shape", papers.cup_shape);
+  if (rig.cup_shape != papers.cup_shape)
+    for (const char* length : {"height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm"})
+      if (!json.has(length)) json.fail_at(length, "is missing: only of the paper_cup are the lengths known");
   rig.cup_height_m = json.metres_or("height_mm", rig.cup_height_m, kPositive);
   rig.inner_radius_m = json.metres_or("inner_radius_mm", rig.inner_radius_m, kPositive);
   rig.outer_radius_m = json.metres_or("outer_radius_mm", rig.outer_radius_m, kPositive);
@@ -61,6 +70,9 @@ LaboratoryRig read_rig(const std::filesystem::path& path) {
   LaboratoryRig rig;
   read_sensor(json.at("sensor"), rig);
   read_cup(json.at("cup"), rig);
+  if (rig.height_m <= rig.cup_height_m)
+    json.at("sensor").fail_at("height_mm", fmt::format("must be above {:g}, the height of the cup, got {:g}",
+                                                       mm_from_metres(rig.cup_height_m), mm_from_metres(rig.height_m)));
   read_liquids(json.at("liquids"), rig);
   rig.fill_sigma_m = json.metres_or("fill_sigma_mm", rig.fill_sigma_m, kNonNegative);
   rig.placement_sigma_m = json.metres_or("placement_sigma_mm", rig.placement_sigma_m, kNonNegative);

@@ -9,7 +9,8 @@
 
 namespace fathom {
 
-/// Lengths in metres, angles in radians. What the file does not give keeps its default: the Xtion and the paper's cup.
+/// Lengths in metres, angles in radians. What the file does not give keeps its default: the sensor model's optics, and
+/// of the paper's cup its lengths.
 struct LaboratoryRig {
   std::string sensor_model;
   double height_m = 0.0;
@@ -32,7 +33,7 @@ struct LaboratoryRig {
 };
 
 /// Throws Error on unknown, missing or impossible values. Only sensor.model, sensor.height_mm, sensor.pitch_deg, cup
-/// and liquids must be there.
+/// and liquids must be there, and the lengths of a cup that is not the paper's.
 LaboratoryRig read_rig(const std::filesystem::path& path);
 
 }  // namespace fathom

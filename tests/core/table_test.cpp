@@ -40,6 +40,13 @@ TEST(Table, AcceptsWhatSpreadsheetsWrite) {
   EXPECT_EQ(table.number(0, "b"), 2.0);
 }
 
+TEST(Table, BlanksAroundCellsAndLinesBelowMeanNothing) {
+  const Table table = table_of("liquid , fill_mm\nmilk tea ,\t10 \n \n\n");
+  ASSERT_EQ(table.rows(), 1u);
+  EXPECT_EQ(table.text(0, "liquid"), "milk tea");
+  EXPECT_EQ(table.number(0, "fill_mm"), 10.0);
+}
+
 TEST(Table, ErrorsNameFileLineAndColumn) {
   const Table table = table_of("frame,fill_mm\n1,10\n2,ten\n3,\n4,inf\n");
   expect_error([&] { table.number(1, "fill_mm"); },

@@ -51,11 +51,24 @@ TEST(Rig, OnlyModelPoseCupAndLiquidsMustBeThere) {
       read(R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "cup": {}, "liquids": {}})");
   EXPECT_DOUBLE_EQ(rig.inner_radius_m, 0.040);
   EXPECT_DOUBLE_EQ(rig.baseline_m, 0.075);
+  EXPECT_DOUBLE_EQ(rig.focal_px, 575.816);  // a Kinect's, 58.12 degrees of view
   const std::string sensor = R"("sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45})";
   EXPECT_EQ(error_of("{" + sensor + R"(, "cup": {}})"), "/liquids: is missing");
   EXPECT_EQ(error_of("{" + sensor + R"(, "liquids": {}})"), "/cup: is missing");
   EXPECT_EQ(error_of(R"({"sensor": {"model": "kinect_v1", "height_mm": 600}, "cup": {}, "liquids": {}})"),
             "/sensor/pitch_deg: is missing");
+}
+
+TEST(Rig, OfAnotherCupThanThePapersAllLengthsAreNeeded) {
+  const std::string sensor = R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "liquids": {}, )";
+  EXPECT_EQ(error_of(sensor + R"("cup": {"shape": "mug", "height_mm": 95}})"),
+            "/cup/inner_radius_mm: is missing: only of the paper_cup are the lengths known");
+}
+
+TEST(Rig, TheSensorStandsAboveTheCup) {
+  EXPECT_EQ(error_of(R"({"sensor": {"model": "kinect_v1", "height_mm": 0.65, "pitch_deg": 45}, "cup": {},
+                         "liquids": {}})"),
+            "/sensor/height_mm: must be above 87, the height of the cup, got 0.65");
 }
 
 TEST(Rig, WhatCannotBeIsRefused) {
