@@ -1,9 +1,11 @@
 #include "diagnosis/predict/bookkeeping.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/units.h"
@@ -25,32 +27,57 @@ class Heights {
     if (!rows_.empty()) as_written_ = predicted(rows_);
   }
 
-  /// Whether the heights that another reading changes are met far better by it.
-  bool fit_far_better(const Reading& reading) const {
-    constexpr double kFarBetter = 3.0;    // ratio of residuals: most of them is gone
-    constexpr double kLeastChange = 1.0;  // [mm] in the mean square; less may be physics
-    constexpr int kFewest = 8;
-    std::vector<Observation> rows = rows_;
-    for (Observation& row : rows) {
-      row.factors = reading(row.factors);
-      if (metres_from_mm(row.factors.fill_mm) >= rig_.cup_height_m - rig_.bottom_m) return false;
-    }
-    if (rows.empty()) return false;
-    const Eigen::VectorXd other = predicted(rows);
-    double before = 0.0, after = 0.0, change = 0.0;
-    int changed = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      if (!std::isfinite(other[k]) || !std::isfinite(as_written_[k]) || other[k] == as_written_[k]) continue;
-      ++changed;
-      before += std::pow(rows[i].value - as_written_[k], 2);
-      after += std::pow(rows[i].value - other[k], 2);
-      change += std::pow(other[k] - as_written_[k], 2);
-    }
-    return changed >= kFewest && change > kLeastChange * changed && before > kFarBetter * kFarBetter * after;
+  /// The sessions in which the heights that another reading changes are met far better by it.
+  std::set<int> sessions_that_fit_far_better(const Reading& reading) const {
+    std::set<int> sessions;
+    for (const auto& [session, fit] : fits_by_session(reading))
+      if (fit.is_far_better()) sessions.insert(session);
+    return sessions;
+  }
+
+  /// All with liquids.
+  std::set<int> sessions() const {
+    std::set<int> result;
+    for (const Observation& row : rows_) result.insert(row.factors.session);
+    return result;
   }
 
  private:
+  /// Squared residuals [mm²] of the heights that another reading changes.
+  struct Fit {
+    double before = 0.0, after = 0.0, change = 0.0;
+    int changed = 0;
+
+    bool is_far_better() const {
+      constexpr double kFarBetter = 3.0;    // ratio of residuals: most of them is gone
+      constexpr double kLeastChange = 1.0;  // [mm] in the mean square; less may be physics
+      constexpr int kFewest = 8;
+      return changed >= kFewest && change > kLeastChange * changed && before > kFarBetter * kFarBetter * after;
+    }
+  };
+
+  /// Of heights whose liquid would not fit into the cup nothing is said.
+  std::map<int, Fit> fits_by_session(const Reading& reading) const {
+    std::vector<Observation> rows = rows_;
+    for (Observation& row : rows) {
+      const Factors other = reading(row.factors);
+      if (metres_from_mm(other.fill_mm) < rig_.cup_height_m - rig_.bottom_m) row.factors = other;
+    }
+    std::map<int, Fit> fits;
+    if (rows.empty()) return fits;
+    const Eigen::VectorXd other = predicted(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      if (!std::isfinite(other[k]) || !std::isfinite(as_written_[k]) || other[k] == as_written_[k]) continue;
+      Fit& fit = fits[rows[i].factors.session];
+      ++fit.changed;
+      fit.before += std::pow(rows[i].value - as_written_[k], 2);
+      fit.after += std::pow(rows[i].value - other[k], 2);
+      fit.change += std::pow(other[k] - as_written_[k], 2);
+    }
+    return fits;
+  }
+
   Eigen::VectorXd predicted(const std::vector<Observation>& rows) const {
     return Predictor(rig_, rows, model_effects_, file_).predict({});
   }
@@ -74,41 +101,40 @@ void put_units_right(const Heights& heights, Measurement& measurement) {
   constexpr std::array kUnits{Unit{"centimetres", 10.0}, Unit{"inches", 25.4}, Unit{"metres", 1000.0},
                               Unit{"tenths of a millimetre", 0.1}};
   for (const Unit& unit : kUnits) {
-    const Reading reading = [&](Factors factors) {
+    const Reading in_unit = [&](Factors factors) {
       factors.fill_mm *= unit.mm;
       return factors;
     };
-    if (!heights.fit_far_better(reading)) continue;
-    correct(reading, measurement);
+    const std::set<int> wrong = heights.sessions_that_fit_far_better(in_unit);
+    if (wrong.empty()) continue;
+    correct([&](const Factors& f) { return wrong.contains(f.session) ? in_unit(f) : f; }, measurement);
+    const std::string whose =
+        wrong == heights.sessions() ? "" : fmt::format(" of session {}", fmt::join(wrong, " and "));
     measurement.mistakes.push_back(
-        {"unit_error", fmt::format("Fills were written down in {}, not in millimetres.", unit.name)});
+        {"unit_error", fmt::format("Fills{} were written down in {}, not in millimetres.", whose, unit.name)});
     return;
   }
 }
 
 void put_labels_right(const Heights& heights, Measurement& measurement) {
   std::set<std::string> liquids;
-  std::set<int> sessions;
-  for (const Observation& observation : measurement.observations) {
+  for (const Observation& observation : measurement.observations)
     if (has_liquid(observation.factors)) liquids.insert(observation.factors.liquid);
-    sessions.insert(observation.factors.session);
-  }
   for (auto one = liquids.begin(); one != liquids.end(); ++one)
-    for (auto other = std::next(one); other != liquids.end(); ++other)
-      for (const int session : sessions) {
-        const Reading reading = [&](Factors factors) {
-          if (factors.session != session) return factors;
-          if (factors.liquid == *one)
-            factors.liquid = *other;
-          else if (factors.liquid == *other)
-            factors.liquid = *one;
-          return factors;
-        };
-        if (!heights.fit_far_better(reading)) continue;
-        correct(reading, measurement);
+    for (auto other = std::next(one); other != liquids.end(); ++other) {
+      const Reading exchanged = [&](Factors factors) {
+        if (factors.liquid == *one)
+          factors.liquid = *other;
+        else if (factors.liquid == *other)
+          factors.liquid = *one;
+        return factors;
+      };
+      for (const int session : heights.sessions_that_fit_far_better(exchanged)) {
+        correct([&](const Factors& f) { return f.session == session ? exchanged(f) : f; }, measurement);
         measurement.mistakes.push_back(
             {"label_swap", fmt::format("The labels of {} and {} are exchanged in session {}.", *one, *other, session)});
       }
+    }
 }
 
 }  // namespace

@@ -44,6 +44,22 @@ TEST(Bookkeeping, FillsInCentimetresAreFound) {
     EXPECT_NEAR(measurement.observations[i].factors.fill_mm, truth.observations[i].factors.fill_mm, 1e-9);
 }
 
+TEST(Bookkeeping, FillsInInchesInOneOfTwoSessionsAreFoundThere) {
+  Measurement measurement = measured();
+  const Measurement truth = measurement;
+  for (Observation second : truth.observations) {
+    second.factors.session = 2;
+    second.factors.fill_mm /= 25.4;
+    measurement.observations.push_back(second);
+  }
+  put_right(measurement);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].sentence, "Fills of session 2 were written down in inches, not in millimetres.");
+  for (std::size_t i = 0; i < measurement.observations.size(); ++i)
+    EXPECT_NEAR(measurement.observations[i].factors.fill_mm,
+                truth.observations[i % truth.observations.size()].factors.fill_mm, 1e-9);
+}
+
 TEST(Bookkeeping, ExchangedLabelsAreFound) {
   Measurement measurement = measured();
   for (Observation& o : measurement.observations)
