@@ -22,9 +22,11 @@ constexpr int kFewestPours = 6;
 /// Some rows in units of their errors.
 struct Part {
   Eigen::MatrixXd jacobian, residuals;  ///< residual first, then draws
+  Eigen::VectorXd prior;                ///< precisions of the parameters
 
   Part(const Covariance& covariance, const LinearFit& fit, const Eigen::MatrixXd& draws,
-       const std::vector<Eigen::Index>& rows) {
+       const std::vector<Eigen::Index>& rows)
+      : prior(fit.prior) {
     const Eigen::LLT<Eigen::MatrixXd> factor(part(covariance, rows));
     Eigen::MatrixXd all(rows.size(), 1 + draws.cols());
     all << fit.residual(rows), draws(rows, Eigen::all);
@@ -32,10 +34,10 @@ struct Part {
     residuals = factor.matrixL().solve(all);
   }
 
-  /// Parameters × (1 + draws), kept finite by the wide prior.
+  /// Parameters × (1 + draws), kept finite by the prior.
   Eigen::MatrixXd parameters() const {
     Eigen::MatrixXd G = jacobian.transpose() * jacobian;
-    G.diagonal().array() += 1.0 / (kPriorWidth * kPriorWidth);
+    G.diagonal() += prior;
     return G.llt().solve(jacobian.transpose() * residuals);
   }
 };

@@ -41,7 +41,7 @@ MaximumTail discovery_tail(const std::vector<CandidateSpace>& spaces, const Eige
 std::vector<EffectSize> sizes_beside_others(const Problem& problem, const Covariance& covariance, const Hypothesis& fit,
                                             const Eigen::MatrixXd& jacobian) {
   Eigen::MatrixXd G = jacobian.transpose() * jacobian;
-  G.diagonal().array() += 1.0 / (kPriorWidth * kPriorWidth);
+  G.diagonal() += prior_precisions(fit.parameters);
   const Eigen::MatrixXd inverse = G.llt().solve(Eigen::MatrixXd::Identity(G.rows(), G.cols()));
   // Columns dual to the parameters: each estimate's weights on the data.
   const Eigen::VectorXd dof = degrees_of_freedom(covariance, jacobian * inverse);

@@ -7,6 +7,7 @@ LinearFit linear_fit(const Covariance& covariance, const Problem& problem, const
   LinearFit linear;
   linear.jacobian = unwhitened(fit.jacobian);
   linear.residual = unwhitened(problem.residual - fit.prediction + fit.jacobian * fit.hypothesis.parameters);
+  linear.prior = prior_precisions(fit.hypothesis.parameters);
   Eigen::Index first = 0;
   for (const int effect : fit.hypothesis.effects) {
     linear.columns.emplace_back();

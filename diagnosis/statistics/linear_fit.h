@@ -12,6 +12,7 @@ namespace fathom {
 struct LinearFit {
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;                        ///< per prior scale
+  Eigen::VectorXd prior;                           ///< precision of each parameter
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each effect
 };
 

@@ -4,12 +4,14 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace fathom {
 
 namespace {
 constexpr double kExpectedEffects = 0.5;
-}
+constexpr double kPriorWidth = 3.0;  // typical departures
+}  // namespace
 
 Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
   Eigen::VectorXd residual = -evidence.predicted;
@@ -52,11 +54,20 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram) {
   if (effects.empty()) return 0.0;
-  const double width2 = kPriorWidth * kPriorWidth;
+  // The squared width of the normal that is as high as the Cauchy at the peak.
+  const double width2 = 0.5 * std::numbers::pi * kPriorWidth * kPriorWidth;
   const Eigen::MatrixXd widened = Eigen::MatrixXd::Identity(gram.rows(), gram.cols()) + width2 * gram;
   const double log_det = 2.0 * widened.llt().matrixLLT().diagonal().array().log().sum();
   const double per_effect = std::log(kExpectedEffects / static_cast<double>(problem.columns.size()));
-  return 0.5 * (gain - parameters.squaredNorm() / width2 - log_det) + per_effect * static_cast<double>(effects.size());
+  return 0.5 * (gain - prior_penalty(parameters) - log_det) + per_effect * static_cast<double>(effects.size());
+}
+
+double prior_penalty(const Eigen::VectorXd& parameters) {
+  return 2.0 * (parameters.array() / kPriorWidth).square().log1p().sum();
+}
+
+Eigen::VectorXd prior_precisions(const Eigen::VectorXd& parameters) {
+  return 2.0 / (kPriorWidth * kPriorWidth + parameters.array().square());
 }
 
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {

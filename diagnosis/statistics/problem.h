@@ -32,13 +32,18 @@ struct Hypothesis {
   double log_evidence = 0.0;   ///< relative to no effect, with the prior of the set
 };
 
-/// Laplace's log evidence: normal priors three typical departures wide on every parameter, and half an effect expected
-/// among all candidates. `jacobian` is whitened, n × parameters.
+/// Laplace's log evidence: the parameters' prior below, and half an effect expected among all candidates. `gram`:
+/// parameters × parameters, of the whitened jacobian.
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram);
 
-/// Standard deviation of the priors, in typical departures.
-inline constexpr double kPriorWidth = 3.0;
+/// −2 log of the prior density, from its peak: Cauchy, three typical departures wide, for each parameter. What is
+/// typical is a guess; under a normal prior an effect would count against itself the more, the larger it clearly is
+/// (Jeffreys 1961, Theory of Probability, section 5.2).
+double prior_penalty(const Eigen::VectorXd& parameters);
+
+/// Of the normal priors, about 0, that pull the parameters as the Cauchy does where they are.
+Eigen::VectorXd prior_precisions(const Eigen::VectorXd& parameters);
 
 /// Orthonormal columns with the span of the given ones.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);

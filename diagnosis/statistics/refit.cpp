@@ -67,9 +67,8 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   Model model(evidence, predict, covariance, start.effects);
   const std::vector<Eigen::Index> columns = columns_of(problem, start.effects);
   const Eigen::VectorXd lower = problem.lower(columns), upper = problem.upper(columns);
-  const double prior = 1.0 / (kPriorWidth * kPriorWidth);
   const auto objective = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& change) {
-    return (problem.residual - change).squaredNorm() + prior * x.squaredNorm();
+    return (problem.residual - change).squaredNorm() + prior_penalty(x);
   };
   Eigen::MatrixXd jacobian = problem.signatures(Eigen::all, columns);
   Eigen::VectorXd x = start.parameters, change = model.change(x);
@@ -77,8 +76,9 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   bool is_differenced = false;
   for (int step = 0; step < kSteps; ++step) {
     Eigen::MatrixXd G = jacobian.transpose() * jacobian;
-    const Eigen::VectorXd b = jacobian.transpose() * (problem.residual - change) - prior * x;
-    G.diagonal() = G.diagonal() * (1.0 + damping) + Eigen::VectorXd::Constant(x.size(), prior);
+    const Eigen::VectorXd prior = prior_precisions(x);
+    const Eigen::VectorXd b = jacobian.transpose() * (problem.residual - change) - prior.cwiseProduct(x);
+    G.diagonal() = G.diagonal() * (1.0 + damping) + prior;
     const Eigen::VectorXd move = box_least_squares(G, b, lower - x, upper - x);
     if (move.isZero(1e-9)) break;
     const Eigen::VectorXd next_change = model.change(x + move);

@@ -8,6 +8,9 @@ namespace fathom {
 
 namespace {
 
+constexpr int kReweighted = 3;   // times that the prior's pull is found anew where parameters are large, …
+constexpr double kSmall = 0.05;  // … −2 log of their prior above this
+
 class Screening {
  public:
   Screening(const Problem& problem, int keep)
@@ -38,10 +41,14 @@ class Screening {
     const std::vector<Eigen::Index> columns = columns_of(problem_, effects);
     const Eigen::MatrixXd G = gram_(columns, columns);
     const Eigen::VectorXd b = projections_(columns);
-    Eigen::MatrixXd with_prior = G;
-    with_prior.diagonal().array() += 1.0 / (kPriorWidth * kPriorWidth);
-    Hypothesis found{effects, box_least_squares(with_prior, b, problem_.lower(columns), problem_.upper(columns))};
-    const Eigen::VectorXd& x = found.parameters;
+    Hypothesis found{effects, Eigen::VectorXd::Zero(b.size())};
+    Eigen::VectorXd& x = found.parameters;
+    for (int step = 0; step < kReweighted; ++step) {
+      Eigen::MatrixXd with_prior = G;
+      with_prior.diagonal() += prior_precisions(x);
+      x = box_least_squares(with_prior, b, problem_.lower(columns), problem_.upper(columns));
+      if (prior_penalty(x) < kSmall) break;
+    }
     Eigen::Index first = 0;
     for (const int effect : effects) {
       const auto count = static_cast<Eigen::Index>(problem_.columns[effect].size());

@@ -66,6 +66,36 @@ TEST(Decide, RefitsWithTheModelItself) {
   EXPECT_NEAR(diagnosis.effects[0].parameters[0].value, 5.0, 0.3);
 }
 
+TEST(Decide, AnEffectFarFromTypicalIsMeasuredAsWell) {
+  const World world(small_design());
+  int covered = 0;
+  for (const std::string effect : {"radial_distortion", "subsurface_scattering", "meniscus", "wall_multipath"}) {
+    const EffectValue truth = world.at_strength(effect, 15.0, 1.0);
+    Evidence evidence = world.measure({truth}, {}, 11);
+    // The same measurement for someone who thinks that a thirtieth of it would be typical.
+    Parameter& parameter = evidence.candidates[world.candidate(effect)].parameters[0];
+    parameter.prior_scale = std::abs(truth.values[0] - parameter.nominal) / 30.0;
+    const Diagnosis diagnosis = decide(evidence, world.predict());
+    ASSERT_EQ(diagnosis.effects.size(), 1U) << effect;
+    EXPECT_EQ(diagnosis.effects[0].name, effect);
+    const NamedParameter& named = diagnosis.effects[0].parameters[0];
+    covered += named.low95 <= truth.values[0] && truth.values[0] <= named.high95;
+  }
+  EXPECT_GE(covered, 3);  // of four 95 % intervals two or more miss once in 70 times
+}
+
+TEST(Decide, WhatAnEffectExplainsIsNotUnknownEvenWhereNoTestConfirmsIt) {
+  const World world(small_design());
+  const EffectValue truth = world.at_strength("radial_distortion", 15.0, 1.0);
+  DecisionSettings settings;
+  settings.p_confirmation = 0.0;
+  const Diagnosis diagnosis = decide(world.measure({truth}, {}, 11), world.predict(), {}, settings);
+  EXPECT_EQ(diagnosis.verdict, Verdict::ambiguous);
+  ASSERT_FALSE(diagnosis.ambiguity_set.empty());
+  EXPECT_EQ(diagnosis.ambiguity_set[0].effects, std::vector<std::string>{"radial_distortion"});
+  EXPECT_TRUE(diagnosis.effects.empty());
+}
+
 TEST(Decide, LeavesTwinsOpen) {
   const World world(small_design());
   const EffectValue truth = world.at_strength("cup_bottom_height", 12.0, 1.0);

@@ -1,0 +1,25 @@
+#include "diagnosis/statistics/case.h"
+
+namespace fathom {
+
+Case case_of(const Evidence& evidence, const Predict& predict, const DecisionSettings& settings) {
+  Case c{evidence, predict, settings, estimate_covariance(evidence, measured_minus_predicted(evidence)), {}, {}, {},
+         {},       {},      {}};
+  c.problem = whitened_problem(evidence, c.covariance);
+  c.draws = pseudo_experiments(c.covariance, settings.pseudo_experiments, settings.seed);
+  c.shapes = gap_shapes(evidence, c.covariance);
+  c.spaces = candidate_spaces(c.problem, c.covariance);
+  c.discovery = discovery_tail(c.spaces, c.draws);
+  c.gap = gap_test(c.shapes, c.problem.residual, c.draws, Eigen::MatrixXd(c.problem.residual.size(), 0));
+  return c;
+}
+
+Rest rest_of(const Case& c, const Refit& fit) {
+  Rest rest{c.problem.residual - fit.prediction, orthonormal(fit.jacobian), c.gap.p};
+  if (rest.explained.cols() == 0) return rest;
+  rest.residual -= rest.explained * (rest.explained.transpose() * rest.residual);
+  rest.p = gap_test(c.shapes, rest.residual, c.draws, rest.explained).p;
+  return rest;
+}
+
+}  // namespace fathom

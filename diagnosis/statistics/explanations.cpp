@@ -1,0 +1,53 @@
+#include "diagnosis/statistics/explanations.h"
+
+#include <algorithm>
+#include <set>
+
+#include "diagnosis/statistics/effect_name.h"
+
+namespace fathom {
+
+namespace {
+
+std::vector<std::string> words(const Evidence& evidence, const Option& option) {
+  std::vector<std::string> result;
+  for (const int effect : option.effects) result.push_back(evidence.candidates[effect].effect);
+  if (option.has_unknown) result.emplace_back("unknown");
+  return result;
+}
+
+std::set<std::string> ids(const Evidence& evidence, const Option& option) {
+  std::set<std::string> result;
+  for (const std::string& word : words(evidence, option)) result.insert(effect_name(word).id);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
+  std::vector<Explanation> result;
+  for (std::size_t k = 0; k < set.classes.size(); ++k) {
+    Explanation explanation{words(evidence, set.classes[k].front()), {}, set.probabilities[k]};
+    for (std::size_t i = 1; i < set.classes[k].size(); ++i)
+      explanation.alternatives.push_back(words(evidence, set.classes[k][i]));
+    result.push_back(std::move(explanation));
+  }
+  return result;
+}
+
+bool all_name(const Evidence& evidence, const std::vector<int>& effects, const AmbiguitySet& set) {
+  const std::set<std::string> named = ids(evidence, {effects, {}, false, 0.0, {}});
+  return std::all_of(set.classes.begin(), set.classes.end(), [&](const std::vector<Option>& options) {
+    return std::all_of(options.begin(), options.end(), [&](const Option& o) { return ids(evidence, o) == named; });
+  });
+}
+
+double probability_of_nothing(const AmbiguitySet& set) {
+  for (std::size_t k = 0; k < set.classes.size(); ++k)
+    if (std::any_of(set.classes[k].begin(), set.classes[k].end(),
+                    [](const Option& o) { return o.effects.empty() && !o.has_unknown; }))
+      return set.probabilities[k];
+  return 0.0;
+}
+
+}  // namespace fathom

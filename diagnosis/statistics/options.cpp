@@ -1,0 +1,90 @@
+#include "diagnosis/statistics/options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/statistics/screen.h"
+#include "diagnosis/statistics/smooth_score.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr int kKept = 60;                // sets of each size that are considered, …
+constexpr double kHopeless = 12.0;       // … unless that far below the best in linear log evidence, …
+constexpr std::size_t kRefitted = 8;     // … and refitted, likeliest first
+constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
+const double kLogPriorUnknown = std::log(0.1);
+
+/// What was not worth a refit may still not be excluded: sets by their signatures, and effects that these observations
+/// do not show.
+void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
+                  std::vector<Option>& options) {
+  for (const Hypothesis& h : hypotheses) {
+    const bool is_fitted =
+        std::any_of(fits.begin(), fits.end(), [&](const Refit& fit) { return fit.hypothesis.effects == h.effects; });
+    if (is_fitted || h.log_evidence < options.front().log_posterior - c.settings.delta) continue;
+    options.push_back({h.effects, h.parameters, false, h.log_evidence,
+                       c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
+  }
+  for (std::size_t effect = 0; effect < c.problem.columns.size(); ++effect) {
+    const std::vector<int> alone{static_cast<int>(effect)};
+    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.problem.columns[effect].size()));
+    if (!c.problem.signatures(Eigen::all, c.problem.columns[effect]).isZero(0.0)) continue;
+    const Eigen::MatrixXd unseen = Eigen::MatrixXd::Zero(nothing.size(), nothing.size());
+    options.push_back({alone, nothing, false, log_evidence(c.problem, 0.0, alone, nothing, unseen),
+                       Eigen::VectorXd::Zero(c.problem.residual.size())});
+  }
+}
+
+}  // namespace
+
+std::vector<Hypothesis> screened(const Case& c) {
+  std::vector<Hypothesis> hypotheses = screen(c.problem, kKept);
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence > b.log_evidence; });
+  return hypotheses;
+}
+
+std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Refit> result;
+  const Eigen::Index n = c.problem.residual.size();
+  Refit nothing;
+  nothing.prediction = Eigen::VectorXd::Zero(n);
+  nothing.jacobian.resize(n, 0);
+  result.push_back(std::move(nothing));
+  const double best = hypotheses.empty() ? 0.0 : std::max(0.0, hypotheses.front().log_evidence);
+  for (const Hypothesis& hypothesis : hypotheses)
+    if (hypothesis.log_evidence > best - kHopeless && result.size() <= kRefitted)
+      result.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
+  std::stable_sort(result.begin(), result.end(), [](const Refit& a, const Refit& b) {
+    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
+  });
+  return result;
+}
+
+std::vector<Option> options_of(const Case& c, const std::vector<Hypothesis>& hypotheses,
+                               const std::vector<Refit>& fits) {
+  std::vector<Option> options;
+  for (const Refit& fit : fits) {
+    const Option known{fit.hypothesis.effects, fit.hypothesis.parameters, false, fit.hypothesis.log_evidence,
+                       fit.prediction};
+    options.push_back(known);
+    if (&fit - fits.data() >= static_cast<std::ptrdiff_t>(kWithUnknown) && !known.effects.empty()) continue;
+    Eigen::VectorXd left = c.problem.residual - fit.prediction;
+    Eigen::MatrixXd smooth = c.shapes.smooth;
+    if (fit.jacobian.cols() > 0) {
+      const Eigen::MatrixXd explained = orthonormal(fit.jacobian);
+      left -= explained * (explained.transpose() * left);
+      smooth -= explained * (explained.transpose() * smooth);
+    }
+    Option with_unknown = known;
+    with_unknown.has_unknown = true;
+    with_unknown.log_posterior += kLogPriorUnknown + smooth_log_evidence(smooth, left);
+    options.push_back(std::move(with_unknown));
+  }
+  add_unfitted(c, hypotheses, fits, options);
+  return options;
+}
+
+}  // namespace fathom
