@@ -104,4 +104,13 @@ std::vector<Nuisance> nuisances_of(const Predictor& predictor) {
   return nuisances;
 }
 
+Nuisance brightness_response(const std::vector<Observation>& observations, const Eigen::VectorXd& predicted) {
+  constexpr double kExponentSigma = 0.5;
+  Nuisance response{"response of the brightness", kExponentSigma, Eigen::VectorXd::Zero(predicted.size())};
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (const auto row = static_cast<Eigen::Index>(i); observations[i].observable == "log_brightness")
+      response.signature[row] = predicted[row];
+  return response;
+}
+
 }  // namespace fathom

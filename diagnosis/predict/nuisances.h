@@ -9,4 +9,8 @@ namespace fathom {
 /// there are several, the fill of every pour, the place of every placement, and the matcher's window.
 std::vector<Nuisance> nuisances_of(const Predictor& predictor);
 
+/// What recorded the brightness need not have been linear: an exponent of 1 ± 0.5 (encodings for screens have 1 / 2.2)
+/// on all that is `predicted` of it.
+Nuisance brightness_response(const std::vector<Observation>& observations, const Eigen::VectorXd& predicted);
+
 }  // namespace fathom

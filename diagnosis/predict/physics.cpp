@@ -36,6 +36,8 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.predicted = predictor->predict({});
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);
+  if (Nuisance response = brightness_response(evidence.observations, evidence.predicted); !response.signature.isZero())
+    evidence.nuisances.push_back(std::move(response));
   evidence.shared_errors = model_errors(evidence.observations);
   Candidates candidates = candidates_of(*predictor, only);
   evidence.candidates = std::move(candidates.all);

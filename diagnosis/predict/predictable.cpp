@@ -14,15 +14,27 @@ constexpr std::array<std::string_view, 4> kOfPlacements{"height_mm", "desk_heigh
 constexpr std::array<std::string_view, 5> kOfSessions{"desk_pitch_deg", "desk_roll_deg", "desk_residual_mm",
                                                       "comb_strength", "millimetre_comb"};
 
+bool is_comb(const Observation& o) { return o.observable == "comb_strength" || o.observable == "millimetre_comb"; }
+
+/// Raw shifts, OpenNI's 100 µm mode and floats made of either are the device's depths, too, but not in the steps of its
+/// millimetres: there is no law to hold them against.
+bool has_whole_millimetres(const std::vector<Observation>& observations) {
+  constexpr double kWhole = 0.9;  // mean cosine: 1 apart from rounding
+  return std::none_of(observations.begin(), observations.end(),
+                      [](const Observation& o) { return o.observable == "millimetre_comb" && o.value < kWhole; });
+}
+
 }  // namespace
 
 std::vector<Observation> predictable(const std::vector<Observation>& observations) {
   std::set<std::tuple<int, bool, std::string, std::string>> seen;
+  const bool has_law = has_whole_millimetres(observations);
   std::vector<Observation> result;
   for (const Observation& observation : observations) {
     const auto is_in = [&](const auto& names) {
       return std::find(names.begin(), names.end(), observation.observable) != names.end();
     };
+    if (is_comb(observation) && !has_law) continue;
     const Factors& f = observation.factors;
     const bool is_new_in_session =
         is_in(kOfSessions) && seen.emplace(f.session, f.liquid == "none", observation.observable, f.region).second;

@@ -7,7 +7,8 @@ namespace fathom {
 
 /// Heights by region, the brightness inside and the desk's height in every placement; how the desk lies and looks once
 /// in a session, with bare desk and with a cup: it stays where it is, so that every placement says the same of it, with
-/// the same errors. Left out are spreads, valid fractions and contrast, which walls, scattering and matching decide.
+/// the same errors. Left out are spreads, valid fractions and contrast, which walls, scattering and matching decide,
+/// and the combs where depths were recorded in other units than the device's whole millimetres.
 std::vector<Observation> predictable(const std::vector<Observation>& observations);
 
 }  // namespace fathom

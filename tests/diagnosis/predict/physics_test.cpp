@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/predict/nuisances.h"
+#include "diagnosis/predict/predictable.h"
 #include "sim/effects/registry.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 #include "tests/diagnosis/predict/paper_measurement.h"
@@ -21,6 +23,35 @@ const Candidate* find(const Evidence& evidence, std::string_view effect) {
 }
 
 double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.dot(b) / (a.norm() * b.norm()); }
+
+/// A bare desk's combs, beside its height.
+std::vector<std::string> compared(double steps, double millimetres) {
+  std::vector<Observation> observations(3);
+  observations[0].observable = "desk_height_mm";
+  observations[1].observable = "comb_strength";
+  observations[1].value = steps;
+  observations[2].observable = "millimetre_comb";
+  observations[2].value = millimetres;
+  std::vector<std::string> result;
+  for (const Observation& o : predictable(observations)) result.push_back(o.observable);
+  return result;
+}
+
+TEST(Predictable, StepsAreComparedWhereDepthsAreWholeMillimetres) {
+  EXPECT_EQ(compared(0.6, 1.0), (std::vector<std::string>{"desk_height_mm", "comb_strength", "millimetre_comb"}));
+  // Steps of 1/8 px that nobody cut; no steps at all.
+  EXPECT_EQ(compared(-1.0, -0.06), std::vector<std::string>{"desk_height_mm"});
+  EXPECT_EQ(compared(0.0, 0.0), std::vector<std::string>{"desk_height_mm"});
+}
+
+TEST(Nuisances, ARecordWithoutBrightnessIsTwoSigmaFromALinearOne) {
+  std::vector<Observation> observations(2);
+  observations[0].observable = "log_brightness";
+  observations[1].observable = "height_mm";
+  const Nuisance response = brightness_response(observations, Eigen::Vector2d(-0.4, 16.0));
+  EXPECT_DOUBLE_EQ(-0.4 - 2.0 * response.sigma * response.signature[0], 0.0);
+  EXPECT_EQ(response.signature[1], 0.0);
+}
 
 TEST(Physics, RowsAreWhatTheModelPredicts) {
   const Physics physics = physics_of(paper_measurement(true));
