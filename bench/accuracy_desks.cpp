@@ -75,9 +75,8 @@ void compare_desks(CaptureMode mode) {
   if (clouds.empty()) print_note("skipped: no measured clouds (FATHOM_REAL_DATA); published figures instead");
   compare(sensor, simulated, measured);
   if (mode == CaptureMode::geometric) return;
-  print_note(
-      "Fitted: f-number, dot size, focus and beam, to these sigmas, to the columns' correlation and to a facing");
-  print_note("wall at 1 m, all at once. Predicted: the rows' correlation, walls over distance.");
+  print_note("Fitted: f-number, dot size, focus, beam and the compression of light, to these sigmas, to the columns'");
+  print_note("correlation and to facing walls, all at once. Predicted: the rows' correlation, edges, pots.");
 }
 
 }  // namespace fathom

@@ -53,8 +53,6 @@ void compare_ranges(CaptureMode mode) {
     print_figure("       beside Nguyen et al., band of both", mm_from_metres(sigma), mm_from_metres(high), "published",
                  Bar{mm_from_metres(low), mm_from_metres(high)});
   }
-  print_note(
-      "At 0.5 m the two formulas differ by a factor 3.4, and the measured desks' noise grows in steps below 1 m.");
   print_figure("share of depths on the depth law", on_device_law / measured, 1.0, "exact", Bar{1.0, 1.0});
   print_figure("least valid share inside the border, matte", least_valid, std::nullopt, "", Bar{0.99, 1.0});
 

@@ -43,7 +43,7 @@ NoiseModel device() {
   noise.read_dn = 2.0;
   noise.bloom_share = 0.5;
   noise.bits = 10;
-  noise.disparity = {.facing_px = 0.0545, .lateral_px = 0.45, .renewed = 0.27};
+  noise.disparity = {.facing_px = 0.0559, .lateral_px = 0.45, .renewed = 0.27};
   return noise;
 }
 

@@ -52,7 +52,7 @@ void read_pattern(const JsonReader& json, PatternModel& pattern) {
 
 void read_matcher(const JsonReader& json, MatcherModel& matcher) {
   json.allow_only({"method", "window_columns", "window_rows", "disparity_min_px", "disparity_max_px", "correlation_min",
-                   "contrast_min_dn", "relative_contrast_min", "hole_max_px"});
+                   "contrast_min_dn", "relative_contrast_min", "compression_dn", "hole_max_px"});
   if (json.has("method")) {
     const std::string choices[] = {"precise", "device"};
     matcher.method = MatchMethod{static_cast<int>(json.at("method").choice(choices, "matching method"))};
@@ -68,6 +68,7 @@ void read_matcher(const JsonReader& json, MatcherModel& matcher) {
   matcher.correlation_min = json.number_or("correlation_min", matcher.correlation_min, {0.0, 1.0});
   matcher.contrast_min = json.number_or("contrast_min_dn", matcher.contrast_min, kNonNegative);
   matcher.relative_contrast_min = json.number_or("relative_contrast_min", matcher.relative_contrast_min, {0.0, 2.0});
+  matcher.compression = json.number_or("compression_dn", matcher.compression, kNonNegative);
   matcher.hole_max_px = json.integer_or("hole_max_px", matcher.hole_max_px, 0, 64);
 }
 
@@ -234,6 +235,7 @@ Json json_from_rig(const Rig& rig) {
         {"correlation_min", s.matcher.correlation_min},
         {"contrast_min_dn", s.matcher.contrast_min},
         {"relative_contrast_min", s.matcher.relative_contrast_min},
+        {"compression_dn", s.matcher.compression},
         {"hole_max_px", s.matcher.hole_max_px}}},
   });
   if (s.pattern.image) json["pattern"]["image"] = s.pattern.image_file;

@@ -46,7 +46,8 @@ struct MatcherModel {
   double correlation_min = 0.55;       ///< least zero-mean normalised cross-correlation of a match
   double contrast_min = 4.0;           ///< least standard deviation of the window [DN]
   double relative_contrast_min = 0.0;  ///< the same over the window's mean; device's method only
-  int hole_max_px = 0;  ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
+  double compression = 0.0;  ///< [DN] blocks are compared in √(light + this); 0: in light; device's method only
+  int hole_max_px = 0;       ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
 };
 
 /// What the device takes for its own numbers when it makes depths and points of disparities.

@@ -51,6 +51,17 @@ inline __attribute__((always_inline)) float block_product(const float* a, std::p
   return total;
 }
 
+/// Speckle makes dots as bright as chance has it. In light the brightest outweigh a block's others; in its root less.
+Image<float> compressed(const MatcherModel& matcher, Image<float> light) {
+  if (matcher.compression == 0.0) return light;
+  const auto dark = static_cast<float>(matcher.compression);
+  parallel_ranges(light.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < light.width(); ++x) light(x, y) = std::sqrt(std::max(light(x, y) + dark, 0.0f));
+  });
+  return light;
+}
+
 struct Candidate {
   float disparity = 0.0f;
   float correlation = -1.0f;
@@ -136,7 +147,7 @@ BlockReference block_reference(const MatcherModel& matcher, std::span<const Imag
     for (int y = 0; y < values.height(); ++y)
       for (int x = 0; x < values.width(); ++x)
         values(x, y) = 0.5f * (left(x, y) + right(std::min(x + in_right_half, right.width() - 1), y));
-    reference.phase.push_back(blocks_of(matcher, std::move(values)));
+    reference.phase.push_back(blocks_of(matcher, compressed(matcher, std::move(values))));
   }
   return reference;
 }
@@ -144,7 +155,8 @@ BlockReference block_reference(const MatcherModel& matcher, std::span<const Imag
 Image<float> block_match(const SensorModel& sensor, Image<float> halved, const BlockReference& reference, int margin_px,
                          const Image<float>& coarse) {
   const MatcherModel& matcher = sensor.matcher;
-  const Blocks live = blocks_of(matcher, std::move(halved));
+  const Blocks light = blocks_of(matcher, halved);
+  const Blocks live = blocks_of(matcher, compressed(matcher, std::move(halved)));
   const RowMatcher rows(sensor, live, reference, margin_px);
   const int half_columns = matcher.window_columns / 2, half_rows = matcher.window_rows / 2;
   const auto least_spread = static_cast<float>(
@@ -160,9 +172,9 @@ Image<float> block_match(const SensorModel& sensor, Image<float> halved, const B
       std::fill(row.begin(), row.end(), Candidate{});
       for (int x = half_columns; x < sensor.width - half_columns; ++x) {
         const float start = coarse(x / 2, y / kSearchStep);
-        const float spread = live.spread(x - half_columns, top);
+        const float spread = light.spread(x - half_columns, top);
         if (std::isnan(start) || spread < least_spread ||
-            spread < least_spread_of_sum * live.sum(x - half_columns, top))
+            spread < least_spread_of_sum * light.sum(x - half_columns, top))
           continue;
         row[x] = rows.climb(x - half_columns, top, static_cast<int>(std::lround(start * kPhases)));
       }

@@ -44,11 +44,14 @@ TEST(BlockMatch, MeasuresAFacingPlaneToTheNearestEighth) {
   }
 }
 
-TEST(BlockMatch, SlopesGetNoiseThatTheDotsDraw) {
-  // 0.1 px of disparity per row times a lot of about 0.7 rows is half a step: much more than on a facing plane.
-  const auto setup = setup_from_json(Json::parse(R"({"sensor": {"model": "xtion_pro_live_device", "height_mm": 600,
-      "pitch_deg": 35, "noise": "off", "quantization": "off", "unit": {"residue_px": 0}}, "desk": {"size_mm": [4000, 4000]}})"),
-                                     "test");
+/// Standard deviation of the disparities of a desk pitched by 35 degrees [steps of 1/8 px].
+double slope_noise(const std::string& more) {
+  const auto setup = setup_from_json(
+      Json::parse(
+          R"({"sensor": {"model": "xtion_pro_live_device", "height_mm": 600, "pitch_deg": 35, "quantization": "off",
+      "unit": {"residue_px": 0}, )" +
+          more + R"(}, "desk": {"size_mm": [4000, 4000]}})"),
+      "test");
   Camera camera(setup, CaptureMode::photometric, 4, 1);
   const Frame frame = camera.shoot(0);
   double squares = 0.0;
@@ -57,12 +60,25 @@ TEST(BlockMatch, SlopesGetNoiseThatTheDotsDraw) {
     for (int x = 100; x < 540; ++x) {
       const auto& apparent = camera.truth()(x, y).apparent_depth;
       if (!apparent || frame.disparity_px(x, y) == 0.0f) continue;
-      const double steps = 8.0 * (frame.disparity_px(x, y) - disparity_of_depth(setup.rig.sensor, *apparent));
-      squares += steps * steps, ++count;
+      squares += std::pow(8.0 * (frame.disparity_px(x, y) - disparity_of_depth(setup.rig.sensor, *apparent)), 2.0);
+      ++count;
     }
-  const double sigma = std::sqrt(squares / count);
+  return std::sqrt(squares / count);
+}
+
+TEST(BlockMatch, SlopesGetNoiseThatTheDotsDraw) {
+  // 0.1 px of disparity per row times a lot of about 0.7 rows is half a step: much more than on a facing plane.
+  const double sigma = slope_noise(R"("noise": "off")");
   EXPECT_GT(sigma, std::sqrt(1.0 / 12.0) + 0.05);  // the steps themselves
   EXPECT_LT(sigma, 0.7);                           // what desks show with speckle
+}
+
+TEST(BlockMatch, SlopesGetLessNoiseWhereBrightDotsCountForLess) {
+  // Fully developed speckle gives dots a contrast of one; in the root of light a half.
+  const double in_light = slope_noise(R"("matcher": {"compression_dn": 0})"),
+               in_root = slope_noise(R"("matcher": {"compression_dn": 100})");
+  EXPECT_LT(in_root, 0.9 * in_light);
+  EXPECT_GT(in_root, 0.6 * in_light);  // the lot of which rows the dots stand in stays
 }
 
 TEST(BlockMatch, OfTheDeviceMeasuresAMatteDeskAlmostEverywhere) {
