@@ -40,7 +40,8 @@ double disparity_seen(const Sensor& sensor, const Eigen::Vector2d& projector_pix
   const Eigen::Vector2d remembered(tangent.x() + reference, tangent.y());
   const double remembered_u =
       sensor.principal_px.x() + sensor.focal_px * (1.0 + sensor.radial_k1 * remembered.squaredNorm()) * remembered.x();
-  return camera_u - remembered_u + sensor.focal_px * reference + sensor.disparity_offset_px;
+  // The unit measures shifts against its memorised image. That this was of 1.2 m its table knows, not its own numbers.
+  return camera_u - remembered_u + disparity_of(1e-3 * kReferenceMm) + sensor.disparity_offset_px;
 }
 
 Eigen::Vector3d cloud_point(const Eigen::Vector2d& pixel, double depth) {

@@ -21,7 +21,7 @@ Eigen::Vector3d projector_direction(const Eyes& eyes, const Eigen::Vector2d& pix
 Eigen::Vector2d camera_pixel(const Eyes& eyes, const Sensor& sensor, const Eigen::Vector3d& direction);
 
 /// What the device takes for the disparity of a dot that it sees there: the shift from where it remembers the dot on
-/// its reference plane, plus that plane's own disparity.
+/// its reference plane, plus that plane's own disparity in the device's table.
 double disparity_seen(const Sensor& sensor, const Eigen::Vector2d& projector_pixel, double camera_u);
 
 /// A point of the cloud: camera frame, by the table's focal length and the image's middle [m].

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bench/blind/device_law.h"
+#include "bench/blind/eye.h"
 #include "bench/blind/laboratory.h"
 #include "bench/blind/shoot.h"
 
@@ -34,6 +35,18 @@ TEST(BlindDevice, DepthsAreThoseOfTheTable) {
       EXPECT_TRUE(table.contains(1e-3 * mm)) << mm;
     }
   }
+}
+
+TEST(BlindDevice, OnItsReferencePlaneAnyUnitReadsThatDistance) {
+  // What lies there looks as it is remembered, however the unit was built.
+  Sensor sensor;
+  sensor.baseline = 0.0764, sensor.focal_px = 575.0, sensor.pitch = 0.0;
+  const Eyes eyes = eyes_of(sensor);
+  const Eigen::Vector2d of_projector(250.0, 200.0);
+  const Eigen::Vector3d along = projector_direction(eyes, of_projector);
+  const Eigen::Vector3d there = eyes.projector + 1e-3 * kReferenceMm / along.y() * along;  // level: y is forward
+  const double u = camera_pixel(eyes, sensor, there - eyes.camera).x();
+  EXPECT_NEAR(depth_of(disparity_seen(sensor, of_projector, u)), 1e-3 * kReferenceMm, 1e-9);
 }
 
 TEST(BlindDevice, QuantisesWithoutBiasButForWholeMillimetres) {
