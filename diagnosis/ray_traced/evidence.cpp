@@ -58,19 +58,24 @@ struct Traced {
   }
 };
 
-/// Where few rays would have the set. What they do not see starts a prior scale off nominal, what they would not have
-/// at all half of one.
+/// Where few rays would have the set; what they do not see starts a prior scale off nominal, what is about light half
+/// of one, whatever they say.
 Eigen::VectorXd start_of(const Physics& physics, const Covariance& covariance, const Problem& problem,
                          const std::vector<int>& effects) {
   const auto count = static_cast<Eigen::Index>(columns_of(problem, effects).size());
   const Refit fit =
       refit(physics.evidence, physics.predict, covariance, problem, {effects, Eigen::VectorXd::Zero(count), 0.0, 0.0});
   Eigen::VectorXd start = fit.hypothesis.parameters;
-  for (Eigen::Index k = 0; k < count; ++k)
-    if (problem.signatures.col(columns_of(problem, effects)[k]).isZero(0.0))
-      start[k] = 1.0;
-    else if (start[k] == 0.0)
-      start[k] = 0.5;
+  Eigen::Index next = 0;
+  for (const int effect : effects) {
+    const Candidate& candidate = physics.evidence.candidates[effect];
+    const bool is_light = brings_light(*physics.predictor, candidate);
+    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k, ++next)
+      if (candidate.signature.col(k).isZero(0.0))
+        start[next] = 1.0;
+      else if (is_light || start[next] == 0.0)
+        start[next] = 0.5;
+  }
   return start;
 }
 

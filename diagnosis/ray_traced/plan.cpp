@@ -9,7 +9,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kMost_s = 800.0;      // of processor time
+constexpr double kMost_s = 250.0;      // of processor time
 constexpr std::size_t kLikeliest = 4;  // explanations that are traced
 
 using Set = std::vector<std::string>;
@@ -18,23 +18,6 @@ Set named_set(const Diagnosis& diagnosis) {
   Set set;
   for (const NamedEffect& effect : diagnosis.effects) set.push_back(effect.name);
   return set;
-}
-
-/// A prior scale off nominal.
-EffectValue typical_departure(const Candidate& candidate) {
-  EffectValue value{candidate.effect, {}};
-  for (const Parameter& parameter : candidate.parameters)
-    value.values.push_back(parameter.nominal + parameter.prior_scale);
-  return value;
-}
-
-/// Whether the effect lets in light that few rays know nothing of.
-bool brings_light(const Candidate& candidate, const Predictor& predictor) {
-  const Change change = switch_on({typical_departure(candidate)});
-  const auto& conditions = predictor.conditions();
-  return std::any_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
-    return measured_light(predictor.setup(condition, change)) != measured_light(predictor.setup(condition));
-  });
 }
 
 bool is_unseen(const Candidate& candidate) { return candidate.signature.isZero(0.0); }
@@ -52,7 +35,7 @@ std::vector<Set> light_sets(const Physics& physics) {
   std::vector<Set> sets;
   bool has_unseen = false;
   for (const Candidate& candidate : physics.evidence.candidates) {
-    if (!effect_name(candidate.effect).liquid.empty() || !brings_light(candidate, *physics.predictor)) continue;
+    if (!effect_name(candidate.effect).liquid.empty() || !brings_light(*physics.predictor, candidate)) continue;
     if (is_unseen(candidate) && std::exchange(has_unseen, true)) continue;
     sets.push_back({candidate.effect});
   }
@@ -89,7 +72,7 @@ TracingPlan plan_tracing(const Physics& physics, const Diagnosis& diagnosis, con
     }
     const RayTracer::Cost once = tracer.cost(typical);
     const double seconds = static_cast<double>(predictions) * once.seconds;
-    if (!plan.sets.empty() && total.seconds + seconds > kMost_s) {
+    if (set != named_set(diagnosis) && total.seconds + seconds > kMost_s) {
       ++plan.left_out;
       continue;
     }

@@ -11,6 +11,21 @@
 
 namespace fathom {
 
+EffectValue typical_departure(const Candidate& candidate) {
+  EffectValue value{candidate.effect, {}};
+  for (const Parameter& parameter : candidate.parameters)
+    value.values.push_back(parameter.nominal + parameter.prior_scale);
+  return value;
+}
+
+bool brings_light(const Predictor& predictor, const Candidate& candidate) {
+  const Change change = switch_on({typical_departure(candidate)});
+  const auto& conditions = predictor.conditions();
+  return std::any_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+    return measured_light(predictor.setup(condition, change)) != measured_light(predictor.setup(condition));
+  });
+}
+
 RayTracer::RayTracer(std::shared_ptr<const Predictor> predictor, std::uint64_t seed, std::function<void()> traced)
     : predictor_(std::move(predictor)), seed_(seed), traced_(std::move(traced)) {}
 

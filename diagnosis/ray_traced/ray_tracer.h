@@ -10,6 +10,12 @@
 
 namespace fathom {
 
+/// A prior scale off nominal.
+EffectValue typical_departure(const Candidate& candidate);
+
+/// Whether an effect lets in light that few rays know nothing of.
+bool brings_light(const Predictor& predictor, const Candidate& candidate);
+
 class RayTracer {
  public:
   /// `traced` is called after every condition. Equal seeds give equal noise in every prediction.
