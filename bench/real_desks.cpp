@@ -74,7 +74,8 @@ std::map<RowKey, double> unit_spread() {
   std::map<RowKey, double> spread;
   for (const auto& [key, all] : values) {
     const Eigen::Map<const Eigen::ArrayXd> units(all.data(), static_cast<Eigen::Index>(all.size()));
-    if (units.size() > 1) spread[key] = std::sqrt((units - units.mean()).square().sum() / (units.size() - 1.0));
+    const double freedom = static_cast<double>(all.size()) - 1.0;
+    if (freedom > 0.0) spread[key] = std::sqrt((units - units.mean()).square().sum() / freedom);
   }
   return spread;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/statistics/confirm.h"
+
 namespace fathom {
 
 namespace {

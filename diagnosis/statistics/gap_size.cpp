@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "diagnosis/statistics/confirm.h"
 #include "diagnosis/statistics/folds.h"
 #include "diagnosis/statistics/groups.h"
 
