@@ -9,7 +9,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kMost_s = 250.0;      // of processor time
+constexpr double kMost_s = 170.0;      // of processor time
 constexpr std::size_t kLikeliest = 4;  // explanations that are traced
 
 using Set = std::vector<std::string>;
