@@ -1,6 +1,7 @@
 #include "diagnosis/measurement/frame_estimates.h"
 
 #include <Eigen/Cholesky>
+#include <complex>
 #include <numbers>
 
 #include "core/units.h"
@@ -12,6 +13,7 @@ constexpr double kImageWidth = 640.0, kImageHeight = 480.0;   ///< [px] that the
 constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
 constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
 constexpr double kFewestPixels = 100.0;
+constexpr double kManyCodes = 8.0;     // deviation: a plane of few codes has teeth of its own
 constexpr std::size_t kCombEvery = 7;  ///< points of which combs are taken: ten thousands are enough, cosines are dear
 
 /// Sums for mean and standard deviation.
@@ -95,14 +97,19 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   std::array<Sums, 9> residual;
   std::array<Sums, 5> height;
   Sums interior, interior_intensity, desk_intensity;
-  Eigen::Vector2d comb = Eigen::Vector2d::Zero();
-  double millimetres = 0.0, combed = 0.0;
+  std::optional<OutlineFit> outline;
+  if (cup) outline.emplace(rig, cup->centre);
+  std::complex<double> comb;
+  std::array<std::complex<double>, 2> coarse;
+  double millimetres = 0.0;
+  Sums codes;
   for (std::size_t number = 0; number < points.size(); ++number) {
     const SensedPoint& sensed = points[number];
     const Eigen::Vector3f p = turn * sensed.point + shift;
     const Eigen::Vector2d from_axis = p.head<2>().cast<double>() - (cup ? cup->centre : Eigen::Vector2d::Zero());
     const double squared = from_axis.squaredNorm(), w = sensed.weight;
     if (cup && squared < cup->clear_of_cup * cup->clear_of_cup) {
+      outline->add(from_axis, p.z(), w);
       if (squared > reach * reach || p.z() < kLeastHeight || p.z() > kMostHeight) continue;
       const std::array<double, 5> shares = shares_of_regions(from_axis, radius, view.soft_m);
       double whole = 0.0;
@@ -118,9 +125,12 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     if (number % kCombEvery != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.point.z();
-    combed += w;
     const double steps = steps_per_inverse * (1.0 / kReference - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;
-    comb += w * Eigen::Vector2d(std::cos(two_pi * steps), std::sin(two_pi * steps));
+    codes.add(steps, w);
+    const std::complex<double> of_half = std::polar(1.0, 0.25 * two_pi * steps), of_quarter = of_half * of_half;
+    coarse[0] += w * of_quarter;
+    coarse[1] += w * of_half;
+    comb += w * of_quarter * of_quarter;
     millimetres += w * std::cos(two_pi * mm_from_metres(z));
   }
   FrameEstimates estimates;
@@ -130,9 +140,12 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   estimates.desk_intensity = desk_intensity.estimate();
   estimates.interior = interior.estimate();
   estimates.interior_intensity = interior_intensity.estimate();
-  if (combed > 0.0) {
-    estimates.step_comb = comb / combed;
-    estimates.millimetre_comb = millimetres / combed;
+  if (outline) estimates.outline = outline->solve();
+  if (codes.weight > 0.0) {
+    estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
+    for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = std::abs(coarse[i]) / codes.weight;
+    estimates.spans_codes = codes.estimate().sd > kManyCodes;
+    estimates.millimetre_comb = millimetres / codes.weight;
   }
   return estimates;
 }

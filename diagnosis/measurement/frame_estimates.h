@@ -5,6 +5,7 @@
 #include <span>
 
 #include "detector/plane.h"
+#include "diagnosis/measurement/cup_outline.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/rig.h"
 
@@ -23,6 +24,9 @@ struct RegionEstimate {
   double weight = 0.0;  ///< points
 };
 
+/// Codes of 1/8 px that the coarser combs have between their teeth.
+inline constexpr std::array<int, 2> kCoarseCombs{2, 4};
+
 struct FrameEstimates {
   Plane desk;
   std::array<RegionEstimate, 9> desk_residual;  ///< [m] heights above the fitted desk, by third of the image
@@ -30,8 +34,11 @@ struct FrameEstimates {
   std::array<RegionEstimate, 5> height;         ///< [m] above the fitted desk, by region of the cup
   RegionEstimate interior;                      ///< the same of all regions together
   RegionEstimate interior_intensity;            ///< [DN]
-  Eigen::Vector2d step_comb = {0.0, 0.0};       ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
-  double millimetre_comb = 0.0;                 ///< mean cos of 2π · depth in mm, of the desk
+  std::optional<CupOutline> outline;
+  Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
+  std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px
+  bool spans_codes = false;                         ///< whether the desk lies in so many codes that these tell anything
+  double millimetre_comb = 0.0;                     ///< mean cos of 2π · depth in mm, of the desk
 };
 
 /// How the points are looked at.

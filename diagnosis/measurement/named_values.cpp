@@ -20,6 +20,12 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;
     if (inside > 0.0 && desk > 0.0) values.push_back({"log_brightness", kWholeInterior, std::log(inside / desk)});
   }
+  if (estimates.outline) {
+    constexpr std::string_view kWalls = "walls";
+    values.push_back({"cup_x_mm", kWalls, mm_from_metres(estimates.outline->off.x())});
+    values.push_back({"cup_y_mm", kWalls, mm_from_metres(estimates.outline->off.y())});
+    values.push_back({"cup_radius_mm", kWalls, mm_from_metres(estimates.outline->wider)});
+  }
   const Eigen::Vector3d& normal = estimates.desk.normal;
   values.push_back({"desk_height_mm", kDesk, mm_from_metres(estimates.desk.offset)});
   values.push_back({"desk_pitch_deg", kDesk, deg_from_radians(pitch_above(estimates.desk))});
@@ -30,6 +36,10 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   const Eigen::Vector2d& comb = estimates.step_comb;
   values.push_back({"comb_strength", kDesk, comb.x()});
   values.push_back({"comb_phase", kDesk, std::atan2(comb.y(), comb.x()) / (2.0 * std::numbers::pi)});
+  if (estimates.spans_codes) {
+    values.push_back({"comb_quarter", kDesk, estimates.coarse_combs[0]});
+    values.push_back({"comb_half", kDesk, estimates.coarse_combs[1]});
+  }
   values.push_back({"millimetre_comb", kDesk, estimates.millimetre_comb});
   return values;
 }

@@ -14,10 +14,12 @@ struct NamedValue {
   double value;
 };
 
-/// "height_mm" of every region of the cup with at least sixty pixels; of the desk "desk_height_mm" (of the camera above
+/// "height_mm" of every region of the cup with at least sixty pixels; of its walls "cup_x_mm", "cup_y_mm" (of the axis
+/// from where it should stand) and "cup_radius_mm" (less the rig's); of the desk "desk_height_mm" (of the camera above
 /// it), "desk_pitch_deg", "desk_roll_deg", "desk_residual_mm" of each third of the image with at least a hundred,
 /// of the disparities' fractions "comb_strength" (mean cosine: 1 on the device's steps, −1 half a step beside them) and
-/// "comb_phase" (in steps), "millimetre_comb" of the depths' in the same way; "log_brightness", the natural
+/// "comb_phase" (in steps), "comb_quarter" and "comb_half" how far disparities keep to
+/// steps of 1/4 and 1/2 px, "millimetre_comb" of the depths' in the first way; "log_brightness", the natural
 /// logarithm of the brightness inside over that of the desk, and "height_sd_mm" of the whole interior.
 std::vector<NamedValue> named_values(const FrameEstimates& estimates);
 

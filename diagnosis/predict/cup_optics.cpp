@@ -187,6 +187,7 @@ std::optional<CupOptics> cup_optics(const Setup& setup) {
                    .albedo = shape->albedo,
                    .bottom = {shape->inner.front()},
                    .inner = shape->inner,
+                   .outer = shape->outer,
                    .layers = {}};
   for (const Eigen::Vector2d& point : shape->outer) optics.outer_radius = std::max(optics.outer_radius, point.x());
   for (std::size_t i = 1; i < shape->inner.size(); ++i) {  // the bottom is what rises by less than 45°

@@ -29,7 +29,8 @@ struct CupOptics {
   double albedo;
   std::vector<Eigen::Vector2d> bottom;  ///< (radius, height), from the axis to where the wall begins
   std::vector<Eigen::Vector2d> inner;   ///< the whole inside
-  std::vector<LiquidLayer> layers;      ///< from above
+  std::vector<Eigen::Vector2d> outer;
+  std::vector<LiquidLayer> layers;  ///< from above
 };
 
 /// Of the cups of a scene that stand at one place: what stands in the first is in all (see sim/effects/stratification).

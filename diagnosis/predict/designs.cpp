@@ -91,10 +91,12 @@ void add_frame(const Factors& factors, int repeats, std::vector<Observation>& ob
   const auto add = [&](std::string_view observable, std::string_view region) {
     observations.push_back(observation(factors, observable, region, repeats));
   };
-  if (factors.liquid != "none")
+  if (factors.liquid != "none") {
     for (const std::string_view region : kCupRegionNames) add("height_mm", region);
-  for (const std::string_view of_desk :
-       {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg", "comb_strength", "millimetre_comb"})
+    for (const std::string_view of_walls : {"cup_x_mm", "cup_y_mm", "cup_radius_mm"}) add(of_walls, "walls");
+  }
+  for (const std::string_view of_desk : {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg", "comb_strength",
+                                         "comb_quarter", "comb_half", "millimetre_comb"})
     add(of_desk, "desk");
   for (const std::string_view region : kDeskRegionNames) add("desk_residual_mm", region);
 }

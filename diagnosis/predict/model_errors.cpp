@@ -23,8 +23,17 @@ constexpr std::array kModelErrors{
     ModelError{"height_mm", 0.05, SharedBy::place_region},      // a matcher's bias by place
     ModelError{"height_mm", 0.05, SharedBy::condition},         // matching: the same dots fall the same way each time
     ModelError{"height_mm", 0.05, SharedBy::condition_region},  // the same
-    ModelError{"desk_height_mm", 0.05, SharedBy::all},          // against whole frames, as the next two
-    ModelError{"desk_height_mm", 0.05, SharedBy::place},        // a cup hides what the plane was fitted to
+    ModelError{"cup_x_mm", 0.10, SharedBy::all},                // against whole frames, as the next two
+    ModelError{"cup_x_mm", 0.40, SharedBy::place},              // walls are steep, and seen as the device's dots fall
+    ModelError{"cup_x_mm", 0.15, SharedBy::condition},          // from above a window spans half a wall and the liquid
+    ModelError{"cup_y_mm", 0.10, SharedBy::all},
+    ModelError{"cup_y_mm", 0.40, SharedBy::place},
+    ModelError{"cup_y_mm", 0.15, SharedBy::condition},
+    ModelError{"cup_radius_mm", 0.10, SharedBy::all},
+    ModelError{"cup_radius_mm", 0.20, SharedBy::place},
+    ModelError{"cup_radius_mm", 0.10, SharedBy::condition},
+    ModelError{"desk_height_mm", 0.05, SharedBy::all},    // against whole frames, as the next two
+    ModelError{"desk_height_mm", 0.05, SharedBy::place},  // a cup hides what the plane was fitted to
     ModelError{"desk_pitch_deg", 0.02, SharedBy::all},
     ModelError{"desk_roll_deg", 0.02, SharedBy::all},
     ModelError{"desk_residual_mm", 0.10, SharedBy::region},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
@@ -34,6 +43,8 @@ constexpr std::array kModelErrors{
     ModelError{"log_brightness", 0.05, SharedBy::condition},
     ModelError{"desk_wander_mm", 0.02, SharedBy::all},     // noise reaches across the thirds' borders
     ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
+    ModelError{"comb_quarter", 0.05, SharedBy::session},   // what teeth a desk's own codes have
+    ModelError{"comb_half", 0.05, SharedBy::session},
     ModelError{"millimetre_comb", 0.02, SharedBy::all}};
 
 std::string shared_key(const Factors& f, SharedBy shared_by) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/predict/cup_optics.h"
+#include "diagnosis/predict/cup_walls.h"
 #include "sim/render/radiance.h"
 #include "sim/render/truth.h"
 #include "sim/sensor/depth.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kWidth = 640.0, kHeight = 480.0;  // [px]
 constexpr double kFarthestDesk = 2.0;              // [m] beyond, a desk is none
+constexpr double kHalfCode_px = 1.0 / 16.0;        // by which the middle of an even number of codes is no code
 
 Pose believed_pose(const LaboratoryRig& rig) {
   return camera_pose({0.0, 0.0, rig.height_m}, rig.pitch_rad, 0.0, rig.roll_rad, rig.baseline_m);
@@ -45,9 +47,10 @@ class Reader {
     const auto own = disparity(pixel, *seen);
     if (!own) return std::nullopt;
     const double read = read_disparity(rig_.sensor, error_, window_px_ > 1.0 ? window_mean(pixel, *own, look) : *own);
-    if (read <= 0.0) return std::nullopt;
+    const double read_as = rig_.sensor.quantized && rig_.sensor.codes_per_step % 2 == 0 ? read - kHalfCode_px : read;
+    if (read_as <= 0.0) return std::nullopt;
     constexpr double kCutOff = 0.5 * kMetresPerMm;  // depths are cut to whole millimetres
-    const double z = depth_of_disparity(rig_.sensor, read) - (rig_.sensor.quantized ? kCutOff : 0.0);
+    const double z = depth_of_disparity(rig_.sensor, read_as) - (rig_.sensor.quantized ? kCutOff : 0.0);
     const Eigen::Vector2d across = z / calibration_.focal_px * (pixel - calibration_.principal_px);
     return SensedPoint{Eigen::Vector3d(across.x(), across.y(), z).cast<float>(),
                        static_cast<float>(radiance_dn(rig_.sensor, seen->reflected)), static_cast<float>(weight)};
@@ -87,19 +90,25 @@ class Reader {
 
 /// Samples lie where they lie, but a frame's noise spreads its points over many steps and millimetres. Of the law's
 /// depths, cut to whole millimetres, the cut is even over one, which is k steps: the mean cosine of that is sinc k.
-void set_combs(const std::vector<SensedPoint>& points, const SensorModel& sensor, FrameEstimates& estimates) {
+void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, FrameEstimates& estimates) {
   estimates.step_comb.setZero();
+  estimates.coarse_combs.fill(0.0);
   estimates.millimetre_comb = sensor.quantized ? 1.0 : 0.0;
   if (!sensor.quantized) return;
   const Calibration believed = sensor.calibration();
-  double sum = 0.0, weight = 0.0;
-  for (const SensedPoint& sensed : points) {
-    const double steps =
-        8.0 * believed.focal_px * believed.baseline * kMetresPerMm / (sensed.point.z() * sensed.point.z());
-    sum += sensed.weight * std::sin(std::numbers::pi * steps) / (std::numbers::pi * steps);
-    weight += sensed.weight;
-  }
-  estimates.step_comb.x() = sum / weight;
+  const auto strength = [&](int codes) {
+    double sum = 0.0, weight = 0.0;
+    for (const SensedPoint& sensed : desk) {
+      const double steps =
+          8.0 / codes * believed.focal_px * believed.baseline * kMetresPerMm / (sensed.point.z() * sensed.point.z());
+      sum += sensed.weight * std::sin(std::numbers::pi * steps) / (std::numbers::pi * steps);
+      weight += sensed.weight;
+    }
+    return sum / weight;
+  };
+  estimates.step_comb.x() = strength(1);
+  for (std::size_t i = 0; i < kCoarseCombs.size(); ++i)
+    if (sensor.codes_per_step % kCoarseCombs[i] == 0) estimates.coarse_combs[i] = strength(kCoarseCombs[i]);
 }
 
 /// In which direction light would have left the projector, if the raised bottom lay, by this share, where the paper's
@@ -121,6 +130,35 @@ Eigen::Vector3d by_closed_form(const Rig& rig, const LiquidLayer& liquid, const 
   return (place - rig.projector_in_world()).normalized();
 }
 
+struct BoxOfPixels {
+  Eigen::AlignedBox2d box;  ///< [px] within the image
+  double depth = 0.0;       ///< [m] of its farthest corner
+};
+
+/// What a square upright column of a cup's height, `half` [m] from its axis to each side, covers of the image.
+BoxOfPixels pixels_about(const LaboratoryRig& rig, const Pose& camera_from_world, const Eigen::Vector2d& axis,
+                         double half) {
+  BoxOfPixels seen;
+  for (const double height : {0.0, rig.cup_height_m})
+    for (const double x : {-half, half})
+      for (const double y : {-half, half}) {
+        const Eigen::Vector3d p = camera_from_world * Eigen::Vector3d(axis.x() + x, axis.y() + y, height);
+        if (p.z() <= 0.0) continue;
+        seen.box.extend(
+            Eigen::Vector2d(rig.focal_px * p.x() / p.z() + 0.5 * kWidth, rig.focal_px * p.y() / p.z() + 0.5 * kHeight));
+        seen.depth = std::max(seen.depth, p.z());
+      }
+  seen.box = seen.box.intersection({Eigen::Vector2d::Zero(), Eigen::Vector2d(kWidth, kHeight)});
+  return seen;
+}
+
+std::vector<Eigen::Vector2d> every(int stride, const Eigen::AlignedBox2d& box) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (double y = std::floor(box.min().y()) + 0.5; y < box.max().y(); y += stride)
+    for (double x = std::floor(box.min().x()) + 0.5; x < box.max().x(); x += stride) pixels.emplace_back(x, y);
+  return pixels;
+}
+
 }  // namespace
 
 SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup) {
@@ -132,26 +170,14 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
   pixels.desk_weight = kWidth * kHeight / (kDeskColumns * kDeskRows);
   if (!cup) return pixels;
 
-  constexpr int kStride = 2;  // some 300 in a cup 0.7 m away
   const Pose camera_from_world = believed_pose(rig).inverse();
-  Eigen::AlignedBox2d seen;
-  const double radius = rig.inner_radius_m - kInteriorMargin, corner = 1.2 * radius;
-  double depth = 0.0;
-  for (const double height : {0.0, rig.cup_height_m})
-    for (const double x : {-corner, corner})
-      for (const double y : {-corner, corner}) {
-        const Eigen::Vector3d p = camera_from_world * Eigen::Vector3d(cup->x() + x, cup->y() + y, height);
-        if (p.z() <= 0.0) continue;
-        seen.extend(
-            Eigen::Vector2d(rig.focal_px * p.x() / p.z() + 0.5 * kWidth, rig.focal_px * p.y() / p.z() + 0.5 * kHeight));
-        depth = std::max(depth, p.z());
-      }
-  if (seen.isEmpty()) return pixels;
-  const Eigen::Vector2d low = seen.min().cwiseMax(0.0), high = seen.max().cwiseMin(Eigen::Vector2d(kWidth, kHeight));
-  for (double y = std::floor(low.y()) + 0.5; y < high.y(); y += kStride)
-    for (double x = std::floor(low.x()) + 0.5; x < high.x(); x += kStride) pixels.cup.emplace_back(x, y);
+  constexpr int kStride = 2, kWallStride = 3;  // some 300 in a cup 0.7 m away, as many on its walls
+  const BoxOfPixels inside = pixels_about(rig, camera_from_world, *cup, 1.2 * (rig.inner_radius_m - kInteriorMargin));
+  pixels.cup = every(kStride, inside.box);
   pixels.cup_weight = kStride * kStride;
-  pixels.soft_m = kStride * depth / rig.focal_px;
+  pixels.soft_m = kStride * inside.depth / rig.focal_px;
+  pixels.walls = every(kWallStride, pixels_about(rig, camera_from_world, *cup, 1.1 * rig.outer_radius_m).box);
+  pixels.wall_weight = kWallStride * kWallStride;
   return pixels;
 }
 
@@ -193,7 +219,7 @@ std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const Laborato
   const double desk_albedo = setup.scene.desk ? setup.scene.desk->albedo : 0.0;
   const Reader read(setup);
   std::vector<SensedPoint> points;
-  points.reserve(pixels.desk.size() + pixels.cup.size());
+  points.reserve(pixels.desk.size() + pixels.cup.size() + pixels.walls.size());
   const auto add = [&](const std::optional<SensedPoint>& point) {
     if (point) points.push_back(*point);
   };
@@ -214,11 +240,19 @@ std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const Laborato
     return Seen{reduced ? by_closed_form(setup.rig, cup->layers.front(), sight, *lit, share) : lit->projector_direction,
                 lit->reflected};
   };
+  const auto look_at_walls = [&](const Ray& sight) -> std::optional<Seen> {
+    const auto lit = look_at_wall(*cup, sight, projector);
+    if (!lit) return std::nullopt;
+    return Seen{lit->projector_direction, lit->reflected};
+  };
   for (const Eigen::Vector2d& pixel : pixels.desk) add(read(pixel, pixels.desk_weight, look_at_desk));
-  if (cup)
+  const std::size_t on_desk = points.size();
+  if (cup) {
     for (const Eigen::Vector2d& pixel : pixels.cup) add(read(pixel, pixels.cup_weight, look_into_cup));
+    for (const Eigen::Vector2d& pixel : pixels.walls) add(read(pixel, pixels.wall_weight, look_at_walls));
+  }
   std::optional<FrameEstimates> estimates = estimate_frame(points, rig, {place, pixels.soft_m});
-  if (estimates) set_combs(points, setup.rig.sensor, *estimates);
+  if (estimates) set_combs(std::span(points).first(on_desk), setup.rig.sensor, *estimates);
   return estimates;
 }
 

@@ -9,9 +9,9 @@ namespace fathom {
 /// Pixels of the depth image that stand for it; fixed by what the laboratory believes, so that set-ups that differ a
 /// little are looked at by the same rays.
 struct SampledPixels {
-  std::vector<Eigen::Vector2d> desk, cup;
-  double desk_weight = 0.0, cup_weight = 0.0;  ///< pixels that each stands for
-  double soft_m = 0.0;                         ///< distance of the cup's on the desk
+  std::vector<Eigen::Vector2d> desk, cup, walls;
+  double desk_weight = 0.0, cup_weight = 0.0, wall_weight = 0.0;  ///< pixels that each stands for
+  double soft_m = 0.0;                                            ///< distance of the cup's on the desk
 };
 
 /// `cup` is where the cup should stand in the world [m]; nothing on a bare desk.
@@ -25,7 +25,7 @@ std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRi
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
 /// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct
-/// light), walls' points. Combs are those of even mixtures of steps. Nothing when no desk is seen. Throws Error for a
+/// light). Combs are those of even mixtures of steps. Nothing when no desk is seen. Throws Error for a
 /// clear cup or one of a glTF file.
 std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
                                               const std::optional<Eigen::Vector2d>& cup, const SampledPixels& pixels);

@@ -9,16 +9,17 @@ void apply(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] == 0.0) return;
   constexpr int kRings = 16;
   const double depth = metres_from_mm(setting.values[0]);
-  for_each_cup(setup, [&](Cup&, CupShape& shape) {
+  for_each_cup(setup, [&](Cup& cup, CupShape& shape) {
     const Eigen::Vector2d middle = shape.inner[0], edge = shape.inner[1];
     std::vector<Eigen::Vector2d> bowl;
     for (int ring = 0; ring <= kRings; ++ring) {
       const double share = static_cast<double>(ring) / kRings;
       bowl.emplace_back(middle + share * (edge - middle));
-      bowl.back().y() += depth * share * share;
+      bowl.back().y() -= depth * (1.0 - share * share);
     }
     shape.inner.erase(shape.inner.begin(), shape.inner.begin() + 2);
     shape.inner.insert(shape.inner.begin(), bowl.begin(), bowl.end());
+    if (cup.filling && depth > 0.0) cup.filling->depth += depth;  // a ruler stands at the wall
   });
 }
 
@@ -28,7 +29,7 @@ Effect concave_bottom() {
   return {.id = "concave_bottom",
           .family = "cup",
           .sentence = "The inside of the cup's bottom is a bowl.",
-          .parameters = {{"depth_mm", "by which the bottom's edge stands above its middle", 0.0, 0.5, -5.0, 5.0}},
+          .parameters = {{"depth_mm", "by which the bottom's middle lies below its edge", 0.0, 0.5, -5.0, 5.0}},
           .citation = "Hara et al. 2014 take the bottom as flat; pressed cups are not",
           .twins = {"meniscus"},
           .discriminated_by = "the empty cup by regions, and turned by a quarter",

@@ -70,6 +70,7 @@ struct SensorModel {
   double radiant_dn_mm2 = 5.90e8;  ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
   bool quantized = true;           ///< depth on the device's law; false: float depth
   double step_phase = 0.5;         ///< where the law's depths lie between whole codes [steps]; the vendor's own SDK: 0
+  int codes_per_step = 1;          ///< the law has a code for every 1/8 px; a matcher may resolve no more than some
   double cut = 1e-3;               ///< [m] the law's depths are cut to whole multiples of it; 0: they are not
   PatternModel pattern;
   OpticsModel optics;

@@ -24,8 +24,10 @@ std::optional<double> device_depth(const SensorModel& sensor, int code, double u
 
 int device_code(const SensorModel& sensor, double depth) {
   const double inverse_mm = 1.0 / mm_from_metres(depth);
-  return static_cast<int>(std::lround(
-      steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - sensor.step_phase));
+  const double code =
+      steps_per_inverse_mm(sensor) * (1.0 / mm_from_metres(sensor.reference) - inverse_mm) - sensor.step_phase;
+  const int together = sensor.codes_per_step;
+  return together * static_cast<int>(std::floor((code + 0.5) / together)) + together / 2;
 }
 
 double disparity_of_depth(const SensorModel& sensor, double depth) { return sensor.focal_px * sensor.baseline / depth; }

@@ -18,7 +18,8 @@ namespace fathom {
 /// nothing; the device has outputs of 1 and 0.1 mm.
 std::optional<double> device_depth(const SensorModel& sensor, int code, double unit = kMetresPerMm);
 
-/// The code whose exact depth (before truncation to whole mm) is nearest in disparity to `depth` [m].
+/// The code whose exact depth (before truncation to whole mm) is nearest in disparity to `depth` [m]; of those that
+/// come together the middle one, or of an even number the farther of the two there.
 int device_code(const SensorModel& sensor, double depth);
 
 /// f b / Z [px] at the depth image's scale, of what is really there.

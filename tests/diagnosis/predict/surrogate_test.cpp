@@ -50,6 +50,12 @@ TEST_P(SurrogateAgainstFrames, SaysWhatTheFrameSays) {
         << kCupRegionNames[i] << " of " << frame->height[i].weight << " pixels";
     EXPECT_NEAR(few->height[i].weight / frame->height[i].weight, 1.0, 0.15) << kCupRegionNames[i];
   }
+  // The walls: rays stand 3 pixels apart, so that a step of 5 mm on a wall more or less counts as one of its ends.
+  constexpr double kWallMm = 0.1;
+  ASSERT_TRUE(frame->outline && few->outline);
+  EXPECT_NEAR(mm_from_metres(few->outline->off.x()), mm_from_metres(frame->outline->off.x()), kWallMm);
+  EXPECT_NEAR(mm_from_metres(few->outline->off.y()), mm_from_metres(frame->outline->off.y()), kWallMm);
+  EXPECT_NEAR(mm_from_metres(few->outline->wider), mm_from_metres(frame->outline->wider), kWallMm);
   EXPECT_NEAR(mm_from_metres(few->desk.offset), mm_from_metres(frame->desk.offset), kDeskMm);
   EXPECT_NEAR(pitch_above(few->desk), pitch_above(frame->desk), radians_from_deg(0.003));
 }
@@ -62,6 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "sensor_pitch", "pitch_deg": 0.5}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "baseline", "baseline_mm": 0.5}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "focal_length", "focal_px": 3}])")},
+                    Case{"water", 30, 300, 120, Json::parse(R"([{"name": "principal_point", "x_px": 3}])")},
+                    Case{"milk", 30, 300, -120, Json::parse(R"([{"name": "cup_placement", "x_mm": 3, "y_mm": -4}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "radial_distortion", "k1": 0.01}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "surface_tilt", "slope_x_deg": 1}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "meniscus", "contact_angle_deg": 30}])")},
@@ -71,6 +79,87 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"empty", 0, 300, 0, Json::parse(R"([{"name": "concave_bottom", "depth_mm": 2}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "concave_bottom", "depth_mm": 1}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "window_averaging", "window_px": 9}])")}));
+
+/// What the walls say of a cup with an effect, less what they say without one [mm].
+Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral_mm) {
+  const LaboratoryRig rig = paper_laboratory();
+  Factors factors;
+  factors.liquid = "empty";
+  factors.distance_mm = distance_mm, factors.lateral_mm = lateral_mm;
+  const Eigen::Vector2d place(metres_from_mm(lateral_mm), metres_from_mm(distance_mm));
+  const auto seen = [&](const Json& those) -> Eigen::Vector3d {
+    const auto frame = surrogate_frame(paper_setup(factors, those), rig, place, sample_pixels(rig, place));
+    const CupOutline& outline = frame->outline.value();
+    return 1e3 * Eigen::Vector3d(outline.off.x(), outline.off.y(), outline.wider);
+  };
+  return seen(effects) - seen(Json::array());
+}
+
+TEST(CupsOutline, GoesWithTheCup) {
+  // The fit is one step from the rig's circle: 3 mm beside it, curvature leaves 3² / (2 · 40) mm of the radius.
+  const Eigen::Vector3d moved = moved_by(Json::parse(R"([{"name": "cup_placement", "x_mm": 2, "y_mm": -2}])"), 300, 0);
+  EXPECT_NEAR(moved.x(), 2.0, 0.1);
+  EXPECT_NEAR(moved.y(), -2.0, 0.1);
+  EXPECT_NEAR(moved.z(), 0.0, 0.1);
+}
+
+TEST(CupsOutline, WidensWithTheCup) {
+  const Eigen::Vector3d moved = moved_by(Json::parse(R"([{"name": "wrong_cup", "scale": 0.05}])"), 300, 0);
+  EXPECT_NEAR(moved.z(), 0.05 * 41.5, 0.15);  // radii of 40 and 43 mm; a taller cup shows other heights of its walls
+  EXPECT_NEAR(moved.head<2>().norm(), 0.0, 0.1);
+}
+
+// A longer baseline than believed makes all depths shorter in proportion, but for those on the reference plane, 1.2 m
+// away: depths z become z / (1 + s (1 − z / 1.2 m)). A height of the sensor changes no place on the desk.
+TEST(CupsOutline, TellsTheDesksScaleFromTheSensorsHeight) {
+  const Json longer = Json::parse(R"([{"name": "baseline", "baseline_mm": 0.75}])");
+  const double farther = moved_by(longer, 400, 0).y() - moved_by(longer, 200, 0).y();
+  EXPECT_LT(farther, -0.5);  // of 200 mm, 1 % less two thirds of it …
+  EXPECT_GT(farther, -2.0);  // … and no more than 1 %
+  const Json higher = Json::parse(R"([{"name": "sensor_height", "height_mm": 3}])");
+  EXPECT_NEAR(moved_by(higher, 400, 0).y(), moved_by(higher, 200, 0).y(), 0.1);
+}
+
+/// A shot of the bare desk, and what the surrogate makes of it.
+std::pair<FrameEstimates, FrameEstimates> desk_with(const Json& effects) {
+  const LaboratoryRig rig = paper_laboratory();
+  Factors factors;
+  factors.liquid = "none";
+  const fathom::Setup setup = paper_setup(factors, effects);
+  Camera camera(setup, CaptureMode::geometric, 1, 1);
+  const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {});
+  const auto few = surrogate_frame(setup, rig, std::nullopt, sample_pixels(rig, std::nullopt));
+  return {frame.value(), few.value()};
+}
+
+TEST(Combs, TellHowCoarseTheStepsAre) {
+  for (const double step_px : {0.125, 0.25, 0.5}) {
+    const auto [frame, few] = desk_with({{{"name", "depth_quantization"}, {"law", 1}, {"step_px", step_px}}});
+    // Depths are no even mixture of steps, as the model's error of combs has it.
+    constexpr double kComb = 0.1;
+    for (std::size_t i = 0; i < kCoarseCombs.size(); ++i) {
+      EXPECT_NEAR(few.coarse_combs[i], frame.coarse_combs[i], kComb) << step_px;
+      EXPECT_EQ(few.coarse_combs[i] > 0.5, step_px >= 0.125 * kCoarseCombs[i]);
+    }
+    EXPECT_NEAR(few.step_comb.x(), frame.step_comb.x(), kComb);
+    // Half a step has no code of its own: the device takes the farther one, half of 1/8 px or 0.7 mm behind.
+    EXPECT_NEAR(mm_from_metres(few.desk.offset), mm_from_metres(frame.desk.offset), 0.1);
+  }
+}
+
+TEST(Combs, OfADeskInFewCodesAreNotLookedAt) {
+  LaboratoryRig rig = paper_laboratory();
+  rig.pitch_rad = radians_from_deg(90.0);
+  std::vector<SensedPoint> points;
+  for (int row = 0; row < 480; row += 8)
+    for (int column = 0; column < 640; column += 8)
+      points.push_back({{0.65f * (static_cast<float>(column) - 320.0f) / 570.0f,
+                         0.65f * (static_cast<float>(row) - 240.0f) / 570.0f, 0.65f},
+                        0.0f});
+  const auto frame = estimate_frame(points, rig, {});
+  ASSERT_TRUE(frame);
+  for (const NamedValue& value : named_values(*frame)) EXPECT_NE(value.observable, "comb_half");
+}
 
 }  // namespace
 }  // namespace fathom

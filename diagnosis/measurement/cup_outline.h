@@ -1,0 +1,37 @@
+// Where a cup stands and how wide it is: the circle that the points of its walls lie on.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "diagnosis/measurement/rig.h"
+
+namespace fathom {
+
+struct CupOutline {
+  Eigen::Vector2d off;  ///< [m] of the axis from where it should stand
+  double wider;         ///< [m] radius less the rig's, of outer and inner wall alike
+};
+
+/// Takes points one by one, in the frame of the desk. Those count that lie within 12 mm of the wall that the sensor can
+/// see there: on its own side the outer one, clear of the desk, on the far side the inner one, below the rim.
+class OutlineFit {
+ public:
+  /// `axis` [m]: from the foot of the camera to where the cup should stand.
+  OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis);
+
+  /// `from_axis`, `height` [m].
+  void add(const Eigen::Vector2d& from_axis, double height, double weight);
+
+  /// By least squares of the points' distances from the circle, in one step from the rig's. Nothing with less than 60
+  /// pixels, or where they lie on too short an arc.
+  std::optional<CupOutline> solve() const;
+
+ private:
+  double inner_radius_, outer_radius_, rim_;  // [m]
+  Eigen::Vector2d to_sensor_;                 // unit
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace fathom

@@ -1,0 +1,12 @@
+// A cup's walls as camera and projector see them: straight light on what stands in air.
+#pragma once
+
+#include "diagnosis/predict/cup_optics.h"
+
+namespace fathom {
+
+/// The outer wall or, through the opening, the inner one above what stands in the cup. Nothing where a ray from the
+/// camera meets anything else, or where the projector's light does not come.
+std::optional<LitPoint> look_at_wall(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector);
+
+}  // namespace fathom
