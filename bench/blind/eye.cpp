@@ -41,7 +41,7 @@ double disparity_seen(const Sensor& sensor, const Eigen::Vector2d& projector_pix
   const double remembered_u =
       sensor.principal_px.x() + sensor.focal_px * (1.0 + sensor.radial_k1 * remembered.squaredNorm()) * remembered.x();
   // The unit measures shifts against its memorised image. That this was of 1.2 m its table knows, not its own numbers.
-  return camera_u - remembered_u + disparity_of(1e-3 * kReferenceMm) + sensor.disparity_offset_px;
+  return camera_u - remembered_u + kTableFocalPx * kTableBaseline / (1e-3 * kReferenceMm) + sensor.disparity_offset_px;
 }
 
 Eigen::Vector3d cloud_point(const Eigen::Vector2d& pixel, double depth) {

@@ -46,7 +46,7 @@ TEST(BlindDevice, OnItsReferencePlaneAnyUnitReadsThatDistance) {
   const Eigen::Vector3d along = projector_direction(eyes, of_projector);
   const Eigen::Vector3d there = eyes.projector + 1e-3 * kReferenceMm / along.y() * along;  // level: y is forward
   const double u = camera_pixel(eyes, sensor, there - eyes.camera).x();
-  EXPECT_NEAR(depth_of(disparity_seen(sensor, of_projector, u)), 1e-3 * kReferenceMm, 1e-9);
+  EXPECT_NEAR(kTableFocalPx * kTableBaseline / disparity_seen(sensor, of_projector, u), 1e-3 * kReferenceMm, 1e-9);
 }
 
 TEST(BlindDevice, QuantisesWithoutBiasButForWholeMillimetres) {
