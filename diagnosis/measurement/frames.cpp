@@ -22,9 +22,12 @@ int whole_number(const Table& frames, std::size_t row, const char* column) {
   return static_cast<int>(value);
 }
 
-double not_negative(const Table& frames, std::size_t row, const char* column) {
-  const double value = frames.number(row, column);
-  if (value < 0.0) frames.fail(row, column, fmt::format("must be at least 0, got '{}'", frames.text(row, column)));
+/// Nothing where the table has no such column or the cell is empty; an error where it is below 0.
+std::optional<double> not_negative(const Table& frames, std::size_t row, const char* column) {
+  if (!frames.has(column)) return std::nullopt;
+  const std::optional<double> value = frames.number_if_any(row, column);
+  if (value && *value < 0.0)
+    frames.fail(row, column, fmt::format("must be at least 0, got '{}'", frames.text(row, column)));
   return value;
 }
 
@@ -50,15 +53,16 @@ FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<s
   record.pour = whole_number(frames, row, "pour");
   record.placement = whole_number(frames, row, "placement");
   record.trial = whole_number(frames, row, "trial");
-  record.time_s = not_negative(frames, row, "time_s");
+  record.time_s = frames.number(row, "time_s");
+  not_negative(frames, row, "time_s");
   record.fill_m = metres_from_mm(frames.number(row, "fill_mm"));
   record.distance_m = metres_from_mm(frames.number(row, "distance_mm"));
   record.lateral_m = metres_from_mm(frames.number(row, "lateral_mm"));
   record.cloud = frames.text(row, "cloud");
   if (!record.cloud.empty() && !std::filesystem::is_regular_file(folder / record.cloud))
     frames.fail(row, "cloud", fmt::format("there is no file {}", (folder / record.cloud).string()));
-  for (const char* column : {"height_sd_mm", "points"})
-    if (frames.has(column) && !frames.text(row, column).empty()) not_negative(frames, row, column);
+  record.height_sd_mm = not_negative(frames, row, "height_sd_mm");
+  record.points = not_negative(frames, row, "points");
   if (frames.has("height_mm")) record.height_mm = frames.number_if_any(row, "height_mm");
   if (record.cloud.empty() && !record.bare_desk() && !record.height_mm)
     frames.fail(row, "cloud", "is empty, and there is no height_mm in its place");

@@ -14,8 +14,8 @@ struct FrameRecord {
   double time_s = 0.0;  ///< since the session began
   std::string liquid;   ///< "empty", "none" (bare desk), or a liquid of the rig
   double fill_m = 0.0, distance_m = 0.0, lateral_m = 0.0;
-  std::filesystem::path cloud;      ///< empty: the height stands in the table
-  std::optional<double> height_mm;  ///< as far as the table has it
+  std::filesystem::path cloud;                            ///< empty: the height stands in the table
+  std::optional<double> height_mm, height_sd_mm, points;  ///< as far as the table has them
 
   bool bare_desk() const { return liquid == "none"; }
 };

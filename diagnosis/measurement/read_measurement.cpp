@@ -175,7 +175,14 @@ bool put_axis_right(const std::vector<FrameReading>& readings, Measurement& meas
 void leave_out_copies(const std::vector<FrameReading>& readings,
                       std::map<PlacementKey, std::vector<std::size_t>>& placements, Measurement& measurement) {
   constexpr std::size_t kFewestValues = 4;
+  constexpr std::size_t kFewestRows =
+      3;  // of a table: its numbers are rounded, so that one or two may be alike by chance
+  const auto is_copied_row = [](const FrameRecord& one, const FrameRecord& other) {
+    return one.cloud.empty() && one.height_mm && one.height_sd_mm && one.points && one.height_mm == other.height_mm &&
+           one.height_sd_mm == other.height_sd_mm && one.points == other.points;
+  };
   const auto is_copy = [&](std::size_t a, std::size_t b) {
+    if (is_copied_row(measurement.frames[a], measurement.frames[b])) return true;
     const auto &one = readings[a].values, &other = readings[b].values;
     return one.size() >= kFewestValues &&
            std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const NamedValue& x, const NamedValue& y) {
@@ -189,6 +196,7 @@ void leave_out_copies(const std::vector<FrameReading>& readings,
     for (const std::size_t row : rows)
       if (std::none_of(kept.begin(), kept.end(), [&](std::size_t earlier) { return is_copy(earlier, row); }))
         kept.push_back(row);
+    if (measurement.frames[rows.front()].cloud.empty() && rows.size() < kept.size() + kFewestRows) kept = rows;
     copies += rows.size() - kept.size();
     repeats += rows.size() - 1;
   }

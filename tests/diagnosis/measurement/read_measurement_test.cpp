@@ -115,6 +115,23 @@ TEST_F(MeasurementFolder, CopiesOfTrialsDoNotCountAndAreSaid) {
   EXPECT_TRUE(read(alike).mistakes.empty());
 }
 
+TEST_F(MeasurementFolder, CopiedRowsOfATableAreFoundWhereChanceWouldNotMakeThem) {
+  const auto rows = [](std::initializer_list<const char*> trials) {
+    std::string text;
+    for (const char* trial : trials) text += fmt::format("0,0,0,0,{},0,water,20,300,0,,{}\n", text.size(), trial);
+    return text;
+  };
+  const std::string header = std::string(kHeader) + ",height_mm,height_sd_mm,points";
+  const auto first = {"15.1,0.8,900", "15.3,0.7,902", "15.2,0.8,899"};
+  const std::string once = rows(first);
+  EXPECT_TRUE(read(once, header).mistakes.empty());
+  EXPECT_TRUE(read(once + rows({"15.1,0.8,900", "15.4,0.9,901", "15.0,0.8,903"}), header).mistakes.empty());
+  const Measurement twice = read(once + rows(first), header);
+  ASSERT_EQ(twice.mistakes.size(), 1u);
+  EXPECT_EQ(twice.mistakes[0].sentence, "3 of 5 repeated trials are copies of others.");
+  EXPECT_EQ(twice.observations.back().repeats, 3);
+}
+
 TEST_F(MeasurementFolder, AMirroredAxisIsPutRight) {
   // The disc stands at 75 mm: 37.5 mm of it is the camera's place.
   const auto at = [](double lateral) {
