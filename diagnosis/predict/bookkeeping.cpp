@@ -98,8 +98,7 @@ void put_units_right(const Heights& heights, Measurement& measurement) {
     const char* name;
     double mm;
   };
-  constexpr std::array kUnits{Unit{"centimetres", 10.0}, Unit{"inches", 25.4}, Unit{"metres", 1000.0},
-                              Unit{"tenths of a millimetre", 0.1}};
+  constexpr std::array kUnits{Unit{"centimetres", 10.0}, Unit{"inches", 25.4}, Unit{"metres", 1000.0}};
   for (const Unit& unit : kUnits) {
     const Reading in_unit = [&](Factors factors) {
       factors.fill_mm *= unit.mm;
