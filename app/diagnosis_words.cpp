@@ -103,7 +103,11 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
     rivals.push_back(fmt::format("{} ({:.0f} %)", effects_words(explanation.effects), 100 * explanation.probability));
     for (const auto& twin : explanation.alternatives) rivals.push_back(effects_words(twin));
   }
-  std::string text = fmt::format("These explain it about equally well: {}. ", joined(rivals, "or"));
+  std::string text =
+      rivals.size() == 1
+          ? fmt::format("It may well be {}, but the tests do not confirm it: too little was measured anew. ",
+                        effects_words(diagnosis.ambiguity_set.front().effects))
+          : fmt::format("These would explain it, likeliest first: {}. ", joined(rivals, "or"));
   return text + next_sentences(diagnosis.next);
 }
 

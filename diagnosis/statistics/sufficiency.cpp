@@ -23,7 +23,8 @@ std::vector<std::string> missing_for_diagnosis(const Evidence& evidence) {
   const auto& observations = evidence.observations;
   const int conditions = group_by(observations, condition_key).count;
   if (observations.size() < kFewestObservations)
-    missing.push_back(fmt::format("{} observations, at least {} are needed", observations.size(), kFewestObservations));
+    missing.push_back(fmt::format("{} observations (means over trials), at least {} are needed", observations.size(),
+                                  kFewestObservations));
   if (conditions < kFewestConditions)
     missing.push_back(fmt::format("{} conditions (liquid, fill, distance, lateral), at least {} are needed", conditions,
                                   kFewestConditions));
