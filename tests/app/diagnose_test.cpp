@@ -12,11 +12,14 @@
 namespace fathom {
 namespace {
 
-// Geometric captures with the device's noise: thirty milliseconds each.
+// Geometric captures with the device's noise: thirty milliseconds each. The paint shows its surface: with water alone
+// more of it and more refraction look alike.
 const Json kSpec = Json::parse(R"({
   "sensor": {"model": "xtion_pro_live", "noise": "device", "height_mm": 650, "aim_mm": [0, 300, 0]},
-  "cup": {"shape": "paper_cup"}, "liquids": {"water": "water"},
-  "fillings": [{"liquid": "empty"}, {"liquid": "water", "fill_mm": 20}, {"liquid": "water", "fill_mm": 40}],
+  "cup": {"shape": "paper_cup"}, 
+  "liquids": {"water": "water", "paint": {"index": 1.336, "scattering_per_mm": 1000}},
+  "fillings": [{"liquid": "empty"}, {"liquid": "water", "fill_mm": 20}, {"liquid": "water", "fill_mm": 40},
+               {"liquid": "paint", "fill_mm": 30}],
   "distance_mm": [200, 300], "lateral_mm": [-80, 80], "bare_desk_views": 3, "pours": 3, "trials": 2,
   "mode": "geometric"})");
 
