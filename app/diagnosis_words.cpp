@@ -98,8 +98,16 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
 }
 
 std::string ambiguous_sentence(const Diagnosis& diagnosis) {
+  constexpr double kWorthNaming = 0.02;
   std::vector<std::string> rivals;
+  std::size_t others = 0;
+  double probability_of_others = 0.0;
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
+    if (explanation.probability < kWorthNaming) {
+      others += 1 + explanation.alternatives.size();
+      probability_of_others += explanation.probability;
+      continue;
+    }
     rivals.push_back(fmt::format("{} ({:.0f} %)", effects_words(explanation.effects), 100 * explanation.probability));
     for (const auto& twin : explanation.alternatives) rivals.push_back(effects_words(twin));
   }
@@ -108,6 +116,9 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
           ? fmt::format("It may well be {}, but the tests do not confirm it: too little was measured anew. ",
                         effects_words(diagnosis.ambiguity_set.front().effects))
           : fmt::format("These would explain it, likeliest first: {}. ", joined(rivals, "or"));
+  if (others > 0)
+    text += fmt::format("{} more {} {:.1g} % together. ", others, others == 1 ? "has" : "have",
+                        100 * probability_of_others);
   return text + next_sentences(diagnosis.next);
 }
 
