@@ -25,5 +25,5 @@ endif()
 
 if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
   add_test(NAME blind_smoke COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/blind/smoke.py $<TARGET_FILE:fathom>)
-  set_tests_properties(blind_smoke PROPERTIES RUN_SERIAL ON TIMEOUT 1500)
+  set_tests_properties(blind_smoke PROPERTIES RUN_SERIAL ON TIMEOUT 2400)
 endif()
