@@ -19,11 +19,6 @@ const SignatureCheck* check_of(const RayTracedDiagnosis& traced, const std::stri
   return nullptr;
 }
 
-Json json_of(const GapSize& gap) {
-  return {
-      {"before_rms_mm", gap.before_rms_mm}, {"after_rms_mm", gap.after_rms_mm}, {"noise_floor_mm", gap.noise_floor_mm}};
-}
-
 std::string checks_html(const RayTracedDiagnosis& traced) {
   Rows rows;
   for (const TracedSet& set : traced.sets)
@@ -66,7 +61,7 @@ void add_ray_traced(const RayTracedDiagnosis& traced, const Diagnosis& by_few_ra
     json["sets"].push_back(std::move(checks));
   }
   for (const LeftOutLevel& level : traced.left_out) {
-    Json entry = json_of(level.gap);
+    Json entry = json_from(level.gap);
     entry["stratum"] = level.stratum;
     json["left_out"].push_back(std::move(entry));
   }

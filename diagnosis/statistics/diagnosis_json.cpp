@@ -4,6 +4,11 @@
 
 namespace fathom {
 
+Json json_from(const GapSize& gap) {
+  return {
+      {"before_rms_mm", gap.before_rms_mm}, {"after_rms_mm", gap.after_rms_mm}, {"noise_floor_mm", gap.noise_floor_mm}};
+}
+
 namespace {
 
 Json json_from(const GapLocation& where) {
@@ -50,11 +55,6 @@ Json json_from(const Explanation& explanation) {
   for (const std::vector<std::string>& twin : explanation.alternatives)
     json["indistinguishable"].push_back(ids_of(twin));
   return json;
-}
-
-Json json_from(const GapSize& gap) {
-  return {
-      {"before_rms_mm", gap.before_rms_mm}, {"after_rms_mm", gap.after_rms_mm}, {"noise_floor_mm", gap.noise_floor_mm}};
 }
 
 Json json_from(const StratumGap& stratum) {

@@ -6,6 +6,7 @@
 
 namespace fathom {
 
+Json json_from(const GapSize& gap);
 Json json_from(const Diagnosis& diagnosis);
 
 }  // namespace fathom

@@ -18,6 +18,11 @@ double rms(const Eigen::VectorXd& values) {
 
 }  // namespace
 
+GapSize gap_size(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& variance,
+                 const std::vector<Eigen::Index>& rows) {
+  return {rms(before(rows)), rms(after(rows)), std::sqrt(variance(rows).mean())};
+}
+
 void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   const Eigen::VectorXd before = c.covariance.factor.matrixL() * c.problem.residual;
   const Eigen::VectorXd left_w = c.problem.residual - fit.prediction;
@@ -34,11 +39,9 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   if (heights.empty()) return;
   const HeldOut other = held_out(c.covariance, linear_fit(c.covariance, c.problem, fit),
                                  deal_folds(c.evidence.observations, c.settings.seed));
-  const auto train = [&](const std::vector<Eigen::Index>& rows) {
-    return GapSize{rms(before(rows)), rms(after(rows)), std::sqrt(errors(rows).mean())};
-  };
+  const auto train = [&](const std::vector<Eigen::Index>& rows) { return gap_size(before, after, errors, rows); };
   const auto held = [&](const std::vector<Eigen::Index>& rows) {
-    return GapSize{rms(before(rows)), rms(other.residual(rows)), std::sqrt(other.variance(rows).mean())};
+    return gap_size(before, other.residual, other.variance, rows);
   };
   diagnosis.train = train(heights);
   diagnosis.held_out = held(heights);

@@ -6,6 +6,10 @@
 
 namespace fathom {
 
+/// Of some observations' differences before and after, and of their errors' variance.
+GapSize gap_size(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& variance,
+                 const std::vector<Eigen::Index>& rows);
+
 /// Before: as predicted. After: with the effects, and with nuisances as the (other) data want them within their priors.
 void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis);
 

@@ -1,8 +1,7 @@
 #include "diagnosis/statistics/left_out.h"
 
-#include <cmath>
-
 #include "diagnosis/statistics/confirm.h"
+#include "diagnosis/statistics/gap_size.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"
 
@@ -15,10 +14,6 @@ bool tell_all(const LinearFit& fit, const std::vector<Eigen::Index>& rows) {
   for (Eigen::Index k = 0; k < fit.jacobian.cols(); ++k)
     if (fit.jacobian.col(k)(rows).squaredNorm() <= kShare * fit.jacobian.col(k).squaredNorm()) return false;
   return true;
-}
-
-double rms(const Eigen::VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
 }  // namespace
@@ -44,8 +39,7 @@ std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const Covari
           others.push_back(row);
       if (members.size() < 2 || !tell_all(fit, others)) continue;
       const HeldOut other = held_out(covariance, fit, folds);
-      result.push_back({factor + "=" + name,
-                        {rms(before(rows)), rms(other.residual(rows)), std::sqrt(other.variance(rows).mean())}});
+      result.push_back({factor + "=" + name, gap_size(before, other.residual, other.variance, rows)});
     }
   }
   return result;
