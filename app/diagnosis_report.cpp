@@ -73,7 +73,8 @@ std::string rivals_html(const Diagnosis& diagnosis) {
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
     std::string twins;
     for (const auto& twin : explanation.alternatives) twins += (twins.empty() ? "" : "; ") + effects_words(twin);
-    rows.push_back({effects_words(explanation.effects), twins, fmt::format("{:.3f}", explanation.probability)});
+    const std::string more = explanation.adds_to_likelier ? " (adds to one above)" : "";
+    rows.push_back({effects_words(explanation.effects) + more, twins, fmt::format("{:.3f}", explanation.probability)});
   }
   return html_table({"explanation", "cannot be told from", "probability"}, rows);
 }

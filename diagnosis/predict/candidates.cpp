@@ -52,6 +52,13 @@ std::vector<std::string> names_of(const Effect& effect, const std::vector<std::s
   return names;
 }
 
+/// An effect of liquids is as often of one alone as of all; but a laboratory fills all of them with the same hands.
+double plausibility_of(const Effect& effect, const std::string& liquid, std::size_t liquids) {
+  if (!effect.of_liquids || liquids < 2) return 1.0;
+  const double of_one_alone = effect.family == "book-keeping" ? 0.1 : 0.5;
+  return liquid.empty() ? 1.0 - of_one_alone : of_one_alone / static_cast<double>(liquids);
+}
+
 }  // namespace
 
 Candidate candidate_by_slopes(const Effect& effect, const std::string& name, const Slope& slope) {
@@ -75,19 +82,21 @@ Candidate candidate_by_slopes(const Effect& effect, const std::string& name, con
 
 Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only) {
   Candidates candidates;
+  const std::vector<std::string> liquids = poured_liquids(predictor);
   std::vector<std::string> names = only;
   if (only.empty())
     for (const Effect& effect : effect_registry()) {
       if (std::find(kNotSought.begin(), kNotSought.end(), effect.id) != kNotSought.end())
         candidates.not_sought.emplace_back(effect.id);
       else
-        for (std::string& name : names_of(effect, poured_liquids(predictor))) names.push_back(std::move(name));
+        for (std::string& name : names_of(effect, liquids)) names.push_back(std::move(name));
     }
   for (const std::string& name : names) {
     const EffectName parts = effect_name(name);
     const Effect* effect = find_effect(parts.id);
     if (!effect) throw Error("effects", unknown_name("effect", parts.id, effect_ids()));
     Candidate candidate = candidate_of(predictor, *effect, parts.liquid);
+    candidate.plausibility = plausibility_of(*effect, parts.liquid, liquids.size());
     const bool is_seen = parts.id != kAllowedFor && moves_anything(candidate);
     if (!is_seen) candidate.signature.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);

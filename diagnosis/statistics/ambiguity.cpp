@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace fathom {
 
 namespace {
 
-constexpr double kAlike = 1.0;  // whitened distance of predictions
+constexpr double kAlike = 1.0;          // whitened distance of predictions
+constexpr double kWorthListing = 0.05;  // of all probability, of what adds to an explanation
 
 bool are_twins(const Option& a, const Option& b) {
   return a.has_unknown == b.has_unknown && a.effects.size() == b.effects.size() &&
@@ -26,26 +28,43 @@ bool includes(const Option& larger, const Option& smaller) {
 AmbiguitySet ambiguity_set(std::vector<Option> options, double delta) {
   std::stable_sort(options.begin(), options.end(),
                    [](const Option& a, const Option& b) { return a.log_posterior > b.log_posterior; });
-  AmbiguitySet set;
+  std::vector<AmbiguityClass> own, added;  // a class and what adds to it have the same number
   const double best = options.front().log_posterior;
+  const auto join = [&](AmbiguityClass& home, Option& option) {
+    home.probability += std::exp(option.log_posterior - best);
+    home.options.push_back(std::move(option));
+  };
   for (Option& option : options) {
-    const double weight = std::exp(option.log_posterior - best);
-    const auto home = std::find_if(set.classes.begin(), set.classes.end(), [&](const std::vector<Option>& known) {
-      return are_twins(known.front(), option) ||
-             std::any_of(known.begin(), known.end(), [&](const Option& one) { return includes(option, one); });
-    });
-    if (home != set.classes.end()) {
-      set.probabilities[home - set.classes.begin()] += weight;
-      if (are_twins(home->front(), option)) home->push_back(std::move(option));
+    const auto home = [&](const auto& is_of) {
+      return std::find_if(own.begin(), own.end(),
+                          [&](const AmbiguityClass& known) { return is_of(known.options); }) -
+             own.begin();
+    };
+    const auto twins = static_cast<std::size_t>(
+        home([&](const std::vector<Option>& known) { return are_twins(known.front(), option); }));
+    const auto part = static_cast<std::size_t>(home([&](const std::vector<Option>& known) {
+      return std::any_of(known.begin(), known.end(), [&](const Option& one) { return includes(option, one); });
+    }));
+    if (twins < own.size()) {
+      join(own[twins], option);
+    } else if (part < own.size()) {
+      join(added[part], option);
     } else if (option.log_posterior > best - delta) {
-      set.classes.push_back({std::move(option)});
-      set.probabilities.push_back(weight);
+      own.emplace_back();
+      added.push_back({{}, 0.0, true});
+      join(own.back(), option);
     }
   }
-  // What lies outside the set is spread over it: together less than the δ allows.
+  double sum = 0.0;
+  for (const auto* classes : {&own, &added})
+    for (const AmbiguityClass& one : *classes) sum += one.probability;
+  std::erase_if(added, [&](const AmbiguityClass& one) { return one.probability < kWorthListing * sum; });
+  AmbiguitySet set{std::move(own)};
+  set.classes.insert(set.classes.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+  // What lies outside the set is spread over it.
   double inside = 0.0;
-  for (const double probability : set.probabilities) inside += probability;
-  for (double& probability : set.probabilities) probability /= inside;
+  for (const AmbiguityClass& one : set.classes) inside += one.probability;
+  for (AmbiguityClass& one : set.classes) one.probability /= inside;
   return set;
 }
 

@@ -15,14 +15,20 @@ struct Option {
   Eigen::VectorXd prediction;  ///< change against the nominal model, whitened; of the effects
 };
 
+/// Explanations that cannot be told apart.
+struct AmbiguityClass {
+  std::vector<Option> options;  ///< likeliest first
+  double probability = 0.0;
+  bool adds_to_likelier = false;  ///< hold all effects of a likelier class, and more that the data need not have
+};
+
 struct AmbiguitySet {
-  std::vector<std::vector<Option>> classes;  ///< most probable first; within one, options cannot be told apart
-  std::vector<double> probabilities;
+  std::vector<AmbiguityClass> classes;  ///< likeliest first; those that add to a class after all others
 };
 
 /// Options within `delta` of the best log posterior. Those whose predictions differ by less than one σ of all the data
-/// together are one class: twins. A superset of an option (other than none) that is no better goes with the smaller
-/// one.
+/// together are one class: twins. Supersets of an option (other than none) that are no better are together another
+/// class, which is left out where it is improbable.
 AmbiguitySet ambiguity_set(std::vector<Option> options, double delta);
 
 }  // namespace fathom

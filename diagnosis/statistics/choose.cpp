@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/statistics/confirm.h"
+#include "diagnosis/statistics/effect_name.h"
 
 namespace fathom {
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int kVerified = 8;  // sets that are put to the tests, at most
 constexpr int kConfirmationDraws = 300;
+constexpr double kNearlyAll = 0.9;  // of the gap's squares
 
 /// Whether some main stratum becomes significantly worse, by more than its u_val.
 bool worsens(const Case& c, const Refit& fit) {
@@ -25,8 +27,8 @@ bool worsens(const Case& c, const Refit& fit) {
   return false;
 }
 
-/// The effects of a fit with their evidence, if all of them pass all tests.
-std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit) {
+/// The effects of a fit with their evidence; none of those that do not pass all tests.
+std::vector<std::optional<NamedEffect>> tested(const Case& c, const Refit& fit) {
   const std::vector<EffectSize> sizes = sizes_beside_others(c.problem, c.covariance, fit.hypothesis, fit.jacobian);
   // A set of which no effect shows alone was one of many sets, not of many effects.
   const double sets = static_cast<double>(c.problem.columns.size());
@@ -34,13 +36,15 @@ std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit
   for (const int effect : fit.hypothesis.effects)
     shows_alone |= c.discovery.p(z_alone(c.spaces[effect], c.problem.residual)) < c.settings.p_discovery;
   std::vector<NamedEffect> effects(sizes.size());
+  std::vector<double> dof;
   for (std::size_t e = 0; e < sizes.size(); ++e) {
     effects[e].name = c.evidence.candidates[fit.hypothesis.effects[e]].effect;
     effects[e].p_discovery = std::min(1.0, c.discovery.p(sizes[e].z) * (shows_alone ? 1.0 : sets));
-    if (effects[e].p_discovery >= c.settings.p_discovery) return std::nullopt;
+    dof.push_back(sizes[e].dof);
   }
-  std::vector<double> dof;
-  for (const EffectSize& size : sizes) dof.push_back(size.dof);
+  std::vector<std::optional<NamedEffect>> passed(sizes.size());
+  const auto is_discovered = [&](const NamedEffect& effect) { return effect.p_discovery < c.settings.p_discovery; };
+  if (std::none_of(effects.begin(), effects.end(), is_discovered)) return passed;
   const Eigen::MatrixXd draws =
       c.covariance.factor.matrixL() * c.draws.leftCols(std::min<Eigen::Index>(kConfirmationDraws, c.draws.cols()));
   const std::vector<Confirmation> confirmations = confirm(
@@ -52,7 +56,17 @@ std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit
     effects[e].folds = confirmation.folds_informative;
     effects[e].folds_improved = confirmation.folds_improved;
     const int against = confirmation.folds_informative - confirmation.folds_improved;
-    if (confirmation.p >= c.settings.p_confirmation || against > 1) return std::nullopt;
+    if (is_discovered(effects[e]) && confirmation.p < c.settings.p_confirmation && against <= 1) passed[e] = effects[e];
+  }
+  return passed;
+}
+
+/// The effects of a fit with their evidence, if all of them pass all tests.
+std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit) {
+  std::vector<NamedEffect> effects;
+  for (std::optional<NamedEffect>& effect : tested(c, fit)) {
+    if (!effect) return std::nullopt;
+    effects.push_back(std::move(*effect));
   }
   if (worsens(c, fit)) return std::nullopt;
   return effects;
@@ -61,20 +75,56 @@ std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit
 }  // namespace
 
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
-  const Hypothesis& first = fits.front().hypothesis;
+  const auto first = std::find_if(fits.begin(), fits.end(), [](const Refit& f) { return f.hypothesis.effects.size(); });
+  if (first == fits.end()) return std::nullopt;
+  const std::vector<int>& likeliest = first->hypothesis.effects;
   int tried = 0;
   for (const Refit& fit : fits) {
     const Hypothesis& h = fit.hypothesis;
-    if (tried == kVerified) return std::nullopt;
-    if (h.effects.empty()) continue;
     const bool is_subset =
-        std::includes(first.effects.begin(), first.effects.end(), h.effects.begin(), h.effects.end());
-    if (!is_subset && h.log_evidence < first.log_evidence - c.settings.delta) continue;
-    ++tried;
+        std::includes(likeliest.begin(), likeliest.end(), h.effects.begin(), h.effects.end());
+    if (h.effects.empty() || !is_subset) continue;
+    if (++tried > kVerified) return std::nullopt;
     Refit differenced = with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
     if (auto effects = verified(c, differenced)) return Choice{std::move(differenced), std::move(*effects)};
   }
   return std::nullopt;
+}
+
+std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options) {
+  const Refit first = with_differences(c.evidence, c.predict, c.covariance, c.problem, fits.front());
+  const std::vector<int>& all = first.hypothesis.effects;
+  if (all.size() < 2) return std::nullopt;
+  const auto id_of = [&](int effect) { return effect_name(c.evidence.candidates[effect].effect).id; };
+  double best = -INFINITY;
+  for (const Option& o : options) best = std::max(best, o.log_posterior);
+  const auto is_common = [&](int effect) {
+    return std::all_of(options.begin(), options.end(), [&](const Option& o) {
+      return o.log_posterior < best - c.settings.delta ||
+             std::any_of(o.effects.begin(), o.effects.end(), [&](int one) { return id_of(one) == id_of(effect); });
+    });
+  };
+  Hypothesis common;
+  std::vector<double> start;
+  std::vector<NamedEffect> effects;
+  const std::vector<std::optional<NamedEffect>> passed = tested(c, first);
+  Eigen::Index column = 0;
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    const auto count = static_cast<Eigen::Index>(c.problem.columns[all[e]].size());
+    if (passed[e] && is_common(all[e])) {
+      common.effects.push_back(all[e]);
+      effects.push_back(*passed[e]);
+      for (Eigen::Index k = 0; k < count; ++k) start.push_back(first.hypothesis.parameters[column + k]);
+    }
+    column += count;
+  }
+  if (common.effects.empty() || common.effects.size() == all.size()) return std::nullopt;
+  common.parameters = Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
+  Refit fit = with_differences(c.evidence, c.predict, c.covariance, c.problem,
+                               refit(c.evidence, c.predict, c.covariance, c.problem, common));
+  const double gap = c.problem.residual.squaredNorm() - static_cast<double>(c.problem.residual.size());
+  if (fit.hypothesis.gain < kNearlyAll * gap) return std::nullopt;
+  return Choice{std::move(fit), std::move(effects)};
 }
 
 }  // namespace fathom

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/case.h"
 #include "diagnosis/statistics/diagnosis.h"
 
@@ -15,8 +16,11 @@ struct Choice {
   std::vector<NamedEffect> effects;  ///< with their evidence, without parameters
 };
 
-/// The likeliest set that passes all tests, among those that are not much less likely than the first, and its subsets.
-/// `fits`: likeliest first.
+/// The likeliest set of effects, or the likeliest of its subsets, that passes all tests. `fits`: likeliest first.
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits);
+
+/// Where no set as a whole passes: the effects that the likeliest set passes with, all explanations have, and that
+/// close nearly all of the gap by themselves. What goes beside them stays open.
+std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options);
 
 }  // namespace fathom

@@ -23,9 +23,18 @@ namespace {
 
 constexpr double kSureOdds = 20.0;  // that an effect must add to something unknown, and all of them to nothing
 
-double log_posterior(const std::vector<Option>& options, const std::vector<int>& effects, bool has_unknown) {
-  for (const Option& option : options)
-    if (option.effects == effects && option.has_unknown == has_unknown) return option.log_posterior;
+/// Of the likeliest option that has these effects, with something unknown or without.
+double log_posterior_with(const std::vector<Option>& options, const std::vector<int>& effects) {
+  double best = -INFINITY;
+  for (const Option& o : options)
+    if (std::includes(o.effects.begin(), o.effects.end(), effects.begin(), effects.end()))
+      best = std::max(best, o.log_posterior);
+  return best;
+}
+
+double log_posterior_of_unknown_alone(const std::vector<Option>& options) {
+  for (const Option& o : options)
+    if (o.effects.empty() && o.has_unknown) return o.log_posterior;
   return -INFINITY;
 }
 
@@ -34,13 +43,14 @@ Verdict verdict_of_named(const Case& c, const Choice& choice, bool is_rest, cons
                          const AmbiguitySet& set) {
   const std::vector<int>& effects = choice.fit.hypothesis.effects;
   if (!is_rest) return all_name(c.evidence, effects, set) ? Verdict::named : Verdict::ambiguous;
-  const double named = std::max(log_posterior(options, effects, true), log_posterior(options, effects, false));
-  return named > log_posterior(options, {}, true) + std::log(kSureOdds) ? Verdict::named_and_unknown : Verdict::unknown;
+  const bool is_sure =
+      log_posterior_with(options, effects) > log_posterior_of_unknown_alone(options) + std::log(kSureOdds);
+  return is_sure ? Verdict::named_and_unknown : Verdict::unknown;
 }
 
 /// Where no test singles out a set of effects.
 Verdict verdict_of_unnamed(const Case& c, bool is_rest, const AmbiguitySet& set) {
-  if (is_rest || set.classes.front().front().has_unknown) return Verdict::unknown;
+  if (is_rest || set.classes.front().options.front().has_unknown) return Verdict::unknown;
   if (!c.evidence.mistakes.empty()) return Verdict::named;
   // Some effect may still be needed: then nothing at all is no explanation any more. Where nothing is wrong, odds like
   // these turn up once in as many measurements at most (Markov's inequality).
@@ -71,15 +81,18 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   const std::vector<Refit> fits = likeliest_fits(c, hypotheses);
   std::vector<Option> options = options_of(c, hypotheses, fits);
   std::optional<Choice> choice = choose(c, fits);
+  const bool is_whole = choice.has_value();
+  if (!choice) choice = common_to_all(c, fits, options);
   const Refit& nothing =
       *std::find_if(fits.begin(), fits.end(), [](const Refit& f) { return f.hypothesis.effects.empty(); });
   const Refit& fit = choice ? choice->fit : nothing;
   const Rest rest = rest_of(c, fit);
   // What no test confirms may yet explain the gap: unknown is what the likeliest effects leave, too.
-  const double p_rest = choice ? rest.p : std::max(rest.p, rest_of(c, fits.front()).p);
+  const double p_rest = is_whole ? rest.p : std::max(rest.p, rest_of(c, fits.front()).p);
   const bool is_rest = p_rest < settings.p_gap;
 
-  if (choice) std::erase_if(options, [](const Option& o) { return o.effects.empty() && !o.has_unknown; });  // rejected
+  // Nothing at all is rejected, and so is what moves nothing.
+  if (choice) std::erase_if(options, [](const Option& o) { return o.prediction.isZero(0.0) && !o.has_unknown; });
   if (rest.p >= settings.p_gap) std::erase_if(options, [](const Option& o) { return o.has_unknown; });
   const AmbiguitySet set = ambiguity_set(options, settings.delta);
   diagnosis.ambiguity_set = explanations(evidence, set);

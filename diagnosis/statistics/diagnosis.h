@@ -41,6 +41,7 @@ struct Explanation {
   std::vector<std::string> effects;  ///< none: no effect; "unknown" stands for what no candidate explains
   std::vector<std::vector<std::string>> alternatives;
   double probability = 0.0;
+  bool adds_to_likelier = false;  ///< all effects of a likelier one, and more that the data need not have
 };
 
 /// Root mean square of the heights' residuals.

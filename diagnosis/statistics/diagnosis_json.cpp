@@ -54,6 +54,7 @@ Json json_from(const Explanation& explanation) {
   if (ids_of(explanation.effects) != explanation.effects) json["in_detail"] = explanation.effects;
   for (const std::vector<std::string>& twin : explanation.alternatives)
     json["indistinguishable"].push_back(ids_of(twin));
+  if (explanation.adds_to_likelier) json["adds_to_likelier"] = true;
   return json;
 }
 

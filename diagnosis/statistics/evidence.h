@@ -52,6 +52,7 @@ struct Candidate {
   std::string effect;  ///< as in effect_name.h: "id" or "id@liquid"
   std::vector<Parameter> parameters;
   Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
+  double plausibility = 1.0;  ///< before anything is measured, beside that of other candidates
 };
 
 /// A mistake in the laboratory's notes that its measurements show, and that was put right before anything else.

@@ -26,10 +26,10 @@ std::set<std::string> ids(const Evidence& evidence, const Option& option) {
 
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
   std::vector<Explanation> result;
-  for (std::size_t k = 0; k < set.classes.size(); ++k) {
-    Explanation explanation{words(evidence, set.classes[k].front()), {}, set.probabilities[k]};
-    for (std::size_t i = 1; i < set.classes[k].size(); ++i)
-      explanation.alternatives.push_back(words(evidence, set.classes[k][i]));
+  for (const AmbiguityClass& one : set.classes) {
+    Explanation explanation{words(evidence, one.options.front()), {}, one.probability, one.adds_to_likelier};
+    for (std::size_t i = 1; i < one.options.size(); ++i)
+      explanation.alternatives.push_back(words(evidence, one.options[i]));
     result.push_back(std::move(explanation));
   }
   return result;
@@ -37,16 +37,17 @@ std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguityS
 
 bool all_name(const Evidence& evidence, const std::vector<int>& effects, const AmbiguitySet& set) {
   const std::set<std::string> named = ids(evidence, {effects, {}, false, 0.0, {}});
-  return std::all_of(set.classes.begin(), set.classes.end(), [&](const std::vector<Option>& options) {
-    return std::all_of(options.begin(), options.end(), [&](const Option& o) { return ids(evidence, o) == named; });
+  return std::all_of(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {
+    return one.adds_to_likelier || std::all_of(one.options.begin(), one.options.end(),
+                                               [&](const Option& o) { return ids(evidence, o) == named; });
   });
 }
 
 double probability_of_nothing(const AmbiguitySet& set) {
-  for (std::size_t k = 0; k < set.classes.size(); ++k)
-    if (std::any_of(set.classes[k].begin(), set.classes[k].end(),
+  for (const AmbiguityClass& one : set.classes)
+    if (std::any_of(one.options.begin(), one.options.end(),
                     [](const Option& o) { return o.effects.empty() && !o.has_unknown; }))
-      return set.probabilities[k];
+      return one.probability;
   return 0.0;
 }
 

@@ -12,7 +12,7 @@ namespace fathom {
 
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set);
 
-/// Whether all explanations are these effects; of which liquids they are may differ.
+/// Whether all explanations are these effects, but for what may be added; of which liquids they are may differ.
 bool all_name(const Evidence& evidence, const std::vector<int>& effects, const AmbiguitySet& set);
 
 /// Probability of the class with the model as it is; 0 if none has it.

@@ -61,6 +61,21 @@ Eigen::MatrixXd polynomials(const std::vector<Observation>& observations) {
   return result;
 }
 
+void add_signatures(const Evidence& evidence, const std::vector<Eigen::Index>& rows, Span& means) {
+  for (const Candidate& candidate : evidence.candidates)
+    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
+      means.add(Eigen::VectorXd(candidate.signature.col(k))(rows));
+}
+
+/// What goes on as sessions do, whether a candidate says so or not: a parabola over their time.
+void add_drift(const std::vector<Observation>& observations, Span& means) {
+  Eigen::VectorXd time(static_cast<Eigen::Index>(observations.size()));
+  for (Eigen::Index i = 0; i < time.size(); ++i) time[i] = observations[i].factors.time_s;
+  time /= std::max(time.maxCoeff(), 1e-12);
+  means.add(time);
+  means.add(time.cwiseAbs2());
+}
+
 }  // namespace
 
 Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::MatrixXd& weights) {
@@ -76,9 +91,11 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
   const auto n = static_cast<Eigen::Index>(rows.size());
   const Groups cells = group_by(observations, cell_key);
   if (n - cells.count >= kFewestReplicates) {
-    Span means(n, cells.count);
+    Span means(n, n - kFewestReplicates);
     const Eigen::MatrixXd columns = indicators(cells);
     for (Eigen::Index k = 0; k < columns.cols(); ++k) means.add(columns.col(k));
+    add_signatures(evidence, rows, means);
+    add_drift(observations, means);
     return {means.complement(), true};
   }
   Span means(n, n / 2);
@@ -89,9 +106,7 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
   const Eigen::MatrixXd shapes = polynomials(observations);
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
                shapes.leftCols(1));
-  for (const Candidate& candidate : evidence.candidates)
-    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
-      means.add(Eigen::VectorXd(candidate.signature.col(k))(rows));
+  add_signatures(evidence, rows, means);
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
   add_products(indicators(group_by(observations,
                                    [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),

@@ -186,9 +186,9 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
                                                const Designs& designs, const AmbiguitySet& set) {
   std::vector<Option> options;
   std::set<std::string> effects;
-  for (const auto& alike : set.classes)
-    for (const Option& option : alike)
-      if (!option.has_unknown && options.size() < kLikeliest) {
+  for (const AmbiguityClass& alike : set.classes)
+    for (const Option& option : alike.options)
+      if (!alike.adds_to_likelier && !option.has_unknown && options.size() < kLikeliest) {
         options.push_back(option);
         for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
       }

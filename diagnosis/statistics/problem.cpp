@@ -21,7 +21,11 @@ Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
 
 Problem whitened_problem(const Evidence& evidence, const Covariance& covariance) {
   Eigen::Index parameters = 0;
-  for (const Candidate& candidate : evidence.candidates) parameters += candidate.signature.cols();
+  double plausibility = 0.0;
+  for (const Candidate& candidate : evidence.candidates) {
+    parameters += candidate.signature.cols();
+    plausibility += candidate.plausibility;
+  }
   Problem problem;
   Eigen::MatrixXd signatures(evidence.predicted.size(), parameters);
   problem.lower.resize(parameters);
@@ -29,6 +33,7 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
   Eigen::Index column = 0;
   for (const Candidate& candidate : evidence.candidates) {
     problem.columns.emplace_back();
+    problem.log_odds.push_back(std::log(kExpectedEffects * candidate.plausibility / plausibility));
     for (const Parameter& parameter : candidate.parameters) {
       const bool is_bounded = parameter.lower < parameter.upper;
       const double infinity = std::numeric_limits<double>::infinity();
@@ -58,8 +63,9 @@ double log_evidence(const Problem& problem, double gain, const std::vector<int>&
   const double width2 = 0.5 * std::numbers::pi * kPriorWidth * kPriorWidth;
   const Eigen::MatrixXd widened = Eigen::MatrixXd::Identity(gram.rows(), gram.cols()) + width2 * gram;
   const double log_det = 2.0 * widened.llt().matrixLLT().diagonal().array().log().sum();
-  const double per_effect = std::log(kExpectedEffects / static_cast<double>(problem.columns.size()));
-  return 0.5 * (gain - prior_penalty(parameters) - log_det) + per_effect * static_cast<double>(effects.size());
+  double log_odds = 0.0;
+  for (const int effect : effects) log_odds += problem.log_odds[effect];
+  return 0.5 * (gain - prior_penalty(parameters) - log_det) + log_odds;
 }
 
 double prior_penalty(const Eigen::VectorXd& parameters) {

@@ -15,6 +15,7 @@ struct Problem {
   Eigen::MatrixXd signatures;  ///< whitened, n × parameters of all candidates
   Eigen::VectorXd lower, upper;
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each candidate
+  std::vector<double> log_odds;                    ///< of each candidate, before anything is measured
 };
 
 Eigen::VectorXd measured_minus_predicted(const Evidence& evidence);
@@ -32,7 +33,8 @@ struct Hypothesis {
   double log_evidence = 0.0;   ///< relative to no effect, with the prior of the set
 };
 
-/// Laplace's log evidence: the parameters' prior below, and half an effect expected among all candidates. `gram`:
+/// Laplace's log evidence: the parameters' prior below, and half an effect expected among all candidates, shared out by
+/// their plausibility. `gram`:
 /// parameters × parameters, of the whitened jacobian.
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram);

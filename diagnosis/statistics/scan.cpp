@@ -1,6 +1,9 @@
 #include "diagnosis/statistics/scan.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "diagnosis/statistics/groups.h"
@@ -36,6 +39,29 @@ std::vector<Stratum> strata_by(const std::vector<Observation>& observations, con
   return result;
 }
 
+/// The thirds of their sessions in which the rows of one observable were measured: what drifts, or evaporates.
+std::vector<Stratum> strata_by_time(const std::vector<Observation>& observations,
+                                    const std::vector<Eigen::Index>& rows) {
+  static constexpr std::array kThirds{"time=early", "time=middle", "time=late"};
+  std::map<int, std::pair<double, double>> spans;  // of sessions
+  for (const auto row : rows) {
+    const Factors& f = observations[row].factors;
+    auto& [first, last] = spans.try_emplace(f.session, f.time_s, f.time_s).first->second;
+    first = std::min(first, f.time_s);
+    last = std::max(last, f.time_s);
+  }
+  std::vector<Stratum> result;
+  for (const char* third : kThirds) result.push_back({observations[rows[0]].observable, third, true, {}});
+  for (const auto row : rows) {
+    const Factors& f = observations[row].factors;
+    const auto [first, last] = spans.at(f.session);
+    if (last <= first) continue;
+    const double share = (f.time_s - first) / (last - first);
+    result[static_cast<std::size_t>(std::clamp(3.0 * share, 0.0, 2.0))].rows.push_back(row);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
@@ -54,6 +80,7 @@ std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
     for (std::size_t i = 0; i < factors.size(); ++i)
       for (std::size_t j = i + 1; j < factors.size(); ++j)
         add(strata_by(observations, observable, {factors[i], factors[j]}), kFewestInPair);
+    add(strata_by_time(observations, rows), kFewestInPair);
   }
   return result;
 }

@@ -108,7 +108,7 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   // A coaster that is there would be told from nothing at all.
   EXPECT_GT(t_criterion(evidence, covariance, gauge, Option{{}, {}, false, 0.0, none}, is_coaster), 3.0);
 
-  const AmbiguitySet set{{{is_bottom, is_coaster}}, {1.0}};
+  const AmbiguitySet set{{{.options = {is_bottom, is_coaster}, .probability = 1.0}}};
   const auto next = next_measurements(
       evidence, covariance,
       [&](const std::vector<std::string>&) {
