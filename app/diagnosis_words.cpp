@@ -117,8 +117,8 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
                         effects_words(diagnosis.ambiguity_set.front().effects))
           : fmt::format("These would explain it, likeliest first: {}. ", joined(rivals, "or"));
   if (others > 0)
-    text += fmt::format("{} more {} {:.1g} % together. ", others, others == 1 ? "has" : "have",
-                        100 * probability_of_others);
+    text += fmt::format("{} more {} {:.{}f} % together. ", others, others == 1 ? "has" : "have",
+                        100 * probability_of_others, probability_of_others < 0.01 ? 1 : 0);
   return text + next_sentences(diagnosis.next);
 }
 

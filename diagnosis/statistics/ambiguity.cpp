@@ -8,8 +8,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kAlike = 1.0;          // whitened distance of predictions
-constexpr double kWorthListing = 0.05;  // of all probability, of what adds to an explanation
+constexpr double kAlike = 1.0;      // whitened distance of predictions
+constexpr double kPlausible = 3.0;  // log odds against an effect beside others, to be listed
 
 bool are_twins(const Option& a, const Option& b) {
   return a.has_unknown == b.has_unknown && a.effects.size() == b.effects.size() &&
@@ -48,17 +48,18 @@ AmbiguitySet ambiguity_set(std::vector<Option> options, double delta) {
     if (twins < own.size()) {
       join(own[twins], option);
     } else if (part < own.size()) {
-      join(added[part], option);
+      const bool is_plausible = option.log_posterior > own[part].options.front().log_posterior - kPlausible;
+      if (is_plausible)
+        join(added[part], option);
+      else
+        own[part].probability += std::exp(option.log_posterior - best);
     } else if (option.log_posterior > best - delta) {
       own.emplace_back();
       added.push_back({{}, 0.0, true});
       join(own.back(), option);
     }
   }
-  double sum = 0.0;
-  for (const auto* classes : {&own, &added})
-    for (const AmbiguityClass& one : *classes) sum += one.probability;
-  std::erase_if(added, [&](const AmbiguityClass& one) { return one.probability < kWorthListing * sum; });
+  std::erase_if(added, [](const AmbiguityClass& one) { return one.options.empty(); });
   AmbiguitySet set{std::move(own)};
   set.classes.insert(set.classes.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
   // What lies outside the set is spread over it.

@@ -83,16 +83,16 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
     const Hypothesis& h = fit.hypothesis;
     const bool is_subset =
         std::includes(likeliest.begin(), likeliest.end(), h.effects.begin(), h.effects.end());
-    if (h.effects.empty() || !is_subset) continue;
+    if (h.effects.empty() || !is_subset || h.log_evidence < 0.0) continue;  // BIC's opinion: nothing is likelier
     if (++tried > kVerified) return std::nullopt;
-    Refit differenced = with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
-    if (auto effects = verified(c, differenced)) return Choice{std::move(differenced), std::move(*effects)};
+    if (auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, fit)))
+      return Choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, fit), std::move(*effects)};
   }
   return std::nullopt;
 }
 
 std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options) {
-  const Refit first = with_differences(c.evidence, c.predict, c.covariance, c.problem, fits.front());
+  const Refit first = with_chords(c.evidence, c.predict, c.covariance, c.problem, fits.front());
   const std::vector<int>& all = first.hypothesis.effects;
   if (all.size() < 2) return std::nullopt;
   const auto id_of = [&](int effect) { return effect_name(c.evidence.candidates[effect].effect).id; };
@@ -104,27 +104,42 @@ std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fit
              std::any_of(o.effects.begin(), o.effects.end(), [&](int one) { return id_of(one) == id_of(effect); });
     });
   };
-  Hypothesis common;
-  std::vector<double> start;
-  std::vector<NamedEffect> effects;
+  struct Part {
+    NamedEffect named;
+    int effect;
+    Eigen::VectorXd parameters;
+    double change;  ///< that it makes, whitened
+  };
+  std::vector<Part> parts;
   const std::vector<std::optional<NamedEffect>> passed = tested(c, first);
   Eigen::Index column = 0;
   for (std::size_t e = 0; e < all.size(); ++e) {
     const auto count = static_cast<Eigen::Index>(c.problem.columns[all[e]].size());
-    if (passed[e] && is_common(all[e])) {
-      common.effects.push_back(all[e]);
-      effects.push_back(*passed[e]);
-      for (Eigen::Index k = 0; k < count; ++k) start.push_back(first.hypothesis.parameters[column + k]);
-    }
+    const Eigen::VectorXd own = first.hypothesis.parameters.segment(column, count);
+    if (passed[e] && is_common(all[e]))
+      parts.push_back({*passed[e], all[e], own, (first.jacobian.middleCols(column, count) * own).norm()});
     column += count;
   }
-  if (common.effects.empty() || common.effects.size() == all.size()) return std::nullopt;
-  common.parameters = Eigen::Map<const Eigen::VectorXd>(start.data(), static_cast<Eigen::Index>(start.size()));
-  Refit fit = with_differences(c.evidence, c.predict, c.covariance, c.problem,
-                               refit(c.evidence, c.predict, c.covariance, c.problem, common));
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.change > b.change; });
   const double gap = c.problem.residual.squaredNorm() - static_cast<double>(c.problem.residual.size());
-  if (fit.hypothesis.gain < kNearlyAll * gap) return std::nullopt;
-  return Choice{std::move(fit), std::move(effects)};
+  for (std::size_t count = 1; count <= parts.size() && count < all.size(); ++count) {
+    std::vector<Part> some(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
+    std::sort(some.begin(), some.end(), [](const Part& a, const Part& b) { return a.effect < b.effect; });
+    Hypothesis common;
+    Choice choice;
+    for (Part& part : some) {
+      common.effects.push_back(part.effect);
+      const Eigen::Index before = common.parameters.size();
+      common.parameters.conservativeResize(before + part.parameters.size());
+      common.parameters.tail(part.parameters.size()) = part.parameters;
+      choice.effects.push_back(std::move(part.named));
+    }
+    choice.fit = refit(c.evidence, c.predict, c.covariance, c.problem, common);
+    if (choice.fit.hypothesis.gain < kNearlyAll * gap) continue;
+    choice.fit = with_differences(c.evidence, c.predict, c.covariance, c.problem, std::move(choice.fit));
+    return choice;
+  }
+  return std::nullopt;
 }
 
 }  // namespace fathom

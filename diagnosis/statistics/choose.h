@@ -19,8 +19,8 @@ struct Choice {
 /// The likeliest set of effects, or the likeliest of its subsets, that passes all tests. `fits`: likeliest first.
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits);
 
-/// Where no set as a whole passes: the effects that the likeliest set passes with, all explanations have, and that
-/// close nearly all of the gap by themselves. What goes beside them stays open.
+/// Where no set as a whole passes: of the effects that pass in the likeliest set and that all explanations have, the
+/// largest, if few of them close nearly all of the gap. What goes beside them stays open.
 std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options);
 
 }  // namespace fathom

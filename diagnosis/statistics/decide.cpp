@@ -81,14 +81,15 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   const std::vector<Refit> fits = likeliest_fits(c, hypotheses);
   std::vector<Option> options = options_of(c, hypotheses, fits);
   std::optional<Choice> choice = choose(c, fits);
-  const bool is_whole = choice.has_value();
-  if (!choice) choice = common_to_all(c, fits, options);
+  // As long as something stays open, what is small beside the rest is not told from it.
+  if (!choice || rest_of(c, choice->fit).p < settings.p_gap)
+    if (std::optional<Choice> common = common_to_all(c, fits, options)) choice = std::move(common);
   const Refit& nothing =
       *std::find_if(fits.begin(), fits.end(), [](const Refit& f) { return f.hypothesis.effects.empty(); });
   const Refit& fit = choice ? choice->fit : nothing;
   const Rest rest = rest_of(c, fit);
   // What no test confirms may yet explain the gap: unknown is what the likeliest effects leave, too.
-  const double p_rest = is_whole ? rest.p : std::max(rest.p, rest_of(c, fits.front()).p);
+  const double p_rest = std::max(rest.p, rest_of(c, fits.front()).p);
   const bool is_rest = p_rest < settings.p_gap;
 
   // Nothing at all is rejected, and so is what moves nothing.

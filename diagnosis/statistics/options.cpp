@@ -37,6 +37,46 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
   }
 }
 
+void sort_by_evidence(std::vector<Refit>& fits) {
+  std::stable_sort(fits.begin(), fits.end(), [](const Refit& a, const Refit& b) {
+    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
+  });
+}
+
+/// A fit's effects but one, from where they are.
+Hypothesis without(const Problem& problem, const Hypothesis& h, std::size_t left_out) {
+  Hypothesis less;
+  Eigen::Index column = 0;
+  for (std::size_t e = 0; e < h.effects.size(); ++e) {
+    const auto count = static_cast<Eigen::Index>(problem.columns[h.effects[e]].size());
+    if (e != left_out) {
+      const Eigen::Index before = less.parameters.size();
+      less.effects.push_back(h.effects[e]);
+      less.parameters.conservativeResize(before + count);
+      less.parameters.tail(count) = h.parameters.segment(column, count);
+    }
+    column += count;
+  }
+  return less;
+}
+
+/// Where signatures are no straight lines, others come in that only bend them: each of the likeliest fit's effects is
+/// left out in turn, as long as that makes a likelier one.
+void add_without_one(const Case& c, std::vector<Refit>& fits) {
+  for (bool is_better = true; is_better;) {
+    const Hypothesis likeliest = fits.front().hypothesis;
+    if (likeliest.effects.size() < 2) return;
+    for (std::size_t e = 0; e < likeliest.effects.size(); ++e) {
+      const Hypothesis less = without(c.problem, likeliest, e);
+      const bool is_known = std::any_of(fits.begin(), fits.end(),
+                                        [&](const Refit& f) { return f.hypothesis.effects == less.effects; });
+      if (!is_known) fits.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, less));
+    }
+    sort_by_evidence(fits);
+    is_better = fits.front().hypothesis.effects != likeliest.effects;
+  }
+}
+
 }  // namespace
 
 std::vector<Hypothesis> screened(const Case& c) {
@@ -57,9 +97,8 @@ std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& 
   for (const Hypothesis& hypothesis : hypotheses)
     if (hypothesis.log_evidence > best - kHopeless && result.size() <= kRefitted)
       result.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
-  std::stable_sort(result.begin(), result.end(), [](const Refit& a, const Refit& b) {
-    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
-  });
+  sort_by_evidence(result);
+  add_without_one(c, result);
   return result;
 }
 

@@ -50,6 +50,18 @@ class Model {
     return jacobian;
   }
 
+  /// Of each parameter the chord from where it is absent: what a test asks of an effect is whether it is there, and
+  /// some, such as foam, change more by being there than by how much there is of them.
+  Eigen::MatrixXd chords(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at, const Eigen::VectorXd& upper) {
+    Eigen::MatrixXd jacobian(change_at.size(), at.size());
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      Eigen::VectorXd moved = at;
+      moved[k] = at[k] == 0.0 ? (kDifference <= upper[k] ? kDifference : -kDifference) : 0.0;
+      jacobian.col(k) = (change_at - change(moved)) / (at[k] - moved[k]);
+    }
+    return jacobian;
+  }
+
   int predictions() const { return predictions_; }
 
  private:
@@ -109,13 +121,28 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   return result;
 }
 
-Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
-                       const Problem& problem, Refit fit) {
+namespace {
+
+template <class Slopes>
+Refit with_jacobian(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                    const Problem& problem, Refit fit, Slopes slopes) {
   Model model(evidence, predict, covariance, fit.hypothesis.effects);
   const Eigen::VectorXd upper = problem.upper(columns_of(problem, fit.hypothesis.effects));
-  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.prediction, upper);
+  fit.jacobian = (model.*slopes)(fit.hypothesis.parameters, fit.prediction, upper);
   fit.predictions += model.predictions();
   return fit;
+}
+
+}  // namespace
+
+Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                       const Problem& problem, Refit fit) {
+  return with_jacobian(evidence, predict, covariance, problem, std::move(fit), &Model::differences);
+}
+
+Refit with_chords(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                  const Problem& problem, Refit fit) {
+  return with_jacobian(evidence, predict, covariance, problem, std::move(fit), &Model::chords);
 }
 
 }  // namespace fathom

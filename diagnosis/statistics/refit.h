@@ -20,8 +20,12 @@ struct Refit {
 Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
             const Hypothesis& start);
 
-/// The same, with the Jacobian differenced at the solution: for intervals and tests.
+/// The same, with the Jacobian differenced at the solution: for intervals.
 Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
                        const Problem& problem, Refit fit);
+
+/// The same, with the Jacobian's columns from where each parameter is absent to the solution: for tests.
+Refit with_chords(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                  const Problem& problem, Refit fit);
 
 }  // namespace fathom
