@@ -35,20 +35,19 @@ std::string by_share(const std::array<Share, N>& shares, Rng& rng) {
 double draw_strength(Rng& rng) { return kWeakest * std::pow(kStrongest / kWeakest, rng.uniform()); }
 
 /// One that the set can show at all, and is not there yet.
-std::optional<Truth> draw_effect(const Strengths& strengths, bool registered, const std::vector<Truth>& there, double s,
+std::optional<Shown> draw_effect(const Strengths& strengths, bool registered, const std::vector<Shown>& there, double s,
                                  Rng& rng) {
   std::vector<const Hidden*> choices;
   for (const Hidden& effect : hidden_effects())
     if (effect.registered == registered &&
-        std::none_of(there.begin(), there.end(), [&](const Truth& t) { return t.active.effect == &effect; }))
+        std::none_of(there.begin(), there.end(), [&](const Shown& t) { return t.active.effect == &effect; }))
       choices.push_back(&effect);
   constexpr int kTries = 6;
   for (int i = 0; i < kTries; ++i) {
     const Hidden* effect = choices[rng.below(static_cast<std::uint32_t>(choices.size()))];
     const double sign = rng.uniform() < 0.5 ? -1.0 : 1.0;
-    const Active active{effect, strengths.departure_for(*effect, s, sign)};
-    const double reached = strengths.of(active);
-    if (reached >= 0.7 * kWeakest) return Truth{active, reached};
+    Shown sized = strengths.sized(*effect, s, sign);
+    if (sized.s >= 0.7 * kWeakest) return sized;
   }
   return std::nullopt;
 }
@@ -60,26 +59,41 @@ struct Twins {
 constexpr std::array kTwins{Twins{"opaque_only", {"cup_bottom_height", "fill_offset"}},
                             Twins{"water_one_distance", {"refractive_index", "fill_scale"}}};
 
-void hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& truth) {
+std::vector<Shown> hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& truth) {
   const bool never_registered = rng.uniform() < 0.6;
   const auto hidden = draw_effect(strengths, !never_registered, {}, 2.0 * draw_strength(rng), rng);
-  if (!hidden) return;
-  truth.effects.push_back(*hidden);
+  if (!hidden) return {};
   if (!never_registered) truth.left_out = hidden->active.effect->name;
   std::vector<const Hidden*> registry;
   for (const Hidden& effect : hidden_effects())
     if (effect.registered && effect.name != truth.left_out) registry.push_back(&effect);
-  const Eigen::MatrixXd signature = strengths.signature(std::span(&hidden->active, 1));
   // What shows in the spread of repeats alone escapes every signature of a mean.
-  truth.escape = signature.norm() > 0.0 ? strengths.escape(signature, registry) : hidden->strength;
+  truth.escape = hidden->signature.norm() > 0.0 ? strengths.escape(hidden->signature, registry) : hidden->s;
+  return {*hidden};
 }
 
-void hide_twin(const Strengths& strengths, const Twins& twins, Rng& rng, SetTruth& truth) {
+std::vector<Shown> hide_twin(const Strengths& strengths, const Twins& twins, Rng& rng, SetTruth& truth) {
   const Hidden& effect = hidden_effect(twins.effects[rng.below(2)]);
   const double s = std::max(8.0, draw_strength(rng));
-  const Active active{&effect, strengths.departure_for(effect, s, rng.uniform() < 0.5 ? -1.0 : 1.0)};
-  truth.effects.push_back({active, strengths.of(active)});
   for (const char* name : twins.effects) truth.twins.emplace_back(name);
+  return {strengths.sized(effect, s, rng.uniform() < 0.5 ? -1.0 : 1.0)};
+}
+
+std::vector<Shown> hide_registered(const Strengths& strengths, int count, Rng& rng) {
+  std::vector<Shown> hidden;
+  for (int i = 0; i < count; ++i)
+    if (auto effect = draw_effect(strengths, true, hidden, draw_strength(rng), rng))
+      hidden.push_back(std::move(*effect));
+  return hidden;
+}
+
+int registered_in(std::string_view kind) { return kind == "single" ? 1 : kind == "pair" ? 2 : 3; }
+
+Eigen::MatrixXd joint_signature(const Strengths& strengths, const std::vector<Shown>& hidden) {
+  if (hidden.size() == 1) return hidden.front().signature;
+  std::vector<Active> all;
+  for (const Shown& effect : hidden) all.push_back(effect.active);
+  return strengths.signature(all);
 }
 
 }  // namespace
@@ -97,7 +111,7 @@ std::vector<std::string> kinds_of_pack(std::uint64_t seed, int sets) {
   return kinds;
 }
 
-SetTruth draw_set(std::uint64_t pack_seed, int number, int sets) {
+SetTruth draw_set(const Views& views, std::uint64_t pack_seed, int number, int sets) {
   Rng rng(pack_seed, Draw::set, number);
   SetTruth truth{.number = number, .seed = rng.bits()};
   truth.kind = kinds_of_pack(pack_seed, sets)[number];
@@ -114,16 +128,13 @@ SetTruth draw_set(std::uint64_t pack_seed, int number, int sets) {
   const Twins& twins = kTwins[rng.uniform() < 0.7 ? 0 : 1];
   if (truth.kind == "twins") truth.design = twins.design;
   const Design& chosen = design(truth.design);
-  const Strengths strengths(chosen, plan(chosen, truth.seed), truth.noise_scale);
-  if (truth.kind == "unknown") hide_unknown(strengths, rng, truth);
-  if (truth.kind == "twins") hide_twin(strengths, twins, rng, truth);
-  const int hidden = truth.kind == "single" ? 1 : truth.kind == "pair" ? 2 : truth.kind == "triple" ? 3 : 0;
-  for (int i = 0; i < hidden; ++i)
-    if (const auto effect = draw_effect(strengths, true, truth.effects, draw_strength(rng), rng))
-      truth.effects.push_back(*effect);
-  std::vector<Active> all;
-  for (const Truth& effect : truth.effects) all.push_back(effect.active);
-  truth.strength_by_liquid = strengths.by_liquid(strengths.signature(all));
+  const Strengths strengths(chosen, plan(chosen, truth.seed), views);
+  const std::vector<Shown> hidden = truth.kind == "unknown" ? hide_unknown(strengths, rng, truth)
+                                    : truth.kind == "twins"
+                                        ? hide_twin(strengths, twins, rng, truth)
+                                        : hide_registered(strengths, registered_in(truth.kind), rng);
+  for (const Shown& effect : hidden) truth.effects.push_back({effect.active, effect.s});
+  truth.strength_by_liquid = strengths.by_liquid(joint_signature(strengths, hidden));
   return truth;
 }
 

@@ -8,6 +8,7 @@
 
 #include "bench/blind/hidden.h"
 #include "bench/blind/plan.h"
+#include "bench/blind/views.h"
 #include "core/json.h"
 
 namespace fathom::blind {
@@ -37,8 +38,8 @@ struct SetTruth {
 /// The class of each set of a pack: fixed shares, in an order drawn from the seed.
 std::vector<std::string> kinds_of_pack(std::uint64_t seed, int sets);
 
-/// Set `number` of a pack of `sets`.
-SetTruth draw_set(std::uint64_t pack_seed, int number, int sets);
+/// Set `number` of a pack of `sets`; `views` of all designs.
+SetTruth draw_set(const Views& views, std::uint64_t pack_seed, int number, int sets);
 
 Json json_of(const SetTruth& truth);
 

@@ -117,6 +117,12 @@ const Hidden& hidden_effect(std::string_view name) {
   throw std::logic_error("no such effect: " + std::string(name));
 }
 
+bool shows_in_spread(const Hidden& effect) { return effect.name == "depth_wander" || effect.name == "vibration"; }
+bool shows_in_steps(const Hidden& effect) { return effect.name == "depth_quantization"; }
+bool shows_in_means(const Hidden& effect) { return !shows_in_spread(effect) && !shows_in_steps(effect); }
+bool shows_over_time(const Hidden& effect) { return effect.name == "thermal_drift" || effect.name == "evaporation"; }
+bool differs_by_placement(const Hidden& effect) { return shows_over_time(effect) || effect.name == "ripples"; }
+
 void apply_all(World& world, const Placement& placement, std::span<const Active> effects) {
   for (const Active& active : effects) active.effect->apply(world, placement, active.departure);
 }

@@ -25,6 +25,14 @@ struct Hidden {
 std::span<const Hidden> hidden_effects();
 const Hidden& hidden_effect(std::string_view name);
 
+/// Where an effect shows: in how far repeats scatter or in the device's steps alone, or in means of readings.
+bool shows_in_spread(const Hidden& effect);
+bool shows_in_steps(const Hidden& effect);
+bool shows_in_means(const Hidden& effect);
+bool shows_over_time(const Hidden& effect);  ///< what it does goes by Placement's times
+/// Whether placements of one liquid, fill and place differ in what it does.
+bool differs_by_placement(const Hidden& effect);
+
 /// An effect at work in a set.
 struct Active {
   const Hidden* effect;

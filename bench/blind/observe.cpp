@@ -81,16 +81,15 @@ Readings observe(const World& world, const Placement& placement, int trials, std
   if (!placement.has_cup()) return readings;
 
   const Raster raster = inside_raster(placement);
-  const Scene scene = stand(world, dots_for(world.sensor, raster, 0.5, 0.95), true, raster, standing);
-  const Matched& matched = scene.matched;
+  const Matched matched = match(world, dots_for(world.sensor, raster, 0.5, 0.95), true, raster, standing);
   const double common = world.warm_up_px * std::exp(-world.seconds / 600.0);
   std::array<int, kRegions> blocks{};
   std::array<std::vector<double>, kRegions> shares;  // of each dot in a region's mean [m per px]
   std::array<double, 2> light{};                     // of the inside, of the wall
   std::array<int, 2> lit{};
-  for (std::size_t b = 0; b < matched.blocks.size(); ++b) {
-    const Block& block = matched.blocks[b];
-    const Eigen::Vector3d p = believed_point(eyes, block.pixel, block.disparity_px + scene.field_px[b] + common);
+  for (const Block& block : matched.blocks) {
+    const Eigen::Vector3d p =
+        believed_point(eyes, block.pixel, block.disparity_px + field_px(world, block.pixel) + common);
     const int region = region_of(p.head<2>() - Eigen::Vector2d(placement.lateral, placement.distance));
     if (region >= 0 || block.lit == Lit::inner_wall) {
       light[region < 0] += block.brightness;

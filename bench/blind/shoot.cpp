@@ -20,19 +20,6 @@ double error_of(Rng& rng, bool heavy) {
   return z / std::sqrt(2.0 * rng.gamma(2.0, 2.0) / 4.0);  // chi² of 4 is Gamma(2, 2); t₄ has variance 2
 }
 
-/// What a place in the image is off, whatever stands there.
-double field_px(const World& world, const Eigen::Vector2d& pixel) {
-  const Eigen::Vector2d off = pixel - Eigen::Vector2d(320, 240);
-  const Eigen::Vector2d from_patch = pixel - world.strange.lens_patch_at;
-  double px = world.dust.pattern_bend_px * off.squaredNorm() / (400.0 * 400.0);
-  px += world.dust.band_px * (static_cast<int>(pixel.y()) / 16 % 2 == 0 ? 1.0 : -1.0);
-  if (world.strange.lens_patch_px != 0.0)
-    px += world.strange.lens_patch_px * std::exp(-0.5 * from_patch.squaredNorm() / (40.0 * 40.0));
-  if (world.strange.rolling_px != 0.0)
-    px += world.strange.rolling_px * std::sin(2.0 * std::numbers::pi * pixel.y() / 260.0);
-  return px;
-}
-
 }  // namespace
 
 Raster near_cup(const Placement& placement) {
@@ -54,11 +41,23 @@ Raster near_cup(const Placement& placement) {
           high.array().ceil().matrix().cast<int>().cwiseMin(Eigen::Vector2i(640, 480) - border), 2};
 }
 
+double field_px(const World& world, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d off = pixel - Eigen::Vector2d(320, 240);
+  const Eigen::Vector2d from_patch = pixel - world.strange.lens_patch_at;
+  double px = world.dust.pattern_bend_px * off.squaredNorm() / (400.0 * 400.0);
+  px += world.dust.band_px * (static_cast<int>(pixel.y()) / 16 % 2 == 0 ? 1.0 : -1.0);
+  if (world.strange.lens_patch_px != 0.0)
+    px += world.strange.lens_patch_px * std::exp(-0.5 * from_patch.squaredNorm() / (40.0 * 40.0));
+  if (world.strange.rolling_px != 0.0)
+    px += world.strange.rolling_px * std::sin(2.0 * std::numbers::pi * pixel.y() / 260.0);
+  return px;
+}
+
 Raster whole_image() { return {{4, 4}, {636, 476}, 12}; }
 
 Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, const Raster& raster,
             std::uint64_t standing) {
-  Scene scene{match(world, dots, has_cup, raster, standing), {}, {}, {}};
+  Scene scene{match(world, dots, has_cup, raster, standing), {}, {}};
   const Matched& matched = scene.matched;
   std::vector<double> errors(matched.dots.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -66,8 +65,7 @@ Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, cons
     errors[i] = world.noise_scale * kStaticDotPx * matched.dot_sigma[i] * error_of(rng, world.heavy_tails);
   }
   for (const Block& block : matched.blocks) {
-    scene.field_px.push_back(field_px(world, block.pixel));
-    double px = scene.field_px.back();
+    double px = field_px(world, block.pixel);
     for (int k = block.first; k < block.first + block.count; ++k)
       px += matched.members[k].error_weight * errors[matched.members[k].dot];
     scene.standing_px.push_back(px);

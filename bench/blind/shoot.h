@@ -14,13 +14,16 @@ namespace fathom::blind {
 /// `standing`, those of one frame by `frame`.
 struct Scene {
   Matched matched;
-  std::vector<double> field_px;     ///< what each block is off by its place in the image
-  std::vector<double> standing_px;  ///< that, and the error of its dots that stays
-  std::vector<float> dn;            ///< infrared
+  std::vector<double>
+      standing_px;        ///< what each block is off by its place in the image, and the error of its dots that stays
+  std::vector<float> dn;  ///< infrared
 };
 
 Raster near_cup(const Placement& placement);  ///< every 2nd pixel of the cup and 12 mm around it
 Raster whole_image();                         ///< every 12th
+
+/// What a place in the image is off, whatever stands there.
+double field_px(const World& world, const Eigen::Vector2d& pixel);
 
 Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, const Raster& raster,
             std::uint64_t standing);

@@ -5,39 +5,26 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numbers>
-#include <tuple>
 
-#include "bench/blind/laboratory.h"
 #include "bench/blind/match.h"
-#include "bench/blind/observe.h"
-#include "core/rng.h"
 
 namespace fathom::blind {
 namespace {
 
-constexpr std::uint64_t kStanding = 0x57e6;  // the same dots and grains for every signature
-constexpr int kLooks = 4;
-constexpr double kElsewhere = 10e-3;  // [m] a window: dots that fell into one fall into others
 /// Nobody wrote down albedos: 1 σ of the logarithm of a cup's and of an opaque liquid's.
 constexpr double kAlbedoSigma = 0.3;
-constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnseenSigma = 1e6;  // of a reading that is not there: it weighs nothing
 /// Deviation of a frame's mean disparity: what the dots of a whole desk leave of their noise, and the device's own;
 /// and of a region of the cup, of ten dots.
 constexpr double kFrameSigmaPx = 0.005, kRegionSigmaPx = kTemporalDotPx / 3.2;
 
-bool shows_in_spread(const Hidden& effect) { return effect.name == "depth_wander" || effect.name == "vibration"; }
 /// Of frames' disparity without the effect. A wave along the rows leaves a frame's mean alone: it shows where regions
 /// of the cup move against the desk, by 1/√2 of its amplitude.
 double spread_sigma_px(const Hidden& effect) {
   return effect.name == "vibration" ? std::numbers::sqrt2 * kRegionSigmaPx : kFrameSigmaPx;
 }
-bool shows_over_time(const Hidden& effect) { return effect.name == "thermal_drift" || effect.name == "evaporation"; }
-bool shows_in_steps(const Hidden& effect) { return effect.name == "depth_quantization"; }
-
-auto condition_of(const Placement& p) { return std::tuple(p.liquid, p.fill, p.distance, p.lateral); }
 
 /// A table of mean heights holds one reading, in the place of the first.
 Readings as_recorded(const Design& design, Readings readings) {
@@ -58,41 +45,44 @@ Readings as_recorded(const Design& design, Readings readings) {
 
 }  // namespace
 
-Eigen::MatrixXd Strengths::values(const Change& change, bool over_time) const {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(placements_.size()) * kReadings, kLooks);
-  std::map<decltype(condition_of(placements_[0])), Eigen::MatrixXd> known;
+const ConditionViews& Strengths::seen_from(std::size_t placement) const {
+  return views_.at(condition_of(placements_[placement]));
+}
+
+template <class ViewOf>
+Eigen::MatrixXd Strengths::difference_of_views(const ViewOf& view_of) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(placements_.size()) * kReadings, kLooks);
   for (std::size_t i = 0; i < placements_.size(); ++i) {
-    const Placement& p = placements_[i];
-    Eigen::MatrixXd& seen = known[condition_of(p)];
-    if (seen.size() == 0 || over_time) {
-      seen.resize(kReadings, kLooks);
-      for (int look = 0; look < kLooks; ++look) {
-        Placement there = p;
-        Rng rng(kStanding, look);
-        there.lateral += kElsewhere * (rng.uniform() - 0.5);
-        there.distance += kElsewhere * (rng.uniform() - 0.5);
-        World world = believed(there);
-        change(world, there);
-        const Readings readings = as_recorded(design_, observe(world, there, design_.trials, kStanding + look));
-        for (int k = 0; k < kReadings; ++k) seen(k, look) = readings[k].sigma > 0.0 ? readings[k].value : kNotSeen;
-      }
+    const View& changed = view_of(i);
+    for (int look = 0; look < kLooks; ++look) {
+      const Readings now = as_recorded(design_, changed[look]);
+      const Readings before = as_recorded(design_, seen_from(i).believed[look]);
+      for (int k = 0; k < kReadings; ++k)
+        if (now[k].sigma > 0.0 && before[k].sigma > 0.0)
+          result(static_cast<Eigen::Index>(i) * kReadings + k, look) = now[k].value - before[k].value;
     }
-    result.middleRows(static_cast<Eigen::Index>(i) * kReadings, kReadings) = seen;
   }
   return result;
 }
 
-Eigen::MatrixXd Strengths::difference(const Change& change, bool over_time) const {
-  return (values(change, over_time) - nominal_).unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
-}
-
-Eigen::VectorXd Strengths::per_sigma(double sigma, const std::function<void(World&, double)>& add) const {
-  constexpr double kStep = 4.0;  // of σ: dots that change windows are the less beside it
-  return difference([&](World& world, const Placement&) { add(world, kStep * sigma); }).rowwise().mean() / kStep;
+Eigen::MatrixXd Strengths::difference(std::span<const Active> effects) const {
+  if (effects.size() == 1 && effects[0].departure == effects[0].effect->typical &&
+      !differs_by_placement(*effects[0].effect))
+    return difference_of_views(
+        [&](std::size_t i) -> const View& { return seen_from(i).typical.at(effects[0].effect->name); });
+  const bool over_time =
+      std::any_of(effects.begin(), effects.end(), [](const Active& active) { return shows_over_time(*active.effect); });
+  std::map<Condition, View> known;
+  return difference_of_views([&](std::size_t i) -> const View& {
+    const auto [seen, is_new] = known.try_emplace(condition_of(placements_[i]));
+    if (is_new || over_time)
+      seen->second = view(placements_[i], [&](World& world, const Placement& p) { apply_all(world, p, effects); });
+    return seen->second;
+  });
 }
 
 Eigen::VectorXd Strengths::brighter(bool of_milk) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(nominal_.rows());
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(placements_.size()) * kReadings);
   for (std::size_t i = 0; i < placements_.size(); ++i) {
     if (!placements_[i].has_cup()) continue;
     const Eigen::Index inside = static_cast<Eigen::Index>(i) * kReadings + kBrightness;
@@ -118,35 +108,32 @@ double Strengths::common_norm(const Eigen::MatrixXd& looks) {
   return std::sqrt(std::max(0.0, between));
 }
 
-Strengths::Strengths(const Design& design, std::vector<Placement> placements, double scale)
-    : design_(design), placements_(std::move(placements)), scale_(scale) {
-  nominal_ = values([](World&, const Placement&) {}, false);
-
-  const auto moved = [&](int axis) {
-    return per_sigma(scale_ * kPlacementSigma,
-                     [axis](World& world, double metres) { world.cup.centre[axis] += metres; });
-  };
-  const Eigen::VectorXd to_x = moved(0), to_y = moved(1);
-  std::map<decltype(condition_of(placements_[0])), Readings> noise;
+void Strengths::set_covariances(const std::vector<Eigen::VectorXd>& shared_by_placement) {
   for (std::size_t i = 0; i < placements_.size(); ++i) {
-    const Placement& p = placements_[i];
-    if (!noise.contains(condition_of(p)))
-      noise[condition_of(p)] = as_recorded(design_, observe(believed(p), p, design_.trials, kStanding));
-    const Eigen::Index first = static_cast<Eigen::Index>(i) * kReadings;
-    Eigen::MatrixXd covariance = to_x.segment(first, kReadings) * to_x.segment(first, kReadings).transpose() +
-                                 to_y.segment(first, kReadings) * to_y.segment(first, kReadings).transpose();
-    for (int k = 0; k < kReadings; ++k) {
-      const double sigma = noise[condition_of(p)][k].sigma;
-      covariance(k, k) += std::pow(sigma > 0.0 ? scale_ * sigma : kUnseenSigma, 2);
+    const Readings noise = as_recorded(design_, seen_from(i).noise.at(design_.trials));
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kReadings, kReadings);
+    for (const Eigen::VectorXd& change : shared_by_placement) {
+      const auto own = change.segment(static_cast<Eigen::Index>(i) * kReadings, kReadings);
+      covariance += own * own.transpose();
     }
+    for (int k = 0; k < kReadings; ++k)
+      covariance(k, k) += std::pow(noise[k].sigma > 0.0 ? noise[k].sigma : kUnseenSigma, 2);
     block_root_.push_back(covariance.llt().matrixL());
   }
+}
+
+Strengths::Strengths(const Design& design, std::vector<Placement> placements, const Views& views)
+    : design_(design), placements_(std::move(placements)), views_(views) {
+  std::map<Shared, std::vector<Eigen::VectorXd>> changes;  // per 1 σ, in the mean over looks
+  for (std::size_t n = 0; n < nuisances().size(); ++n)
+    changes[nuisances()[n].shared].push_back(
+        difference_of_views([&](std::size_t i) -> const View& { return seen_from(i).nuisances[n]; }).rowwise().mean() /
+        kNuisanceSigmas);
+  for (const bool of_milk : {false, true}) changes[Shared::by_all].push_back(brighter(of_milk));
+  set_covariances(changes[Shared::by_placement]);
 
   std::vector<Eigen::VectorXd> columns;
-  for (const Uncertain& value : uncertain_rig())
-    columns.push_back(whitened(per_sigma(scale_ * value.sigma, value.add)));
-  for (const Uncertain& value : dust()) columns.push_back(whitened(per_sigma(value.sigma, value.add)));
-  for (const bool of_milk : {false, true}) columns.push_back(whitened(brighter(of_milk)));
+  for (const Eigen::VectorXd& change : changes[Shared::by_all]) columns.push_back(whitened(change));
   // A pour is filled a little wrongly, a session set up a little otherwise: each explains its own placements only.
   const auto each = [&](const Eigen::VectorXd& change, int Placement::*group) {
     int last = 0;
@@ -160,15 +147,10 @@ Strengths::Strengths(const Design& design, std::vector<Placement> placements, do
       columns.push_back(whitened(part));
     }
   };
-  each(per_sigma(scale_ * kFillSigma,
-                 [](World& world, double metres) {
-                   if (world.fill > 0.0) world.fill += metres;
-                 }),
-       &Placement::pour);
-  for (const SessionError& error : session_errors())
-    each(per_sigma(scale_ * error.sigma, error.add), &Placement::session);
+  for (const Eigen::VectorXd& change : changes[Shared::by_pour]) each(change, &Placement::pour);
+  for (const Eigen::VectorXd& change : changes[Shared::by_session]) each(change, &Placement::session);
 
-  Eigen::MatrixXd n(nominal_.rows(), static_cast<Eigen::Index>(columns.size()));
+  Eigen::MatrixXd n(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) n.col(static_cast<Eigen::Index>(i)) = columns[i];
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(n.transpose() * n);
   const Eigen::VectorXd squares = gram.eigenvalues();
@@ -178,57 +160,58 @@ Strengths::Strengths(const Design& design, std::vector<Placement> placements, do
 }
 
 Eigen::MatrixXd Strengths::signature(std::span<const Active> effects) const {
-  const bool over_time =
-      std::any_of(effects.begin(), effects.end(), [](const Active& active) { return shows_over_time(*active.effect); });
-  const Eigen::MatrixXd change =
-      whitened(difference([&](World& world, const Placement& p) { apply_all(world, p, effects); }, over_time));
+  std::vector<Active> in_means;
+  std::copy_if(effects.begin(), effects.end(), std::back_inserter(in_means),
+               [](const Active& active) { return shows_in_means(*active.effect); });
+  if (in_means.empty()) return Eigen::MatrixXd::Zero(nuisance_axes_.rows(), kLooks);
+  const Eigen::MatrixXd change = whitened(difference(in_means));
   return change - nuisance_axes_ * nuisance_loss_.asDiagonal() * (nuisance_axes_.transpose() * change);
 }
+
+double Strengths::repeats() const { return static_cast<double>(placements_.size()) * (design_.trials - 1); }
 
 /// Of a variance that is wider by a known share: half the logarithm over its standard error 1/√(2 ν).
 double Strengths::of_spread(const Active& active) const {
   if (!design_.clouds) return 0.0;
-  const double repeats = static_cast<double>(placements_.size()) * (design_.trials - 1);
-  const double ratio = active.departure / (scale_ * spread_sigma_px(*active.effect));
-  return 0.5 * std::log1p(ratio * ratio) * std::sqrt(2.0 * repeats);
+  const double ratio = active.departure / spread_sigma_px(*active.effect);
+  return 0.5 * std::log1p(ratio * ratio) * std::sqrt(2.0 * repeats());
 }
 
-double Strengths::of(const Active& effect) const {
-  if (shows_in_spread(*effect.effect)) return of_spread(effect);
-  // Coarser steps leave means alone and show in every cloud at once.
-  if (shows_in_steps(*effect.effect)) return design_.clouds ? 30.0 : 0.0;
-  return common_norm(signature(std::span(&effect, 1)));
+Shown Strengths::shown(const Active& active) const {
+  Shown shown{active, 0.0, signature(std::span(&active, 1))};
+  if (shows_in_spread(*active.effect))
+    shown.s = of_spread(active);
+  else if (shows_in_steps(*active.effect))
+    shown.s = design_.clouds ? 30.0 : 0.0;  // coarser steps leave means alone and show in every cloud at once
+  else
+    shown.s = common_norm(shown.signature);
+  return shown;
 }
 
-double Strengths::departure_for(const Hidden& effect, double s, double sign) const {
+Shown Strengths::sized(const Hidden& effect, double s, double sign) const {
   const auto inside = [&](double departure) { return std::clamp(departure, effect.least, effect.most); };
-  double departure =
-      inside(std::copysign(effect.typical, effect.least < 0.0 && effect.most > 0.0 ? sign : effect.typical));
-  if (shows_in_steps(effect)) return departure;
-  if (shows_in_spread(effect)) {
-    const double repeats = static_cast<double>(placements_.size()) * (design_.trials - 1);
-    return inside(scale_ * spread_sigma_px(effect) * std::sqrt(std::expm1(2.0 * s / std::sqrt(2.0 * repeats))));
-  }
+  if (shows_in_spread(effect))
+    return shown(
+        {&effect, inside(spread_sigma_px(effect) * std::sqrt(std::expm1(2.0 * s / std::sqrt(2.0 * repeats()))))});
+  const double first = effect.least < 0.0 && effect.most > 0.0 ? std::copysign(effect.typical, sign) : effect.typical;
+  Shown now = shown({&effect, inside(first)});
+  if (shows_in_steps(effect)) return now;
   // Signatures are nearly straight lines.
   constexpr int kSteps = 6;
   constexpr double kNearEnough = 0.02;
-  for (int i = 0; i < kSteps; ++i) {
-    const double now = of({&effect, departure});
-    if (now <= 0.0 || std::abs(now / s - 1.0) < kNearEnough) break;
-    const double next = inside(departure * std::clamp(s / now, 0.02, 50.0));
-    if (next == departure) break;
-    departure = next;
+  for (int i = 0; i < kSteps && now.s > 0.0 && std::abs(now.s / s - 1.0) >= kNearEnough; ++i) {
+    const double next = inside(now.active.departure * std::clamp(s / now.s, 0.02, 50.0));
+    if (next == now.active.departure) break;
+    now = shown({&effect, next});
   }
-  return departure;
+  return now;
 }
 
 double Strengths::escape(const Eigen::MatrixXd& signature, std::span<const Hidden* const> registry) const {
   std::vector<Eigen::VectorXd> columns;
   for (const Hidden* effect : registry) {
-    if (shows_in_spread(*effect) || shows_in_steps(*effect)) continue;
-    const Active active{effect, effect->typical};
-    const Eigen::MatrixXd looks = this->signature(std::span(&active, 1));
-    if (common_norm(looks) > 0.1) columns.push_back(looks.rowwise().mean().normalized());
+    const Shown typical = shown({effect, effect->typical});
+    if (common_norm(typical.signature) > 0.1) columns.push_back(typical.signature.rowwise().mean().normalized());
   }
   if (columns.empty()) return common_norm(signature);
   Eigen::MatrixXd span(signature.rows(), static_cast<Eigen::Index>(columns.size()));

@@ -127,7 +127,8 @@ TEST(BlindSeeds, OfPackKindsAreDisjoint) {
 }
 
 struct BlindStrength : testing::Test {
-  static Strengths of(const char* name) { return {design(name), plan(design(name), 1), 1.0}; }
+  static inline const Views views = views_of(designs());
+  static Strengths of(const char* name) { return {design(name), plan(design(name), 1), views}; }
 };
 
 TEST_F(BlindStrength, GrowsWithTheEffectAndReachesWhatIsAsked) {
