@@ -13,7 +13,7 @@ namespace {
 constexpr double kAgreePx = 0.6;  // dots whose correlation peaks overlap
 constexpr int kFewestDots = 3;
 constexpr double kAgreeingShare = 0.5;
-constexpr double kDarkest = 0.04;  // beside the desk: below it no contrast is left
+constexpr double kDarkest = 0.05;  // beside the desk: below it no contrast is left
 
 /// Dots by the pixel that they fall into.
 class Bins {
@@ -76,17 +76,18 @@ void correlate(const std::vector<int>& inside, const std::vector<double>& grain,
     all += light(i);
   }
   if (best < kAgreeingShare * all || best <= 0.0) return;
-  Block block{pixel.cast<double>().array() + 0.5, 0.0, 0.0, Lit::desk, static_cast<int>(matched.members.size()), 0};
+  Block block{
+      .pixel = pixel.cast<double>().array() + 0.5, .light = best, .first = static_cast<int>(matched.members.size())};
   std::array<double, 6> on{};
   for (const int i : inside) {
     if (std::abs(dots[i].disparity_px - middle) > kAgreePx) continue;
     const double weight = light(i) / best;
     matched.members.push_back({i, weight, 0.0});
     block.disparity_px += weight * dots[i].disparity_px;
+    block.brightness += weight * light(i);
     on[static_cast<int>(dots[i].lit)] += weight;
     ++block.count;
   }
-  block.brightness = best / block.count;
   if (block.count < kFewestDots || block.brightness < kDarkest) {
     matched.members.resize(block.first);
     return;
@@ -138,10 +139,10 @@ std::vector<float> infrared_dn(const Matched& matched) {
     double sum = 0.0;
     for (int k = block.first; k < block.first + block.count; ++k) {
       const SeenDot& dot = matched.dots[matched.members[k].dot];
-      sum += matched.members[k].weight * block.count *
-             std::exp(-0.5 * (dot.pixel - block.pixel).squaredNorm() / (kSigmaPx * kSigmaPx));
+      sum +=
+          matched.members[k].weight * std::exp(-0.5 * (dot.pixel - block.pixel).squaredNorm() / (kSigmaPx * kSigmaPx));
     }
-    dn.push_back(static_cast<float>(std::min(1023.0, kPeakDn * block.brightness * sum)));
+    dn.push_back(static_cast<float>(std::min(1023.0, kPeakDn * block.light * sum)));
   }
   return dn;
 }

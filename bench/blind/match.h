@@ -20,10 +20,11 @@ struct Member {
 
 struct Block {
   Eigen::Vector2d pixel;  ///< middle of the window
-  double disparity_px;
-  double brightness;  ///< of its dots
-  Lit lit;            ///< what most of its dots stand on
-  int first, count;   ///< its members
+  double disparity_px = 0.0;
+  double light = 0.0;        ///< of all its dots
+  double brightness = 0.0;   ///< of a dot, each by its light: faint ones beside bright ones change nothing
+  Lit lit = Lit::desk;       ///< what most of its dots stand on
+  int first = 0, count = 0;  ///< its members
 };
 
 struct Matched {

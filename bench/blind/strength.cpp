@@ -4,18 +4,21 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
 #include "bench/blind/match.h"
+#include "core/estimate.h"
 
 namespace fathom::blind {
 namespace {
 
 /// Nobody wrote down albedos: 1 σ of the logarithm of a cup's and of an opaque liquid's.
 constexpr double kAlbedoSigma = 0.3;
-constexpr double kUnseenSigma = 1e6;  // of a reading that is not there: it weighs nothing
+constexpr double kUnseenSigma = 1e6;   // of a reading that is not there: it weighs nothing
+constexpr double kScatterSigma = 0.2;  // of the logarithm of a device's scatter: nobody knows it better
 /// Deviation of a frame's mean disparity: what the dots of a whole desk leave of their noise, and the device's own;
 /// and of a region of the cup, of ten dots.
 constexpr double kFrameSigmaPx = 0.005, kRegionSigmaPx = kTemporalDotPx / 3.2;
@@ -108,6 +111,33 @@ double Strengths::common_norm(const Eigen::MatrixXd& looks) {
   return std::sqrt(std::max(0.0, between));
 }
 
+std::vector<Eigen::VectorXd> Strengths::of_dots() const {
+  std::map<Condition, std::vector<std::size_t>> conditions;
+  for (std::size_t i = 0; i < placements_.size(); ++i)
+    if (placements_[i].has_cup()) conditions[condition_of(placements_[i])].push_back(i);
+  std::array<double, kReadings> squares{}, dof{};
+  for (const auto& [condition, members] : conditions)
+    for (int k = 0; k < kReadings; ++k) {
+      Mean looks;
+      for (const Readings& look : views_.at(condition).believed)
+        if (const Reading reading = as_recorded(design_, look)[k]; reading.sigma > 0.0) looks.add(reading.value);
+      if (looks.count() < 2) continue;
+      const auto n = static_cast<double>(looks.count());
+      squares[k] += n * (n - 1.0) * std::pow(looks.estimate().standard_error, 2);
+      dof[k] += n - 1.0;
+    }
+  std::vector<Eigen::VectorXd> columns;
+  for (const auto& [condition, members] : conditions)
+    for (int k = 0; k < kReadings; ++k) {
+      if (dof[k] == 0.0) continue;
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(placements_.size()) * kReadings);
+      for (const std::size_t i : members)
+        column[static_cast<Eigen::Index>(i) * kReadings + k] = std::sqrt(squares[k] / dof[k]);
+      columns.push_back(std::move(column));
+    }
+  return columns;
+}
+
 void Strengths::set_covariances(const std::vector<Eigen::VectorXd>& shared_by_placement) {
   for (std::size_t i = 0; i < placements_.size(); ++i) {
     const Readings noise = as_recorded(design_, seen_from(i).noise.at(design_.trials));
@@ -134,6 +164,7 @@ Strengths::Strengths(const Design& design, std::vector<Placement> placements, co
 
   std::vector<Eigen::VectorXd> columns;
   for (const Eigen::VectorXd& change : changes[Shared::by_all]) columns.push_back(whitened(change));
+  for (const Eigen::VectorXd& change : of_dots()) columns.push_back(whitened(change));
   // A pour is filled a little wrongly, a session set up a little otherwise: each explains its own placements only.
   const auto each = [&](const Eigen::VectorXd& change, int Placement::*group) {
     int last = 0;
@@ -168,13 +199,16 @@ Eigen::MatrixXd Strengths::signature(std::span<const Active> effects) const {
   return change - nuisance_axes_ * nuisance_loss_.asDiagonal() * (nuisance_axes_.transpose() * change);
 }
 
+double Strengths::scatter_error() const { return std::hypot(1.0 / std::sqrt(2.0 * repeats()), kScatterSigma); }
+
 double Strengths::repeats() const { return static_cast<double>(placements_.size()) * (design_.trials - 1); }
 
-/// Of a variance that is wider by a known share: half the logarithm over its standard error 1/√(2 ν).
+/// Of a variance that is wider by a known share: half the logarithm over the error of that, 1/√(2 ν) and what nobody
+/// knows of the device.
 double Strengths::of_spread(const Active& active) const {
   if (!design_.clouds) return 0.0;
   const double ratio = active.departure / spread_sigma_px(*active.effect);
-  return 0.5 * std::log1p(ratio * ratio) * std::sqrt(2.0 * repeats());
+  return 0.5 * std::log1p(ratio * ratio) / scatter_error();
 }
 
 Shown Strengths::shown(const Active& active) const {
@@ -191,8 +225,7 @@ Shown Strengths::shown(const Active& active) const {
 Shown Strengths::sized(const Hidden& effect, double s, double sign) const {
   const auto inside = [&](double departure) { return std::clamp(departure, effect.least, effect.most); };
   if (shows_in_spread(effect))
-    return shown(
-        {&effect, inside(spread_sigma_px(effect) * std::sqrt(std::expm1(2.0 * s / std::sqrt(2.0 * repeats()))))});
+    return shown({&effect, inside(spread_sigma_px(effect) * std::sqrt(std::expm1(2.0 * s * scatter_error())))});
   const double first = effect.least < 0.0 && effect.most > 0.0 ? std::copysign(effect.typical, sign) : effect.typical;
   Shown now = shown({&effect, inside(first)});
   if (shows_in_steps(effect)) return now;

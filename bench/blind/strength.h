@@ -51,12 +51,16 @@ class Strengths {
   template <class ViewOf>
   Eigen::MatrixXd difference_of_views(const ViewOf& view_of) const;
   Eigen::MatrixXd difference(std::span<const Active> effects) const;
+  /// Which dots and grains a window holds is nobody's knowledge: 1 σ of each reading under each condition, by which
+  /// looks at what is believed differ.
+  std::vector<Eigen::VectorXd> of_dots() const;
   void set_covariances(const std::vector<Eigen::VectorXd>& shared_by_placement);
   /// As if albedos were 1 σ larger: the cup's, or the milk's.
   Eigen::VectorXd brighter(bool of_milk) const;
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& difference) const;
   double of_spread(const Active& effect) const;
   double repeats() const;
+  double scatter_error() const;
 
   Design design_;
   std::vector<Placement> placements_;

@@ -36,8 +36,7 @@ AmbiguitySet ambiguity_set(std::vector<Option> options, double delta) {
   };
   for (Option& option : options) {
     const auto home = [&](const auto& is_of) {
-      return std::find_if(own.begin(), own.end(),
-                          [&](const AmbiguityClass& known) { return is_of(known.options); }) -
+      return std::find_if(own.begin(), own.end(), [&](const AmbiguityClass& known) { return is_of(known.options); }) -
              own.begin();
     };
     const auto twins = static_cast<std::size_t>(

@@ -27,8 +27,8 @@ struct AmbiguitySet {
 };
 
 /// Options within `delta` of the best log posterior. Those whose predictions differ by less than one σ of all the data
-/// together are one class: twins. Supersets of an option (other than none) that are no better go with it; those that are
-/// plausible nevertheless are together a class of their own.
+/// together are one class: twins. Supersets of an option (other than none) that are no better go with it; those that
+/// are plausible nevertheless are together a class of their own.
 AmbiguitySet ambiguity_set(std::vector<Option> options, double delta);
 
 }  // namespace fathom

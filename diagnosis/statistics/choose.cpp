@@ -81,8 +81,7 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
   int tried = 0;
   for (const Refit& fit : fits) {
     const Hypothesis& h = fit.hypothesis;
-    const bool is_subset =
-        std::includes(likeliest.begin(), likeliest.end(), h.effects.begin(), h.effects.end());
+    const bool is_subset = std::includes(likeliest.begin(), likeliest.end(), h.effects.begin(), h.effects.end());
     if (h.effects.empty() || !is_subset || h.log_evidence < 0.0) continue;  // BIC's opinion: nothing is likelier
     if (++tried > kVerified) return std::nullopt;
     if (auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, fit)))

@@ -68,8 +68,8 @@ void add_without_one(const Case& c, std::vector<Refit>& fits) {
     if (likeliest.effects.size() < 2) return;
     for (std::size_t e = 0; e < likeliest.effects.size(); ++e) {
       const Hypothesis less = without(c.problem, likeliest, e);
-      const bool is_known = std::any_of(fits.begin(), fits.end(),
-                                        [&](const Refit& f) { return f.hypothesis.effects == less.effects; });
+      const bool is_known =
+          std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == less.effects; });
       if (!is_known) fits.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, less));
     }
     sort_by_evidence(fits);
