@@ -72,6 +72,17 @@ std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit
   return effects;
 }
 
+/// Whether every option that is not excluded has this effect, in whatever liquid.
+bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
+  const auto id_of = [&](int candidate) { return effect_name(c.evidence.candidates[candidate].effect).id; };
+  double best = -INFINITY;
+  for (const Option& o : options) best = std::max(best, o.log_posterior);
+  return std::all_of(options.begin(), options.end(), [&](const Option& o) {
+    return o.log_posterior < best - c.settings.delta ||
+           std::any_of(o.effects.begin(), o.effects.end(), [&](int one) { return id_of(one) == id_of(effect); });
+  });
+}
+
 }  // namespace
 
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
@@ -92,50 +103,29 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
 
 std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options) {
   const Refit first = with_chords(c.evidence, c.predict, c.covariance, c.problem, fits.front());
-  const std::vector<int>& all = first.hypothesis.effects;
-  if (all.size() < 2) return std::nullopt;
-  const auto id_of = [&](int effect) { return effect_name(c.evidence.candidates[effect].effect).id; };
-  double best = -INFINITY;
-  for (const Option& o : options) best = std::max(best, o.log_posterior);
-  const auto is_common = [&](int effect) {
-    return std::all_of(options.begin(), options.end(), [&](const Option& o) {
-      return o.log_posterior < best - c.settings.delta ||
-             std::any_of(o.effects.begin(), o.effects.end(), [&](int one) { return id_of(one) == id_of(effect); });
-    });
-  };
-  struct Part {
-    NamedEffect named;
-    int effect;
-    Eigen::VectorXd parameters;
-    double change;  ///< that it makes, whitened
-  };
-  std::vector<Part> parts;
+  const std::vector<int>& effects = first.hypothesis.effects;
+  if (effects.size() < 2) return std::nullopt;
   const std::vector<std::optional<NamedEffect>> passed = tested(c, first);
+  std::vector<std::pair<double, std::size_t>> common;  // how much each changes, whitened; its position
   Eigen::Index column = 0;
-  for (std::size_t e = 0; e < all.size(); ++e) {
-    const auto count = static_cast<Eigen::Index>(c.problem.columns[all[e]].size());
-    const Eigen::VectorXd own = first.hypothesis.parameters.segment(column, count);
-    if (passed[e] && is_common(all[e]))
-      parts.push_back({*passed[e], all[e], own, (first.jacobian.middleCols(column, count) * own).norm()});
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const auto count = static_cast<Eigen::Index>(c.problem.columns[effects[e]].size());
+    const double change =
+        (first.jacobian.middleCols(column, count) * first.hypothesis.parameters.segment(column, count)).norm();
+    if (passed[e] && all_have(c, options, effects[e])) common.emplace_back(change, e);
     column += count;
   }
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.change > b.change; });
+  std::sort(common.rbegin(), common.rend());
   const double gap = c.problem.residual.squaredNorm() - static_cast<double>(c.problem.residual.size());
-  for (std::size_t count = 1; count <= parts.size() && count < all.size(); ++count) {
-    std::vector<Part> some(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
-    std::sort(some.begin(), some.end(), [](const Part& a, const Part& b) { return a.effect < b.effect; });
-    Hypothesis common;
-    Choice choice;
-    for (Part& part : some) {
-      common.effects.push_back(part.effect);
-      const Eigen::Index before = common.parameters.size();
-      common.parameters.conservativeResize(before + part.parameters.size());
-      common.parameters.tail(part.parameters.size()) = part.parameters;
-      choice.effects.push_back(std::move(part.named));
-    }
-    choice.fit = refit(c.evidence, c.predict, c.covariance, c.problem, common);
-    if (choice.fit.hypothesis.gain < kNearlyAll * gap) continue;
-    choice.fit = with_differences(c.evidence, c.predict, c.covariance, c.problem, std::move(choice.fit));
+  std::vector<std::size_t> positions;
+  for (const auto& [change, position] : common) {
+    positions.insert(std::upper_bound(positions.begin(), positions.end(), position), position);
+    if (positions.size() == effects.size()) return std::nullopt;
+    const Refit fit =
+        refit(c.evidence, c.predict, c.covariance, c.problem, part_of(c.problem, first.hypothesis, positions));
+    if (fit.hypothesis.gain < kNearlyAll * gap) continue;
+    Choice choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, fit), {}};
+    for (const std::size_t e : positions) choice.effects.push_back(*passed[e]);
     return choice;
   }
   return std::nullopt;

@@ -12,7 +12,7 @@ struct DecisionSettings {
   double p_discovery = 0.005;    ///< of the largest among all candidates, for each effect beside the others
   double p_confirmation = 0.01;  ///< in groups that had no part in its size
   double p_gap = 0.003;          ///< for calling unknown what no candidate explains
-  double delta = 9.0;            ///< of log posterior: explanations that far from the best are left open
+  double delta = 7.0;            ///< of log posterior: explanations that far from the best are left open
 };
 
 }  // namespace fathom

@@ -43,31 +43,17 @@ void sort_by_evidence(std::vector<Refit>& fits) {
   });
 }
 
-/// A fit's effects but one, from where they are.
-Hypothesis without(const Problem& problem, const Hypothesis& h, std::size_t left_out) {
-  Hypothesis less;
-  Eigen::Index column = 0;
-  for (std::size_t e = 0; e < h.effects.size(); ++e) {
-    const auto count = static_cast<Eigen::Index>(problem.columns[h.effects[e]].size());
-    if (e != left_out) {
-      const Eigen::Index before = less.parameters.size();
-      less.effects.push_back(h.effects[e]);
-      less.parameters.conservativeResize(before + count);
-      less.parameters.tail(count) = h.parameters.segment(column, count);
-    }
-    column += count;
-  }
-  return less;
-}
-
 /// Where signatures are no straight lines, others come in that only bend them: each of the likeliest fit's effects is
 /// left out in turn, as long as that makes a likelier one.
 void add_without_one(const Case& c, std::vector<Refit>& fits) {
   for (bool is_better = true; is_better;) {
     const Hypothesis likeliest = fits.front().hypothesis;
     if (likeliest.effects.size() < 2) return;
-    for (std::size_t e = 0; e < likeliest.effects.size(); ++e) {
-      const Hypothesis less = without(c.problem, likeliest, e);
+    for (std::size_t left_out = 0; left_out < likeliest.effects.size(); ++left_out) {
+      std::vector<std::size_t> others;
+      for (std::size_t e = 0; e < likeliest.effects.size(); ++e)
+        if (e != left_out) others.push_back(e);
+      const Hypothesis less = part_of(c.problem, likeliest, others);
       const bool is_known =
           std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == less.effects; });
       if (!is_known) fits.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, less));

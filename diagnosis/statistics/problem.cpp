@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -54,6 +55,20 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
   for (const int effect : effects)
     result.insert(result.end(), problem.columns[effect].begin(), problem.columns[effect].end());
   return result;
+}
+
+Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions) {
+  Hypothesis part;
+  std::vector<Eigen::Index> own;  // places in the whole's parameters
+  Eigen::Index column = 0;
+  for (std::size_t e = 0; e < whole.effects.size(); ++e) {
+    const bool is_in = std::find(positions.begin(), positions.end(), e) != positions.end();
+    if (is_in) part.effects.push_back(whole.effects[e]);
+    for (std::size_t k = 0; k < problem.columns[whole.effects[e]].size(); ++k, ++column)
+      if (is_in) own.push_back(column);
+  }
+  part.parameters = whole.parameters(own);
+  return part;
 }
 
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,

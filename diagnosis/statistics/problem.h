@@ -33,6 +33,9 @@ struct Hypothesis {
   double log_evidence = 0.0;   ///< relative to no effect, with the prior of the set
 };
 
+/// Some effects of a hypothesis, by their position in it (ascending), where they are: without gain or evidence.
+Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions);
+
 /// Laplace's log evidence: the parameters' prior below, and half an effect expected among all candidates, shared out by
 /// their plausibility. `gram`:
 /// parameters × parameters, of the whitened jacobian.
