@@ -104,7 +104,8 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
 std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options) {
   const Refit first = with_chords(c.evidence, c.predict, c.covariance, c.problem, fits.front());
   const std::vector<int>& effects = first.hypothesis.effects;
-  if (effects.size() < 2) return std::nullopt;
+  if (effects.empty()) return std::nullopt;
+  const bool is_open = rest_of(c, fits.front()).p < c.settings.p_gap;
   const std::vector<std::optional<NamedEffect>> passed = tested(c, first);
   std::vector<std::pair<double, std::size_t>> common;  // how much each changes, whitened; its position
   Eigen::Index column = 0;
@@ -120,7 +121,7 @@ std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fit
   std::vector<std::size_t> positions;
   for (const auto& [change, position] : common) {
     positions.insert(std::upper_bound(positions.begin(), positions.end(), position), position);
-    if (positions.size() == effects.size()) return std::nullopt;
+    if (positions.size() == effects.size() && !is_open) return std::nullopt;  // it was not chosen
     const Refit fit =
         refit(c.evidence, c.predict, c.covariance, c.problem, part_of(c.problem, first.hypothesis, positions));
     if (fit.hypothesis.gain < kNearlyAll * gap) continue;

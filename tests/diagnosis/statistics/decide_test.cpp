@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/diagnosis_json.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
@@ -131,6 +132,51 @@ TEST(Decide, SaysUnknownWhereNoCandidateExplains) {
     }
   }
   EXPECT_EQ(flagged, 4);  // at twice the escape that is to be flagged in 98 of 100
+}
+
+TEST(Decide, TakesADriftForNoScatterOfPours) {
+  CampaignDesign design = small_design();
+  design.turns_about = true;
+  design.pours = design.sessions = 4;
+  const World world(design);
+  const EffectValue truth = world.at_strength("thermal_drift", 25.0, 1.0);
+  Evidence evidence = world.measure({truth}, {}, 5);
+  const Diagnosis diagnosis = decide(evidence, world.predict());
+  ASSERT_EQ(diagnosis.effects.size(), 1U);
+  EXPECT_EQ(diagnosis.effects[0].name, "thermal_drift");
+  // Nor where nobody knows of it.
+  std::erase_if(evidence.candidates, [](const Candidate& c) { return c.effect == "thermal_drift"; });
+  EXPECT_LT(decide(evidence, world.predict()).p_gap, 1e-4);
+}
+
+TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
+  const World world(small_design());
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const EffectValue truth = world.at_strength("subsurface_scattering", 100.0, 1.0);
+    const Diagnosis diagnosis = decide(world.measure({truth}, {}, seed, world.escaping(20.0, seed)), world.predict());
+    EXPECT_EQ(diagnosis.verdict, Verdict::named_and_unknown);
+    ASSERT_EQ(diagnosis.effects.size(), 1U);
+    EXPECT_EQ(diagnosis.effects[0].name, "subsurface_scattering");
+  }
+}
+
+TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationIsApart) {
+  const auto option = [](std::vector<int> effects, double log_posterior, double prediction) {
+    const auto count = static_cast<Eigen::Index>(effects.size());
+    return Option{std::move(effects), Eigen::VectorXd::Zero(count), false, log_posterior,
+                  Eigen::VectorXd::Constant(1, prediction)};
+  };
+  const AmbiguitySet set =
+      ambiguity_set({option({}, -40.0, 0.0), option({0}, 0.0, 9.0), option({4}, -2.0, 9.5), option({5}, -3.0, 6.0),
+                     option({0, 1}, -1.0, 9.2), option({0, 2}, -2.5, 9.1), option({0, 3}, -9.0, 9.0)},
+                    7.0);
+  ASSERT_EQ(set.classes.size(), 3U);  // 0 and its twin 4; 5; what adds to 0
+  EXPECT_EQ(set.classes[0].options.size(), 2U);
+  EXPECT_EQ(set.classes[1].options[0].effects, std::vector<int>{5});
+  EXPECT_TRUE(set.classes[2].adds_to_likelier);
+  EXPECT_EQ(set.classes[2].options.size(), 2U);  // the third is no more than the prior allows
+  EXPECT_NEAR(set.classes[2].probability / set.classes[1].probability,
+              (std::exp(-1.0) + std::exp(-2.5)) / std::exp(-3.0), 1e-9);
 }
 
 TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {

@@ -161,9 +161,11 @@ std::vector<Observation> observations(const CampaignDesign& design) {
   };
   for (int repetition = 0; repetition < design.pours; ++repetition) {
     const int session = repetition % design.sessions;
-    place(session, ++pour, "empty", 0.0);
+    std::vector<std::pair<std::string, double>> fillings{{"empty", 0.0}};
     for (const std::string& liquid : design.liquids)
-      for (const double fill : design.fills_mm) place(session, ++pour, liquid, fill);
+      for (const double fill : design.fills_mm) fillings.emplace_back(liquid, fill);
+    if (design.turns_about && repetition % 2 == 1) std::reverse(fillings.begin(), fillings.end());
+    for (const auto& [liquid, fill] : fillings) place(session, ++pour, liquid, fill);
   }
   return result;
 }

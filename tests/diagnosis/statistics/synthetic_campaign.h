@@ -20,6 +20,7 @@ struct CampaignDesign {
   int pours = 2;  ///< of each filling
   int repeats = 10;
   int sessions = 2;
+  bool turns_about = false;  ///< every other pour goes through the fillings backwards: time is not condition
 };
 
 struct Errors {
