@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace fathom {
 
 namespace {
 
-constexpr double kAlike = 1.0;      // whitened distance of predictions
-constexpr double kPlausible = 3.0;  // log odds against an effect beside others, to be listed
+constexpr double kAlike = 1.0;          // whitened distance of predictions
+constexpr double kPlausible = 3.0;      // log odds against an effect beside others, to be listed
+constexpr double kWorthListing = 0.05;  // of all probability, for what adds to an explanation
 
 bool are_twins(const Option& a, const Option& b) {
   return a.has_unknown == b.has_unknown && a.effects.size() == b.effects.size() &&
@@ -47,18 +49,22 @@ AmbiguitySet ambiguity_set(std::vector<Option> options, double delta) {
     if (twins < own.size()) {
       join(own[twins], option);
     } else if (part < own.size()) {
+      AmbiguityClass& more = added[part];
       const bool is_plausible = option.log_posterior > own[part].options.front().log_posterior - kPlausible;
-      if (is_plausible)
-        join(added[part], option);
-      else
-        own[part].probability += std::exp(option.log_posterior - best);
+      more.probability += std::exp(option.log_posterior - best);
+      if (is_plausible || more.options.empty()) more.options.push_back(std::move(option));
     } else if (option.log_posterior > best - delta) {
       own.emplace_back();
       added.push_back({{}, 0.0, true});
       join(own.back(), option);
     }
   }
-  std::erase_if(added, [](const AmbiguityClass& one) { return one.options.empty(); });
+  double sum = 0.0;
+  for (const auto* classes : {&own, &added})
+    for (const AmbiguityClass& one : *classes) sum += one.probability;
+  for (std::size_t k = 0; k < own.size(); ++k)
+    if (added[k].probability < kWorthListing * sum) own[k].probability += std::exchange(added[k].probability, 0.0);
+  std::erase_if(added, [](const AmbiguityClass& one) { return one.probability == 0.0; });
   AmbiguitySet set{std::move(own)};
   set.classes.insert(set.classes.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
   // What lies outside the set is spread over it.

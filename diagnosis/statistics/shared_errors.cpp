@@ -9,8 +9,9 @@ namespace fathom {
 
 namespace {
 
-/// As if the size of a model's error had been found with so many degrees of freedom: it may well be twice as large.
+/// As if the size of a model's error had been found with so many degrees of freedom: it may well be twice as large, …
 constexpr double kThoughtDof = 10.0;
+constexpr double kMost = 2.0;  // … and no more: what is larger is no error of the model but something that it lacks
 
 /// Means of the cells (equal conditions, observable and region): nothing that follows tells a cell's members apart.
 struct Cells {
@@ -74,9 +75,13 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     }
     const Eigen::MatrixXd weights = contrasts.transpose() * cells.means;
     const VarianceFit fit = fit_variances(weights * residual, weights * known * weights.transpose(), shapes, priors);
-    for (std::size_t k = 0; k < errors.components.size(); ++k)
-      errors.components[k].variance = fit.variances[static_cast<Eigen::Index>(k)];
-    errors.covariance = fit.covariance;
+    Eigen::VectorXd shares(fit.variances.size());
+    for (std::size_t k = 0; k < errors.components.size(); ++k) {
+      const double found = fit.variances[static_cast<Eigen::Index>(k)];
+      errors.components[k].variance = std::min(found, kMost * kMost * priors[k].variance);
+      shares[static_cast<Eigen::Index>(k)] = found > 0.0 ? errors.components[k].variance / found : 1.0;
+    }
+    errors.covariance = shares.asDiagonal() * fit.covariance * shares.asDiagonal();
     result.push_back(std::move(errors));
   }
   return result;

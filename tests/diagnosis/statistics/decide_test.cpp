@@ -174,9 +174,9 @@ TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationIsApart) {
   EXPECT_EQ(set.classes[0].options.size(), 2U);
   EXPECT_EQ(set.classes[1].options[0].effects, std::vector<int>{5});
   EXPECT_TRUE(set.classes[2].adds_to_likelier);
-  EXPECT_EQ(set.classes[2].options.size(), 2U);  // the third is no more than the prior allows
+  EXPECT_EQ(set.classes[2].options.size(), 2U);  // the third is not plausible
   EXPECT_NEAR(set.classes[2].probability / set.classes[1].probability,
-              (std::exp(-1.0) + std::exp(-2.5)) / std::exp(-3.0), 1e-9);
+              (std::exp(-1.0) + std::exp(-2.5) + std::exp(-9.0)) / std::exp(-3.0), 1e-9);
 }
 
 TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {
