@@ -49,7 +49,7 @@ double visible_share(const Setup& setup, const Camera& camera, std::size_t cup) 
   return whole == 0 ? 0.0 : static_cast<double>(pixels_of_cup(camera.geometry(), camera.truth(), cup)) / whole;
 }
 
-Owners owners_of(const Candidate& segment, const Eigen::Isometry3d& camera_from_desk, const SensorModel& sensor,
+Owners owners_of(const CupCandidate& segment, const Eigen::Isometry3d& camera_from_desk, const SensorModel& sensor,
                  const Image<TruePixel>& truth) {
   Owners owners;
   for (const Eigen::Vector3f& point : segment.points) {
@@ -75,7 +75,7 @@ Search owned(const TrialShot& shot, const Detection& detection) {
   const Rig& rig = shot.setup.rig;
   const Eigen::Isometry3d from_camera = desk_from_camera(detection.desk->plane);
   result.world_from_desk = rig.world_from_camera * from_camera.inverse();
-  const auto owners = [&](const Candidate& candidate) {
+  const auto owners = [&](const CupCandidate& candidate) {
     return owners_of(candidate, from_camera.inverse(), rig.sensor, shot.camera.truth());
   };
   for (const DetectedCup& cup : detection.cups) result.cups.push_back(owners(cup.candidate));

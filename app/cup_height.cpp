@@ -8,10 +8,10 @@ namespace fathom {
 namespace {
 
 /// The candidate nearest to where the cup stands, if it is nearer than the cup's outer radius.
-std::optional<Candidate> candidate_at(const DeskView& view, const Eigen::Vector2d& place, double within_m) {
-  std::optional<Candidate> nearest;
-  const auto distance = [&](const Candidate& candidate) { return (candidate.circle->center - place).norm(); };
-  for (Candidate& candidate : cup_candidates(view, PaperConfig{})) {
+std::optional<CupCandidate> candidate_at(const DeskView& view, const Eigen::Vector2d& place, double within_m) {
+  std::optional<CupCandidate> nearest;
+  const auto distance = [&](const CupCandidate& candidate) { return (candidate.circle->center - place).norm(); };
+  for (CupCandidate& candidate : cup_candidates(view, PaperConfig{})) {
     if (!candidate.rejected.empty() || distance(candidate) > within_m) continue;
     if (!nearest || distance(candidate) < distance(*nearest)) nearest = std::move(candidate);
   }
@@ -39,7 +39,7 @@ std::variant<InteriorHeight, NoHeight> height_in_cup(const Cloud& cloud, const L
   if (!view) return NoHeight::no_desk;
   // The world's origin is below the middle of the baseline, the desk frame's below the camera at its left end.
   const Eigen::Vector2d cup_in_desk = cup_in_world + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
-  const std::optional<Candidate> cup = candidate_at(*view, cup_in_desk, rig.outer_radius_m);
+  const std::optional<CupCandidate> cup = candidate_at(*view, cup_in_desk, rig.outer_radius_m);
   if (!cup) return NoHeight::no_cup;
   const std::optional<InteriorHeight> height = interior_height(view->points, *cup->circle, InteriorSettings{});
   if (!height) return NoHeight::too_little_inside;

@@ -26,7 +26,7 @@ Json plane_json(const PlaneFit& desk) {
           {"rms_mm", mm_from_metres(desk.rms_m)}};
 }
 
-Json circle_json(const Candidate& candidate, const std::optional<TemplateMatch>& match) {
+Json circle_json(const CupCandidate& candidate, const std::optional<TemplateMatch>& match) {
   const bool seen = candidate.circle.has_value();
   return {{"radius_mm", seen ? Json(mm_from_metres(candidate.circle->radius_m)) : Json()},
           {"rms_mm", seen ? Json(mm_from_metres(candidate.circle->rms_m)) : Json()},

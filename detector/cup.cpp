@@ -44,8 +44,8 @@ std::string outside(const char* what, double value_m, double low_m, double high_
 
 }  // namespace
 
-Candidate examine_segment(Points segment, const CupGates& gates) {
-  Candidate result;
+CupCandidate examine_segment(Points segment, const CupGates& gates) {
+  CupCandidate result;
   result.points = std::move(segment);
   result.width_m = width_along_desk(result.points);
   for (const Eigen::Vector3f& point : result.points) result.top_m = std::max<double>(result.top_m, point.z());

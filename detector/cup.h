@@ -25,7 +25,7 @@ struct CupGates {
 };
 
 /// A segment and what was seen of a cup in it. Desk frame.
-struct Candidate {
+struct CupCandidate {
   Points points;
   double width_m = 0.0;  ///< largest distance end to end along the desk, to 0.1 %
   double top_m = 0.0;    ///< highest point above the desk
@@ -35,6 +35,6 @@ struct Candidate {
 };
 
 /// Measures the segment and rejects it at the first gate it fails.
-Candidate examine_segment(Points segment, const CupGates& gates);
+CupCandidate examine_segment(Points segment, const CupGates& gates);
 
 }  // namespace fathom

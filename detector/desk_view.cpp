@@ -34,9 +34,9 @@ std::variant<DeskView, NoDesk> view_of_desk(const Cloud& cloud, const std::optio
   return view_over(*desk, std::move(points));
 }
 
-std::vector<Candidate> cup_candidates(const DeskView& view, const PaperConfig& config) {
+std::vector<CupCandidate> cup_candidates(const DeskView& view, const PaperConfig& config) {
   const Points above = between_heights(view.points, config.plane.threshold_m, config.height_max_m);
-  std::vector<Candidate> candidates;
+  std::vector<CupCandidate> candidates;
   for (Points& segment : euclidean_clusters(above, config.cluster_distance_m, config.cluster_points_min))
     candidates.push_back(examine_segment(std::move(segment), config.cup));
   return candidates;

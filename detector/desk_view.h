@@ -22,6 +22,6 @@ std::variant<DeskView, NoDesk> view_of_desk(const Cloud& cloud, const std::optio
                                             const PlaneSearch& search);
 
 /// The segments on the desk, examined: those with an empty `rejected` may be cups.
-std::vector<Candidate> cup_candidates(const DeskView& view, const PaperConfig& config);
+std::vector<CupCandidate> cup_candidates(const DeskView& view, const PaperConfig& config);
 
 }  // namespace fathom

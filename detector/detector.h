@@ -26,7 +26,7 @@ std::string_view name_of(Liquid liquid);    ///< "yes", "no", "unknown"
 std::string_view name_of(LiquidKind kind);  ///< "transparent", "opaque", "unknown"
 
 struct DetectedCup {
-  Candidate candidate;               ///< the segment and its circle; desk frame
+  CupCandidate candidate;            ///< the segment and its circle; desk frame
   Eigen::Vector3d center_in_camera;  ///< [m] the circle's centre 45 mm above the desk
   double score_m = 0.0;              ///< how far points lie from the template, or else from the fitted wall
   std::optional<TemplateMatch> match;
@@ -44,7 +44,7 @@ struct DetectedCup {
 };
 
 struct RejectedSegment {
-  Candidate candidate;                       ///< with the reason
+  CupCandidate candidate;                    ///< with the reason
   std::optional<TemplateMatch> match;        ///< when it came so far
   std::optional<InteriorHeight> interior{};  ///< of an open vessel that is no cup
 };

@@ -47,7 +47,7 @@ Alignment align(Points points, const NearestPoints& target, int iterations_max) 
 
 }  // namespace
 
-std::optional<TemplateMatch> match_templates(const Candidate& candidate, const std::vector<CupTemplate>& templates,
+std::optional<TemplateMatch> match_templates(const CupCandidate& candidate, const std::vector<CupTemplate>& templates,
                                              const IcpSettings& settings) {
   assert(candidate.circle && !candidate.points.empty());
   const Points segment = thinned(in_template_frame(candidate.points, *candidate.circle));

@@ -22,7 +22,7 @@ struct TemplateMatch {
 
 /// The template with the smallest score, each aligned from its place at the candidate's circle with its y axis away
 /// from the camera. The candidate must have a circle. Nothing when there is no template.
-std::optional<TemplateMatch> match_templates(const Candidate& candidate, const std::vector<CupTemplate>& templates,
+std::optional<TemplateMatch> match_templates(const CupCandidate& candidate, const std::vector<CupTemplate>& templates,
                                              const IcpSettings& settings);
 
 }  // namespace fathom

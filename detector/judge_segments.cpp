@@ -36,7 +36,7 @@ DetectedCup with_content(PlacedCup placed, const DeskView& view, const DetectorS
 }  // namespace
 
 Detection judge_segments(const Cloud& cloud, const DetectorSettings& settings, std::string_view matches,
-                         const std::function<Placement(Candidate)>& place) {
+                         const std::function<Placement(CupCandidate)>& place) {
   Detection result;
   StageClock clock(result.stages);
   const auto found = view_of_desk(cloud, settings.prior, settings.paper.plane);
@@ -47,9 +47,9 @@ Detection judge_segments(const Cloud& cloud, const DetectorSettings& settings, s
   const DeskView& view = std::get<DeskView>(found);
   result.desk = view.desk;
   clock.done("desk");
-  std::vector<Candidate> candidates = cup_candidates(view, settings.paper);
+  std::vector<CupCandidate> candidates = cup_candidates(view, settings.paper);
   clock.done("segments");
-  for (Candidate& candidate : candidates) {
+  for (CupCandidate& candidate : candidates) {
     ++result.segments;
     Placement placement = place(std::move(candidate));
     clock.done("templates");

@@ -13,7 +13,7 @@ namespace fathom {
 
 /// A segment that is a template's cup; its candidate has a circle.
 struct PlacedCup {
-  Candidate candidate;
+  CupCandidate candidate;
   TemplateMatch match;
 };
 
@@ -22,6 +22,6 @@ using Placement = std::variant<PlacedCup, RejectedSegment>;
 /// Where `place` finds a template's cup, its centre, the height inside and whether that is a liquid; `why` says that it
 /// `matches` the template, in those words.
 Detection judge_segments(const Cloud& cloud, const DetectorSettings& settings, std::string_view matches,
-                         const std::function<Placement(Candidate)>& place);
+                         const std::function<Placement(CupCandidate)>& place);
 
 }  // namespace fathom

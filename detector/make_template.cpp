@@ -12,7 +12,7 @@
 
 namespace fathom {
 
-CupTemplate make_template(std::string name, const DeskView& view, const Candidate& candidate,
+CupTemplate make_template(std::string name, const DeskView& view, const CupCandidate& candidate,
                           const InteriorSettings& interior, std::optional<double> liquid_threshold_m) {
   assert(candidate.circle);
   const Circle& circle = *candidate.circle;
@@ -40,11 +40,11 @@ CupTemplate template_of_only_cup(std::string name, const Cloud& cloud, const std
   const auto desk = find_desk(cloud.points, prior, DeskSearch{});
   if (const NoDesk* none = std::get_if<NoDesk>(&desk)) throw Error(source, none->why);
   const DeskView view = view_over(std::get<PlaneFit>(desk), finite_points(cloud));
-  std::vector<Candidate> cups = cup_candidates(view, PaperConfig{});
-  std::erase_if(cups, [](const Candidate& candidate) { return !candidate.rejected.empty(); });
+  std::vector<CupCandidate> cups = cup_candidates(view, PaperConfig{});
+  std::erase_if(cups, [](const CupCandidate& candidate) { return !candidate.rejected.empty(); });
   if (cups.size() != 1)
     throw Error(source, fmt::format("shows {} segments that may be cups, a template needs exactly one", cups.size()));
-  Candidate& cup = cups.front();
+  CupCandidate& cup = cups.front();
   if (const auto walls = find_round_walls(cup.points, WallSearch{}); walls.size() == 1)
     cup.circle = Circle{walls[0].center, walls[0].radius_m, walls[0].rms_m};  // a handle moves the plain circle
   return make_template(std::move(name), view, cup, InteriorSettings{}, liquid_threshold_m);

@@ -13,7 +13,7 @@ std::string far_from_template(const TemplateMatch& match, const CupTemplate& kno
                      mm_from_metres(icp.score_max_m));
 }
 
-Placement place_by_icp(Candidate candidate, const std::vector<CupTemplate>& templates, const IcpSettings& icp) {
+Placement place_by_icp(CupCandidate candidate, const std::vector<CupTemplate>& templates, const IcpSettings& icp) {
   if (!candidate.rejected.empty()) return RejectedSegment{std::move(candidate), std::nullopt};
   const auto match = match_templates(candidate, templates, icp);
   if (match && match->score_m <= icp.score_max_m) return PlacedCup{std::move(candidate), *match};
@@ -25,7 +25,7 @@ Placement place_by_icp(Candidate candidate, const std::vector<CupTemplate>& temp
 }  // namespace
 
 Detection detect_paper(const Cloud& cloud, const DetectorSettings& settings) {
-  return judge_segments(cloud, settings, "matches", [&](Candidate candidate) {
+  return judge_segments(cloud, settings, "matches", [&](CupCandidate candidate) {
     return place_by_icp(std::move(candidate), settings.templates, settings.paper.icp);
   });
 }

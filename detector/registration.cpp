@@ -123,7 +123,7 @@ std::optional<Placed> place_templates(const Points& segment, const std::vector<C
   return best;
 }
 
-Placement place_by_registration(Candidate candidate, const std::vector<CupTemplate>& templates,
+Placement place_by_registration(CupCandidate candidate, const std::vector<CupTemplate>& templates,
                                 const RegistrationConfig& config, Register align) {
   const auto placed = place_templates(candidate.points, templates, config, align);
   if (!placed || placed->score_m > config.score_max_m) {
@@ -140,7 +140,7 @@ Placement place_by_registration(Candidate candidate, const std::vector<CupTempla
 }
 
 Detection detect_by(const Cloud& cloud, const DetectorSettings& settings, Register align) {
-  return judge_segments(cloud, settings, "aligned to", [&](Candidate candidate) {
+  return judge_segments(cloud, settings, "aligned to", [&](CupCandidate candidate) {
     return place_by_registration(std::move(candidate), settings.templates, settings.registration, align);
   });
 }

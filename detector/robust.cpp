@@ -37,8 +37,8 @@ WallSearch search_at(double range_m, WallSearch search) {
   return search;
 }
 
-Candidate candidate_from(const Points& segment, const RoundWall& wall, double tolerance_m) {
-  Candidate candidate;
+CupCandidate candidate_from(const Points& segment, const RoundWall& wall, double tolerance_m) {
+  CupCandidate candidate;
   for (const Eigen::Vector3f& point : segment)
     if (wall.distance_of(point) < wall.radius_at(point.z()) + tolerance_m) candidate.points.push_back(point);
   candidate.width_m = 2.0 * wall.radius_at(wall.top_m);
@@ -151,14 +151,14 @@ Detection detect_robust(const Cloud& cloud, const DetectorSettings& settings) {
     clock.done("walls");
     result.segments += std::max<int>(1, static_cast<int>(walls.size()));
     if (walls.empty()) {
-      Candidate none;
+      CupCandidate none;
       none.rejected = "no round upright wall";
       none.points = std::move(segment);
       result.rejected.push_back({std::move(none), std::nullopt, std::nullopt});
       continue;
     }
     for (const RoundWall& wall : walls) {
-      Candidate candidate = candidate_from(segment, wall, search.tolerance_m);
+      CupCandidate candidate = candidate_from(segment, wall, search.tolerance_m);
       const VesselRays rays = trace_vessel(points, camera_height, wall, config.rays);
       const auto surface = find_surface(rays.inside, wall, camera_height, config.surface);
       candidate.rejected = reason_against(wall, rays, search.tolerance_m, config.cup);

@@ -22,7 +22,7 @@ Points tube(double radius, double height) {
 
 TEST(CupGates, AcceptTubesBetweenThePrintedRadii) {
   for (const double radius : {0.021, 0.043, 0.059}) {
-    const Candidate candidate = examine_segment(tube(radius, 0.087), {});
+    const CupCandidate candidate = examine_segment(tube(radius, 0.087), {});
     EXPECT_EQ(candidate.rejected, "");
     ASSERT_TRUE(candidate.circle);
     EXPECT_NEAR(candidate.circle->radius_m, radius, 1e-6);               // single-precision points
@@ -51,7 +51,7 @@ TEST(CupGates, ThePrintedRmsLimitRejectsNothingThatTheRadiusAccepts) {
   Points scattered = tube(0.084, 0.087);
   const std::size_t rim = scattered.size();
   for (std::size_t i = 0; i < rim; ++i) scattered.emplace_back(0.0f, 0.4f, scattered[i].z());
-  const Candidate candidate = examine_segment(scattered, {});
+  const CupCandidate candidate = examine_segment(scattered, {});
   ASSERT_TRUE(candidate.circle);
   EXPECT_LT(candidate.circle->radius_m, 0.060);
   EXPECT_GT(candidate.circle->rms_m, 0.040);  // only such a thing reaches the limit

@@ -83,17 +83,17 @@ TEST_F(RealClouds, TheDeskIsFoundInEverySceneWithAndWithoutPrior) {
 TEST_F(RealClouds, EveryStandingMugAndCanIsACandidateWithItsRadiusAndDistance) {
   const Table table = containers();
   const std::set<std::string> kinds{"mug_upright", "mug_inverted", "can"};
-  std::map<std::string, std::vector<Candidate>> candidates;
+  std::map<std::string, std::vector<CupCandidate>> candidates;
   int looked_for = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!kinds.contains(table.text(row, "object"))) continue;
     ++looked_for;
     const std::string& name = table.text(row, "scene");
     const double radius = metres_from_mm(table.number(row, "naive_r_mm")), distance = table.number(row, "horiz_dist_m");
-    const Candidate* found = nullptr;
+    const CupCandidate* found = nullptr;
     if (!candidates.contains(name))
       candidates[name] = cup_candidates(std::get<DeskView>(view_of_desk(scene(name), kKinectPrior, {})), {});
-    for (const Candidate& candidate : candidates[name])
+    for (const CupCandidate& candidate : candidates[name])
       if (candidate.rejected.empty() && std::abs(candidate.circle->center.norm() - distance) < 0.010)
         found = &candidate;
     ASSERT_TRUE(found) << name << " labels " << table.text(row, "labels");
@@ -119,13 +119,13 @@ TEST_F(RealClouds, ScenesWithoutCupsGiveNone) {
   const Cloud cloud = read_cloud(real_data() / "tutorials" / "milk_cartoon_all_small_clorox.pcd");
   const auto found = view_of_desk(cloud, std::nullopt, {});
   ASSERT_TRUE(std::holds_alternative<DeskView>(found));
-  for (const Candidate& candidate : cup_candidates(std::get<DeskView>(found), {})) EXPECT_NE(candidate.rejected, "");
+  for (const CupCandidate& candidate : cup_candidates(std::get<DeskView>(found), {})) EXPECT_NE(candidate.rejected, "");
 }
 
 Detection robust(const Cloud& cloud) { return detect_robust(cloud, {}); }
 
 /// Distance along the desk from below the camera.
-double distance_of(const Candidate& candidate) { return candidate.circle->center.norm(); }
+double distance_of(const CupCandidate& candidate) { return candidate.circle->center.norm(); }
 
 /// Labels may name a mug's parts one by one; a container is known by its distance.
 template <class Found>
