@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -32,6 +33,27 @@ std::vector<std::string> poured_liquids(const Predictor& predictor) {
   for (const Condition& condition : predictor.conditions())
     if (has_liquid(condition.factors)) liquids.insert(condition.factors.liquid);
   return {liquids.begin(), liquids.end()};
+}
+
+/// The part of an effect of liquids that is of one of them.
+Candidate candidate_of_liquid(const Predictor& predictor, const Effect& effect, const std::string& liquid,
+                              const Candidate& of_all) {
+  Candidate candidate = of_all;
+  candidate.effect = name_of(EffectName{std::string(effect.id), liquid});
+  candidate.signature.setZero();
+  for (const std::size_t condition : conditions_touched(predictor, effect, liquid))
+    for (const std::size_t row : predictor.conditions()[condition].rows)
+      candidate.signature.row(static_cast<Eigen::Index>(row)) = of_all.signature.row(static_cast<Eigen::Index>(row));
+  return candidate;
+}
+
+/// A candidate that nothing shows.
+Candidate unseen(const Predictor& predictor, const Effect& effect) {
+  std::size_t rows = 0;
+  for (const Condition& condition : predictor.conditions()) rows += condition.rows.size();
+  return candidate_by_slopes(effect, std::string(effect.id), [&](const auto&, double, double) {
+    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows)).eval();
+  });
 }
 
 /// What moves every row by less than this at its prior scale moves nothing that could be measured.
@@ -91,13 +113,18 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
       else
         for (std::string& name : names_of(effect, liquids)) names.push_back(std::move(name));
     }
+  std::optional<Candidate> of_all;  // liquids: the last one that was predicted
   for (const std::string& name : names) {
     const EffectName parts = effect_name(name);
     const Effect* effect = find_effect(parts.id);
     if (!effect) throw Error("effects", unknown_name("effect", parts.id, effect_ids()));
-    Candidate candidate = candidate_of(predictor, *effect, parts.liquid);
+    Candidate candidate = parts.id == kAllowedFor ? unseen(predictor, *effect)
+                          : !parts.liquid.empty() && of_all && of_all->effect == parts.id
+                              ? candidate_of_liquid(predictor, *effect, parts.liquid, *of_all)
+                              : candidate_of(predictor, *effect, parts.liquid);
+    if (parts.liquid.empty()) of_all = candidate;
     candidate.plausibility = plausibility_of(*effect, parts.liquid, liquids.size());
-    const bool is_seen = parts.id != kAllowedFor && moves_anything(candidate);
+    const bool is_seen = moves_anything(candidate);
     if (!is_seen) candidate.signature.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);
     if (is_seen || (only.empty() && parts.liquid.empty())) candidates.all.push_back(std::move(candidate));

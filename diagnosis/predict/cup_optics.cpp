@@ -12,12 +12,27 @@
 namespace fathom {
 namespace {
 
-/// What is left of light on its way down or up, and where that way ends.
+/// Where light's way down ends.
 struct Way {
   Eigen::Vector3d end;
   Eigen::Vector3d direction;  ///< unit, at the end
+  double n = 1.0;             ///< at the end
+};
+
+/// A way that is not attended to.
+struct NoLight {
+  void through(double /*absorption*/, double /*path*/) {}
+  void into(double /*cosine*/, double /*n_from*/, double /*n_to*/) {}
+};
+
+/// What is left of light on its way down or up.
+struct LightLeft {
   double transmittance = 1.0;
-  double n = 1.0;  ///< at the end
+
+  void through(double absorption, double path) { transmittance *= fathom::transmittance(absorption, path); }
+  void into(double cosine, double n_from, double n_to) {
+    transmittance *= 1.0 - fresnel_reflectance(cosine, n_from, n_to);
+  }
 };
 
 double height_on(const std::vector<Eigen::Vector2d>& profile, double radius) {
@@ -58,21 +73,24 @@ TopHit meet(const LiquidLayer& layer, const Eigen::Vector3d& from, const Eigen::
   return {point, Eigen::Vector3d(-top.gradient.x(), -top.gradient.y(), 1.0).normalized()};
 }
 
-/// Through the tops of all clear layers; the end is on the last of them, or where it started.
-std::optional<Way> go_down(const CupOptics& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+/// Through the tops of all clear layers; the end is on the last of them, or where it started. `light` is told of what
+/// it meets.
+template <class Light>
+std::optional<Way> go_down(const CupOptics& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+                           Light& light) {
   Way way{from, direction};
   double absorption = 0.0;
   for (const LiquidLayer& layer : cup.layers) {
     const TopHit hit = meet(layer, way.end, way.direction);
-    const Eigen::Vector2d from_axis = hit.point.head<2>() - cup.axis;
-    const double wall = radius_on(cup.inner, hit.point.z());
+    const Eigen::Vector2d from_axis = hit.point.head<2>() - cup.body.axis;
+    const double wall = radius_on(cup.body.inner, hit.point.z());
     if (from_axis.squaredNorm() > wall * wall) return std::nullopt;
-    way.transmittance *= transmittance(absorption, (hit.point - way.end).norm());
+    light.through(absorption, (hit.point - way.end).norm());
     way.end = hit.point;
     if (layer.opaque) return way;
     const auto refracted = refract(way.direction, hit.normal, way.n, layer.n);
     if (!refracted) return std::nullopt;
-    way.transmittance *= 1.0 - fresnel_reflectance(-way.direction.dot(hit.normal), way.n, layer.n);
+    light.into(-way.direction.dot(hit.normal), way.n, layer.n);
     way.direction = *refracted;
     way.n = layer.n;
     absorption = layer.absorption;
@@ -82,13 +100,13 @@ std::optional<Way> go_down(const CupOptics& cup, const Eigen::Vector3d& from, co
 
 double last_absorption(const CupOptics& cup) { return cup.layers.empty() ? 0.0 : cup.layers.back().absorption; }
 
-bool passes_opening(const CupOptics& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+bool passes_opening(const CupBody& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   if (direction.z() >= 0.0) return false;
   return (at_height(from, direction, cup.rim).head<2>() - cup.axis).squaredNorm() < cup.rim_radius * cup.rim_radius;
 }
 
 /// The bottom's point that the way leads to.
-std::optional<Eigen::Vector3d> meet_bottom(const CupOptics& cup, const Way& way) {
+std::optional<Eigen::Vector3d> meet_bottom(const CupBody& cup, const Way& way) {
   Eigen::Vector3d point = at_height(way.end, way.direction, cup.bottom.front().y());
   const bool flat = cup.bottom.front().y() == cup.bottom.back().y();
   for (int i = 0; i < (flat ? 0 : 6); ++i)
@@ -101,22 +119,23 @@ std::optional<Eigen::Vector3d> meet_bottom(const CupOptics& cup, const Way& way)
 /// The projector's light aimed at the height of `target`, refracted on its way there: by Newton's method with the
 /// derivative of where it lands, whose determinant is the spreading of the light.
 std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d& target,
-                                     const Eigen::Vector3d& projector, const Way& seen) {
-  const auto land = [&](const Eigen::Vector2d& aim) -> std::optional<Way> {
+                                     const Eigen::Vector3d& projector, const Way& seen, double to_surface) {
+  const auto land = [&](const Eigen::Vector2d& aim, auto& light) -> std::optional<Way> {
     const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
-    auto way = go_down(cup, projector, straight.normalized());
+    auto way = go_down(cup, projector, straight.normalized(), light);
     if (!way || way->direction.z() >= 0.0) return std::nullopt;
     const Eigen::Vector3d end = at_height(way->end, way->direction, target.z());
-    way->transmittance *= transmittance(last_absorption(cup), (end - way->end).norm());
+    light.through(last_absorption(cup), (end - way->end).norm());
     way->end = end;
     return way;
   };
+  NoLight none;
   constexpr double kStep = 1e-5;  // [m]
   Eigen::Vector2d aim = target.head<2>();
-  auto way = land(aim);
+  auto way = land(aim, none);
   Eigen::Matrix2d slope;
   for (int axis = 0; axis < 2; ++axis) {
-    const auto beside = land(aim + kStep * Eigen::Vector2d::Unit(axis));
+    const auto beside = land(aim + kStep * Eigen::Vector2d::Unit(axis), none);
     if (!way || !beside) return std::nullopt;
     slope.col(axis) = (beside->end - way->end).head<2>() / kStep;
   }
@@ -126,29 +145,31 @@ std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d
     const Eigen::Vector2d off = (way->end - target).head<2>();
     if (off.squaredNorm() < kEnough * kEnough) break;
     aim -= step * off;
-    way = land(aim);
+    way = land(aim, none);
     if (!way) return std::nullopt;
   }
   const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
   const double distance = straight.norm();
   const Eigen::Vector3d direction = straight / distance;
-  if (!passes_opening(cup, projector, direction)) return std::nullopt;
+  if (!passes_opening(cup.body, projector, direction)) return std::nullopt;
   const double irradiance = -direction.z() / (distance * distance * std::abs(slope.determinant()));
-  const double to_camera = seen.transmittance * transmittance(last_absorption(cup), (target - seen.end).norm());
-  return LitPoint{target, direction, cup.albedo * irradiance * way->transmittance * to_camera / (seen.n * seen.n)};
+  LightLeft down;
+  land(aim, down);
+  const double to_camera = to_surface * transmittance(last_absorption(cup), (target - seen.end).norm());
+  return LitPoint{target, direction, cup.body.albedo * irradiance * down.transmittance * to_camera / (seen.n * seen.n)};
 }
 
 /// An opaque liquid's light leaves, in the mean, beyond where it entered (sim/optics/far_centroid.h).
-std::optional<LitPoint> light_surface(const CupOptics& cup, const Way& seen, const Eigen::Vector3d& projector) {
+std::optional<LitPoint> light_surface(const CupOptics& cup, const Way& seen, const Eigen::Vector3d& projector,
+                                      double to_camera) {
   const LiquidLayer& layer = cup.layers.back();
   const Eigen::Vector3d there = seen.end - projector;
   const double distance = there.norm();
   const Eigen::Vector3d entry =
       seen.end - layer.centroid_per_sin / distance * Eigen::Vector3d(there.x(), there.y(), 0.0);
   const Eigen::Vector3d direction = (entry - projector).normalized();
-  if (!passes_opening(cup, projector, direction)) return std::nullopt;
-  return LitPoint{seen.end, direction,
-                  layer.albedo * -there.z() / (distance * distance * distance) * seen.transmittance};
+  if (!passes_opening(cup.body, projector, direction)) return std::nullopt;
+  return LitPoint{seen.end, direction, layer.albedo * -there.z() / (distance * distance * distance) * to_camera};
 }
 
 LiquidLayer layer_of(const Cup& cup, double wavelength_nm) {
@@ -180,37 +201,38 @@ std::optional<CupOptics> cup_optics(const Setup& setup) {
   const auto* shape = std::get_if<CupShape>(&cup.shape);
   if (!shape || shape->material)
     throw Error(cup_name(cup), "must be an opaque cup of revolution; light that passes walls is not predicted");
-  CupOptics optics{.axis = cup.position,
-                   .rim = shape->height(),
-                   .rim_radius = shape->inner.back().x(),
-                   .outer_radius = 0.0,
-                   .albedo = shape->albedo,
-                   .bottom = {shape->inner.front()},
-                   .inner = shape->inner,
-                   .outer = shape->outer,
-                   .layers = {}};
-  for (const Eigen::Vector2d& point : shape->outer) optics.outer_radius = std::max(optics.outer_radius, point.x());
+  CupBody body{.axis = cup.position,
+               .rim = shape->height(),
+               .rim_radius = shape->inner.back().x(),
+               .outer_radius = 0.0,
+               .albedo = shape->albedo,
+               .bottom = {shape->inner.front()},
+               .inner = shape->inner,
+               .outer = shape->outer};
+  for (const Eigen::Vector2d& point : shape->outer) body.outer_radius = std::max(body.outer_radius, point.x());
   for (std::size_t i = 1; i < shape->inner.size(); ++i) {  // the bottom is what rises by less than 45°
     const Eigen::Vector2d run = shape->inner[i] - shape->inner[i - 1];
     if (run.y() >= run.x()) break;
-    optics.bottom.push_back(shape->inner[i]);
+    body.bottom.push_back(shape->inner[i]);
   }
+  CupOptics optics{std::move(body), {}};
   for (const Cup& layered : setup.scene.cups)
     if (layered.filling) optics.layers.push_back(layer_of(layered, setup.rig.sensor.wavelength_nm));
   return optics;
 }
 
 std::optional<LitPoint> look_into(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector) {
-  if (!passes_opening(cup, camera_ray.origin, camera_ray.direction)) return std::nullopt;
-  const auto seen = go_down(cup, camera_ray.origin, camera_ray.direction);
+  if (!passes_opening(cup.body, camera_ray.origin, camera_ray.direction)) return std::nullopt;
+  LightLeft up;
+  const auto seen = go_down(cup, camera_ray.origin, camera_ray.direction, up);
   if (!seen) return std::nullopt;
-  if (!cup.layers.empty() && cup.layers.back().opaque) return light_surface(cup, *seen, projector);
-  const auto target = meet_bottom(cup, *seen);
+  if (!cup.layers.empty() && cup.layers.back().opaque) return light_surface(cup, *seen, projector, up.transmittance);
+  const auto target = meet_bottom(cup.body, *seen);
   if (!target) return std::nullopt;
-  return light_bottom(cup, *target, projector, *seen);
+  return light_bottom(cup, *target, projector, *seen, up.transmittance);
 }
 
-bool is_hidden(const CupOptics& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source) {
+bool is_hidden(const CupBody& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source) {
   // Below the rim the way runs from the desk's point to `top`; how near that comes to the axis, seen from above.
   const Eigen::Vector2d start = on_desk.head<2>();
   const Eigen::Vector2d run = (cup.rim / source.z()) * (source - on_desk).head<2>();

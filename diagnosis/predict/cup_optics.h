@@ -19,10 +19,12 @@ struct LiquidLayer {
   bool opaque;              ///< scatters: nothing below its surface is seen
   double centroid_per_sin;  ///< [m] of what scatters: how far from its entry light seems to leave, over sin θ
   double albedo;            ///< of what scatters, as a surface
+
+  bool operator==(const LiquidLayer&) const = default;
 };
 
-/// A cup of revolution with opaque walls, and desk and sources around it.
-struct CupOptics {
+/// A cup of revolution with opaque walls.
+struct CupBody {
   Eigen::Vector2d axis;
   double rim, rim_radius;  ///< height above the desk, inner radius there
   double outer_radius;     ///< the greatest
@@ -30,7 +32,18 @@ struct CupOptics {
   std::vector<Eigen::Vector2d> bottom;  ///< (radius, height), from the axis to where the wall begins
   std::vector<Eigen::Vector2d> inner;   ///< the whole inside
   std::vector<Eigen::Vector2d> outer;
+
+  bool operator==(const CupBody&) const = default;
+};
+
+struct CupOptics {
+  CupBody body;
   std::vector<LiquidLayer> layers;  ///< from above
+
+  /// Of what stands in the cup; null in an empty one.
+  const LiquidTop* surface() const { return layers.empty() ? nullptr : &layers.front().top; }
+
+  bool operator==(const CupOptics&) const = default;
 };
 
 /// Of the cups of a scene that stand at one place: what stands in the first is in all (see sim/effects/stratification).
@@ -49,6 +62,6 @@ struct LitPoint {
 std::optional<LitPoint> look_into(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector);
 
 /// Whether the straight way from a point of the desk to a source passes the cup.
-bool is_hidden(const CupOptics& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source);
+bool is_hidden(const CupBody& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source);
 
 }  // namespace fathom

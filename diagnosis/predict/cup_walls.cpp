@@ -37,24 +37,25 @@ std::optional<WallHit> meet_wall(const std::vector<Eigen::Vector2d>& profile, co
   return std::isfinite(nearest) ? std::optional(hit) : std::nullopt;
 }
 
-double distance_at_rim(const CupOptics& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+double distance_at_rim(const CupBody& cup, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d there = from + (cup.rim - from.z()) / direction.z() * direction;
   return (there.head<2>() - cup.axis).norm();
 }
 
-bool is_dry(const CupOptics& cup, const Eigen::Vector3d& point) {
-  return cup.layers.empty() || point.z() > cup.layers.front().top.at(point.head<2>()).z;
+bool is_dry(const LiquidTop* surface, const Eigen::Vector3d& point) {
+  return !surface || point.z() > surface->at(point.head<2>()).z;
 }
 
 }  // namespace
 
-std::optional<LitPoint> look_at_wall(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector) {
+std::optional<LitPoint> look_at_wall(const CupBody& cup, const LiquidTop* surface, const Ray& camera_ray,
+                                     const Eigen::Vector3d& projector) {
   if (camera_ray.direction.z() >= 0.0) return std::nullopt;
   const double at_rim = distance_at_rim(cup, camera_ray.origin, camera_ray.direction);
   const bool is_inside = at_rim < cup.rim_radius;
   if (!is_inside && at_rim < cup.outer.back().x()) return std::nullopt;  // the rim
   const auto hit = meet_wall(is_inside ? cup.inner : cup.outer, cup.axis, camera_ray, is_inside);
-  if (!hit || (is_inside && !is_dry(cup, hit->point))) return std::nullopt;
+  if (!hit || (is_inside && !is_dry(surface, hit->point))) return std::nullopt;
   const Eigen::Vector3d way = hit->point - projector;
   const double distance = way.norm();
   const Eigen::Vector3d direction = way / distance;

@@ -5,8 +5,9 @@
 
 namespace fathom {
 
-/// The outer wall or, through the opening, the inner one above what stands in the cup. Nothing where a ray from the
-/// camera meets anything else, or where the projector's light does not come.
-std::optional<LitPoint> look_at_wall(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector);
+/// The outer wall or, through the opening, the inner one above the `surface` of what stands in the cup, if anything
+/// does. Nothing where a ray from the camera meets anything else, or where the projector's light does not come.
+std::optional<LitPoint> look_at_wall(const CupBody& cup, const LiquidTop* surface, const Ray& camera_ray,
+                                     const Eigen::Vector3d& projector);
 
 }  // namespace fathom

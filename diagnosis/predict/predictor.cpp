@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "core/error.h"
@@ -79,6 +80,25 @@ Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& o
     observables_.push_back(observation.observable);
     regions_.push_back(observation.factors.region);
   }
+  look_at_nominal();
+}
+
+void Predictor::look_at_nominal() {
+  const std::vector<std::vector<std::size_t>> groups = alike({}, all_conditions());
+  parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
+    for (int group = begin; group < end; ++group) {
+      const Condition& first = conditions_[groups[group].front()];
+      const auto frame = std::make_shared<const SurrogateFrame>(
+          surrogate_frame(setup(first), model_.laboratory, place_of(first.factors), first.pixels));
+      for (const std::size_t i : groups[group]) conditions_[i].nominal = frame;
+    }
+  });
+}
+
+std::vector<std::size_t> Predictor::all_conditions() const {
+  std::vector<std::size_t> all(conditions_.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 Setup Predictor::setup(const Condition& condition, const Change& change) const {
@@ -93,15 +113,16 @@ Setup Predictor::setup(const Condition& condition, const Change& change) const {
 std::vector<bool> Predictor::near_shadows() const {
   constexpr double kTooMuch = 0.35;  // of a region
   std::vector<bool> shadowed(observables_.size(), false);
-  for (const Condition& condition : conditions_) {
-    const std::optional<Eigen::Vector2d> place = place_of(condition.factors);
+  for (const std::vector<std::size_t>& group : alike({}, all_conditions())) {
+    const Condition& first = conditions_[group.front()];
+    const std::optional<Eigen::Vector2d> place = place_of(first.factors);
     if (!place) continue;
-    const std::array<double, 5> shares =
-        shares_near_shadows(setup(condition), model_.laboratory, *place, condition.pixels);
-    for (const std::size_t row : condition.rows)
-      for (std::size_t i = 0; i < shares.size(); ++i)
-        if (observables_[row] == "height_mm" && regions_[row] == kCupRegionNames[i] && shares[i] > kTooMuch)
-          shadowed[row] = true;
+    const std::array<double, 5> shares = shares_near_shadows(*first.nominal, model_.laboratory, *place, first.pixels);
+    for (const std::size_t condition : group)
+      for (const std::size_t row : conditions_[condition].rows)
+        for (std::size_t i = 0; i < shares.size(); ++i)
+          if (observables_[row] == "height_mm" && regions_[row] == kCupRegionNames[i] && shares[i] > kTooMuch)
+            shadowed[row] = true;
   }
   return shadowed;
 }
@@ -171,7 +192,9 @@ void Predictor::predict_alike(const Look& look, const Change& change, const std:
 
 Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
   const Look by_few_rays = [this](const Setup& shot, const Condition& condition) {
-    return surrogate_frame(shot, model_.laboratory, place_of(condition.factors), condition.pixels);
+    return surrogate_frame(shot, model_.laboratory, place_of(condition.factors), condition.pixels,
+                           condition.nominal.get())
+        .estimates;
   };
   const std::vector<std::vector<std::size_t>> groups = alike(change, conditions);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
@@ -188,11 +211,7 @@ Eigen::VectorXd Predictor::predict_by(const Look& look, const Change& change,
   return values;
 }
 
-Eigen::VectorXd Predictor::predict(const Change& change) const {
-  std::vector<std::size_t> all(conditions_.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  return predict(change, all);
-}
+Eigen::VectorXd Predictor::predict(const Change& change) const { return predict(change, all_conditions()); }
 
 std::optional<Eigen::Vector2d> place_of(const Factors& factors) {
   if (factors.liquid == "none") return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/nominal_model.h"
@@ -16,6 +17,7 @@ struct Condition {
   std::vector<std::size_t> rows;  ///< its observations
   SampledPixels pixels;
   std::size_t equal = 0;  ///< number of the first condition that differs from it in time, pour and placement alone
+  std::shared_ptr<const SurrogateFrame> nominal{};  ///< as few rays see it without a change
 };
 
 /// What a laboratory would find in clouds of a condition's set-up. Nothing when no desk is seen.
@@ -62,6 +64,8 @@ class Predictor {
     double wander_mm;  ///< of the desk between frames, 1 σ
   };
 
+  void look_at_nominal();
+  std::vector<std::size_t> all_conditions() const;
   std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;
   void set_rows(const Condition& condition, const std::optional<Foreseen>& foreseen, Eigen::VectorXd& values) const;
   /// Rows of conditions that are alike.

@@ -4,12 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/predict/cup_optics.h"
 #include "diagnosis/predict/cup_walls.h"
-#include "sim/render/radiance.h"
-#include "sim/render/truth.h"
-#include "sim/sensor/depth.h"
-#include "sim/sensor/reading.h"
 #include "theory/raised_bottom.h"
 
 namespace fathom {
@@ -17,76 +12,10 @@ namespace {
 
 constexpr double kWidth = 640.0, kHeight = 480.0;  // [px]
 constexpr double kFarthestDesk = 2.0;              // [m] beyond, a desk is none
-constexpr double kHalfCode_px = 1.0 / 16.0;        // by which the middle of an even number of codes is no code
 
 Pose believed_pose(const LaboratoryRig& rig) {
   return camera_pose({0.0, 0.0, rig.height_m}, rig.pitch_rad, 0.0, rig.roll_rad, rig.baseline_m);
 }
-
-/// Light that comes to a pixel.
-struct Seen {
-  Eigen::Vector3d projector_direction;  ///< unit, in which it left the projector
-  double reflected;                     ///< as radiance_dn() takes it
-};
-
-/// What the device makes of it.
-class Reader {
- public:
-  explicit Reader(const Setup& setup)
-      : rig_(setup.rig), calibration_(setup.rig.sensor.calibration()), window_px_(setup.processing.window_px) {
-    UnitModel unit = rig_.sensor.unit;
-    unit.wander_px = 0.0;
-    error_ = unit_error(unit, 0);
-  }
-
-  /// `look(pixel)` is what is seen there, if anything.
-  template <class Look>
-  std::optional<SensedPoint> operator()(const Eigen::Vector2d& pixel, double weight, const Look& look) const {
-    const std::optional<Seen> seen = look(sight(pixel));
-    if (!seen) return std::nullopt;
-    const auto own = disparity(pixel, *seen);
-    if (!own) return std::nullopt;
-    const double read = read_disparity(rig_.sensor, error_, window_px_ > 1.0 ? window_mean(pixel, *own, look) : *own);
-    const double read_as = rig_.sensor.quantized && rig_.sensor.codes_per_step % 2 == 0 ? read - kHalfCode_px : read;
-    if (read_as <= 0.0) return std::nullopt;
-    constexpr double kCutOff = 0.5 * kMetresPerMm;  // depths are cut to whole millimetres
-    const double z = depth_of_disparity(rig_.sensor, read_as) - (rig_.sensor.quantized ? kCutOff : 0.0);
-    const Eigen::Vector2d across = z / calibration_.focal_px * (pixel - calibration_.principal_px);
-    return SensedPoint{Eigen::Vector3d(across.x(), across.y(), z).cast<float>(),
-                       static_cast<float>(radiance_dn(rig_.sensor, seen->reflected)), static_cast<float>(weight)};
-  }
-
- private:
-  Ray sight(const Eigen::Vector2d& pixel) const {
-    return {rig_.camera_in_world(), rig_.direction_in_world(pixel.x(), pixel.y())};
-  }
-
-  std::optional<double> disparity(const Eigen::Vector2d& pixel, const Seen& seen) const {
-    const auto depth = triangulated_depth(rig_, sight(pixel).direction, seen.projector_direction);
-    if (!depth) return std::nullopt;
-    return seen_disparity(rig_.sensor, pixel, *depth);
-  }
-
-  /// By nine places for the square, each a third of its width apart: exact for planes, and for curvature to 1/9.
-  template <class Look>
-  double window_mean(const Eigen::Vector2d& pixel, double own, const Look& look) const {
-    double sum = 0.0;
-    int known = 0;
-    for (int row = -1; row <= 1; ++row)
-      for (int column = -1; column <= 1; ++column) {
-        const Eigen::Vector2d there = pixel + window_px_ / 3.0 * Eigen::Vector2d(column, row);
-        const std::optional<Seen> seen = look(sight(there));
-        const std::optional<double> other = seen ? disparity(there, *seen) : std::nullopt;
-        if (other && std::abs(*other - own) < kOneSurfacePx) sum += *other, ++known;
-      }
-    return sum / known;
-  }
-
-  const Rig& rig_;
-  Calibration calibration_;
-  UnitError error_;
-  double window_px_;
-};
 
 /// Samples lie where they lie, but a frame's noise spreads its points over many steps and millimetres. Of the law's
 /// depths, cut to whole millimetres, the cut is even over one, which is k steps: the mean cosine of that is sinc k.
@@ -128,6 +57,71 @@ Eigen::Vector3d by_closed_form(const Rig& rig, const LiquidLayer& liquid, const 
   const double height = std::lerp(exact, raised, share);
   const Eigen::Vector3d place = sight.origin + (height - sight.origin.z()) / sight.direction.z() * sight.direction;
   return (place - rig.projector_in_world()).normalized();
+}
+
+/// What a device reads at some pixels, where `look(ray)` is what is seen.
+template <class Look>
+std::vector<SensedPoint> points_at(const DeviceReader& read, const std::vector<Eigen::Vector2d>& pixels, double weight,
+                                   const Look& look) {
+  std::vector<SensedPoint> points;
+  points.reserve(pixels.size());
+  for (const Eigen::Vector2d& pixel : pixels)
+    if (const auto point = read(pixel, weight, look)) points.push_back(*point);
+  return points;
+}
+
+std::vector<SensedPoint> desk_points(const SurrogateView& view, const SampledPixels& pixels) {
+  const Eigen::Vector3d camera = view.reader.rig().camera_in_world(),
+                        projector = view.reader.rig().projector_in_world();
+  return points_at(view.reader, pixels.desk, pixels.desk_weight, [&](const Ray& sight) -> std::optional<SeenLight> {
+    if (sight.direction.z() >= 0.0) return std::nullopt;
+    const Eigen::Vector3d point = camera - camera.z() / sight.direction.z() * sight.direction;
+    if (point.head<2>().norm() > kFarthestDesk) return std::nullopt;
+    if (view.cup && (is_hidden(view.cup->body, point, camera) || is_hidden(view.cup->body, point, projector)))
+      return std::nullopt;
+    const Eigen::Vector3d way = point - projector;
+    const double distance = way.norm();
+    return SeenLight{way / distance, view.desk_albedo * -way.z() / (distance * distance * distance)};
+  });
+}
+
+std::vector<SensedPoint> inside_points(const SurrogateView& view, const SampledPixels& pixels) {
+  const Eigen::Vector3d projector = view.reader.rig().projector_in_world();
+  const std::vector<LiquidLayer>& layers = view.cup->layers;
+  const bool reduced = view.bisector > 0.0 && layers.size() == 1 && !layers.front().opaque;
+  return points_at(view.reader, pixels.cup, pixels.cup_weight, [&](const Ray& sight) -> std::optional<SeenLight> {
+    const auto lit = look_into(*view.cup, sight, projector);
+    if (!lit) return std::nullopt;
+    return SeenLight{reduced ? by_closed_form(view.reader.rig(), layers.front(), sight, *lit, view.bisector)
+                             : lit->projector_direction,
+                     lit->reflected};
+  });
+}
+
+std::vector<SensedPoint> wall_points(const SurrogateView& view, const SampledPixels& pixels) {
+  const Eigen::Vector3d projector = view.reader.rig().projector_in_world();
+  return points_at(view.reader, pixels.walls, pixels.wall_weight, [&](const Ray& sight) -> std::optional<SeenLight> {
+    const auto lit = look_at_wall(view.cup->body, view.cup->surface(), sight, projector);
+    if (!lit) return std::nullopt;
+    return SeenLight{lit->projector_direction, lit->reflected};
+  });
+}
+
+/// Whether desk_points() are the same of two views, …
+bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b) {
+  return a.reader == b.reader && a.desk_albedo == b.desk_albedo && a.cup.has_value() == b.cup.has_value() &&
+         (!a.cup || a.cup->body == b.cup->body);
+}
+
+/// … then inside_points() …
+bool inside_looks_alike(const SurrogateView& a, const SurrogateView& b) {
+  return a.bisector == b.bisector && a.cup == b.cup;
+}
+
+/// … and wall_points().
+bool walls_look_alike(const SurrogateView& a, const SurrogateView& b) {
+  const LiquidTop *one = a.cup ? a.cup->surface() : nullptr, *other = b.cup ? b.cup->surface() : nullptr;
+  return one && other ? *one == *other : one == other;
 }
 
 struct BoxOfPixels {
@@ -181,18 +175,18 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
   return pixels;
 }
 
-std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& place,
-                                          const SampledPixels& pixels) {
+std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
+                                          const Eigen::Vector2d& place, const SampledPixels& pixels) {
   constexpr double kReach = 0.006;  // [m] half a window of 9 pixels, 0.75 m away
   std::array<double, 5> all{}, dark{};
-  const std::optional<CupOptics> cup = cup_optics(setup);
-  const std::optional<FrameEstimates> frame = surrogate_frame(setup, rig, place, pixels);
-  if (!cup || !frame) return all;
-  const double height = frame->interior.mean;  // where pixels seem to look
+  const std::optional<CupOptics>& cup = frame.view.cup;
+  if (!cup || !frame.estimates) return all;
+  const double height = frame.estimates->interior.mean;  // where pixels seem to look
   const double radius = rig.inner_radius_m - kInteriorMargin;
-  const Eigen::Vector3d camera = setup.rig.camera_in_world(), projector = setup.rig.projector_in_world();
+  const Rig& sensor = frame.view.reader.rig();
+  const Eigen::Vector3d camera = sensor.camera_in_world(), projector = sensor.projector_in_world();
   for (const Eigen::Vector2d& pixel : pixels.cup) {
-    const Ray sight{camera, setup.rig.direction_in_world(pixel.x(), pixel.y())};
+    const Ray sight{camera, sensor.direction_in_world(pixel.x(), pixel.y())};
     if (sight.direction.z() >= 0.0) continue;
     const Eigen::Vector3d point = camera + (height - camera.z()) / sight.direction.z() * sight.direction;
     const Eigen::Vector2d from_axis = point.head<2>() - place;
@@ -211,49 +205,31 @@ std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRi
   return dark;
 }
 
-std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
-                                              const std::optional<Eigen::Vector2d>& place,
-                                              const SampledPixels& pixels) {
-  const std::optional<CupOptics> cup = cup_optics(setup);
-  const Eigen::Vector3d camera = setup.rig.camera_in_world(), projector = setup.rig.projector_in_world();
-  const double desk_albedo = setup.scene.desk ? setup.scene.desk->albedo : 0.0;
-  const Reader read(setup);
-  std::vector<SensedPoint> points;
-  points.reserve(pixels.desk.size() + pixels.cup.size() + pixels.walls.size());
-  const auto add = [&](const std::optional<SensedPoint>& point) {
-    if (point) points.push_back(*point);
-  };
-  const auto look_at_desk = [&](const Ray& sight) -> std::optional<Seen> {
-    if (sight.direction.z() >= 0.0) return std::nullopt;
-    const Eigen::Vector3d point = camera - camera.z() / sight.direction.z() * sight.direction;
-    if (point.head<2>().norm() > kFarthestDesk) return std::nullopt;
-    if (cup && (is_hidden(*cup, point, camera) || is_hidden(*cup, point, projector))) return std::nullopt;
-    const Eigen::Vector3d way = point - projector;
-    const double distance = way.norm();
-    return Seen{way / distance, desk_albedo * -way.z() / (distance * distance * distance)};
-  };
-  const auto look_into_cup = [&](const Ray& sight) -> std::optional<Seen> {
-    const auto lit = look_into(*cup, sight, projector);
-    if (!lit) return std::nullopt;
-    const double share = setup.processing.bisector;
-    const bool reduced = share > 0.0 && cup->layers.size() == 1 && !cup->layers.front().opaque;
-    return Seen{reduced ? by_closed_form(setup.rig, cup->layers.front(), sight, *lit, share) : lit->projector_direction,
-                lit->reflected};
-  };
-  const auto look_at_walls = [&](const Ray& sight) -> std::optional<Seen> {
-    const auto lit = look_at_wall(*cup, sight, projector);
-    if (!lit) return std::nullopt;
-    return Seen{lit->projector_direction, lit->reflected};
-  };
-  for (const Eigen::Vector2d& pixel : pixels.desk) add(read(pixel, pixels.desk_weight, look_at_desk));
-  const std::size_t on_desk = points.size();
-  if (cup) {
-    for (const Eigen::Vector2d& pixel : pixels.cup) add(read(pixel, pixels.cup_weight, look_into_cup));
-    for (const Eigen::Vector2d& pixel : pixels.walls) add(read(pixel, pixels.wall_weight, look_at_walls));
+SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
+                               const std::optional<Eigen::Vector2d>& place, const SampledPixels& pixels,
+                               const SurrogateFrame* known) {
+  SurrogateFrame frame{{DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0,
+                        setup.processing.bisector, cup_optics(setup)},
+                       {},
+                       {},
+                       {},
+                       {}};
+  const SurrogateView& view = frame.view;
+  const bool same_desk = known && desk_looks_alike(view, known->view);
+  const bool same_inside = same_desk && inside_looks_alike(view, known->view);
+  const bool same_walls = same_desk && walls_look_alike(view, known->view);
+  if (same_desk && same_inside && same_walls) return *known;
+  frame.desk = same_desk ? known->desk : desk_points(view, pixels);
+  if (view.cup) {
+    frame.inside = same_inside ? known->inside : inside_points(view, pixels);
+    frame.walls = same_walls ? known->walls : wall_points(view, pixels);
   }
-  std::optional<FrameEstimates> estimates = estimate_frame(points, rig, {place, pixels.soft_m});
-  if (estimates) set_combs(std::span(points).first(on_desk), setup.rig.sensor, *estimates);
-  return estimates;
+  std::vector<SensedPoint> points = frame.desk;
+  points.insert(points.end(), frame.inside.begin(), frame.inside.end());
+  points.insert(points.end(), frame.walls.begin(), frame.walls.end());
+  frame.estimates = estimate_frame(points, rig, {place, pixels.soft_m});
+  if (frame.estimates) set_combs(frame.desk, view.reader.rig().sensor, *frame.estimates);
+  return frame;
 }
 
 }  // namespace fathom

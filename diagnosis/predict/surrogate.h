@@ -1,8 +1,8 @@
 // What a frame of a set-up says in the mean, by some hundred exact rays instead of a picture.
 #pragma once
 
-#include "diagnosis/measurement/frame_estimates.h"
-#include "sim/scene/setup.h"
+#include "diagnosis/predict/cup_optics.h"
+#include "diagnosis/predict/device_reader.h"
 
 namespace fathom {
 
@@ -17,17 +17,30 @@ struct SampledPixels {
 /// `cup` is where the cup should stand in the world [m]; nothing on a bare desk.
 SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup);
 
-/// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
-/// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.
-std::array<double, 5> shares_near_shadows(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& cup,
-                                          const SampledPixels& pixels);
+/// All of a set-up that its points depend on.
+struct SurrogateView {
+  DeviceReader reader;
+  double desk_albedo, bisector;
+  std::optional<CupOptics> cup;
+};
+
+struct SurrogateFrame {
+  SurrogateView view;
+  std::vector<SensedPoint> desk, inside, walls;
+  std::optional<FrameEstimates> estimates;  ///< of all of them; nothing when no desk is seen
+};
 
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
 /// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct
-/// light). Combs are those of even mixtures of steps. Nothing when no desk is seen. Throws Error for a
-/// clear cup or one of a glTF file.
-std::optional<FrameEstimates> surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
-                                              const std::optional<Eigen::Vector2d>& cup, const SampledPixels& pixels);
+/// light). Combs are those of even mixtures of steps. What looks the same in a `known` frame of these pixels is taken
+/// from there. Throws Error for a clear cup or one of a glTF file.
+SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup,
+                               const SampledPixels& pixels, const SurrogateFrame* known = nullptr);
+
+/// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
+/// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.
+std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
+                                          const Eigen::Vector2d& cup, const SampledPixels& pixels);
 
 }  // namespace fathom

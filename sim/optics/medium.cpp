@@ -43,7 +43,7 @@ double diffuse_reflectance(const Medium& medium, double n) {
   const double s = std::fmax(0.75 * medium.reduced_scattering() - 0.25 * medium.absorption, 1e-9);
   const double below_surface = 1.0 + k / s - std::sqrt(k / s * (k / s + 2.0));
   const double outside = hemispherical_reflectance(1.0, n);
-  const double inside = hemispherical_reflectance(n, 1.0);
+  const double inside = 1.0 - 1.0 / n * (1.0 / n) * (1.0 - outside);  // the same paths backwards
   return (1.0 - outside) * (1.0 - inside) * below_surface / (1.0 - inside * below_surface);
 }
 

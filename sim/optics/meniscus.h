@@ -26,6 +26,8 @@ class Meniscus {
   /// At the distance x [m] from the wall. Behind the wall (x < 0) the straight line that goes on from it.
   Point at(double x) const;
 
+  bool operator==(const Meniscus&) const = default;
+
  private:
   /// u = acosh(1/s) at x, in units of the capillary length; x as in the law above, its constant 0.
   double parameter_at(double x) const;

@@ -38,10 +38,14 @@ class LiquidTop {
 
   void move(const Eigen::Vector2d& shift) { axis_ += shift; }
 
+  bool operator==(const LiquidTop&) const = default;
+
  private:
   struct Wave {
     Eigen::Vector2d k;  ///< [rad/m]
     double amplitude, phase;
+
+    bool operator==(const Wave&) const = default;
   };
 
   /// Distance from the axis at which the mesh ends, by facet [m].

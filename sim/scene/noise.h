@@ -14,6 +14,8 @@ struct DisparityNoise {
   double renewed = 0.0;     ///< share of both variances that each frame draws anew
 
   bool present() const { return facing_px > 0.0 || lateral_px > 0.0; }
+
+  bool operator==(const DisparityNoise&) const = default;
 };
 
 /// All parts at their defaults: an ideal camera.
@@ -32,6 +34,8 @@ struct NoiseModel {
   double bloom_ir_px = 4.0;        ///< mean distance along each axis that it spills
   int bits = 0;                    ///< rounding, and saturation at 2^bits − 1; 0 = none
   DisparityNoise disparity;        ///< of geometric captures only
+
+  bool operator==(const NoiseModel&) const = default;
 };
 
 /// A preset's name, or an object of parts: what it does not name is off.

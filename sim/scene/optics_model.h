@@ -25,6 +25,8 @@ struct OpticsModel {
     return direction * (1.0 + squared * (camera_k1 + squared * camera_k2));
   }
   Eigen::Vector2d undistorted(const Eigen::Vector2d& seen_at) const;
+
+  bool operator==(const OpticsModel&) const = default;
 };
 
 OpticsModel optics_from_json(const JsonReader& json, OpticsModel optics);

@@ -31,6 +31,8 @@ struct PatternModel {
   /// Brightness of every position of the grid, 0 … 1, instead of dots of our own; and the file that it came from.
   std::shared_ptr<const Image<float>> image;
   std::string image_file;
+
+  bool operator==(const PatternModel&) const = default;
 };
 
 enum class MatchMethod {
@@ -48,6 +50,8 @@ struct MatcherModel {
   double relative_contrast_min = 0.0;  ///< the same over the window's mean; device's method only
   double compression = 0.0;  ///< [DN] blocks are compared in √(light + this); 0: in light; device's method only
   int hole_max_px = 0;       ///< widest gap of a row that is filled when one surface lies on both sides; 0 = none
+
+  bool operator==(const MatcherModel&) const = default;
 };
 
 /// What the device takes for its own numbers when it makes depths and points of disparities.
@@ -55,6 +59,8 @@ struct Calibration {
   double baseline;  ///< [m]
   double focal_px;
   Eigen::Vector2d principal_px;
+
+  bool operator==(const Calibration&) const = default;
 };
 
 struct SensorModel {
@@ -82,6 +88,8 @@ struct SensorModel {
   Calibration calibration() const { return believed.value_or(Calibration{baseline, focal_px, principal_px}); }
   double ir_scale() const { return static_cast<double>(ir_width) / width; }
   int ir_first_row() const { return (ir_height - static_cast<int>(ir_scale()) * height) / 2; }
+
+  bool operator==(const SensorModel&) const = default;
 };
 
 struct Rig {
@@ -110,6 +118,10 @@ struct Rig {
     if (forward <= 0.0) return std::nullopt;
     return Eigen::Vector2d(axes.col(0).dot(direction_in_world) / forward,
                            axes.col(1).dot(direction_in_world) / forward);
+  }
+
+  bool operator==(const Rig& other) const {
+    return sensor == other.sensor && world_from_camera.matrix() == other.world_from_camera.matrix();
   }
 };
 

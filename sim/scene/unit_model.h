@@ -21,11 +21,15 @@ struct UnitModel {
   double on_for_s = 1e9;             ///< since the unit was switched on, at frame 0
   double wander_px = 0.0;            ///< standard deviation of an error that all disparities of a frame share
   double frame_interval_s = 1.0 / 30.0;
+
+  bool operator==(const UnitModel&) const = default;
 };
 
 /// Measured disparity = scale · true + offset [px].
 struct UnitError {
   double scale = 1.0, offset_px = 0.0;
+
+  bool operator==(const UnitError&) const = default;
 };
 /// Of the frame of that number.
 UnitError unit_error(const UnitModel& unit, std::uint64_t frame);

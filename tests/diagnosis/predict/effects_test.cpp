@@ -36,7 +36,7 @@ std::optional<double> value_of(const Scenery& scenery, const Json& effect, std::
   if (!effect.is_null()) effects.push_back(effect);
   const fathom::Setup setup = paper_setup(factors, std::move(effects));
   const Eigen::Vector2d place(0.0, 1e-3 * scenery.distance_mm);
-  const auto estimates = surrogate_frame(setup, rig, place, sample_pixels(rig, place));
+  const auto estimates = surrogate_frame(setup, rig, place, sample_pixels(rig, place)).estimates;
   if (!estimates) return std::nullopt;
   for (const NamedValue& value : named_values(*estimates))
     if (value.observable == observable && value.region == region) return value.value;

@@ -38,7 +38,7 @@ TEST_P(SurrogateAgainstFrames, SaysWhatTheFrameSays) {
   const Eigen::Vector2d place(metres_from_mm(c.lateral_mm), metres_from_mm(c.distance_mm));
   Camera camera(setup, CaptureMode::geometric, 1, 1);
   const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {place, 0.0});
-  const auto few = surrogate_frame(setup, rig, place, sample_pixels(rig, place));
+  const auto few = surrogate_frame(setup, rig, place, sample_pixels(rig, place)).estimates;
   ASSERT_TRUE(frame && few);
   // Heights: the task of the surrogate. A region's border cuts pixels of 1.3 mm, and a wall's shadow as well.
   constexpr double kHeightMm = 0.05;
@@ -88,7 +88,7 @@ Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral
   factors.distance_mm = distance_mm, factors.lateral_mm = lateral_mm;
   const Eigen::Vector2d place(metres_from_mm(lateral_mm), metres_from_mm(distance_mm));
   const auto seen = [&](const Json& those) -> Eigen::Vector3d {
-    const auto frame = surrogate_frame(paper_setup(factors, those), rig, place, sample_pixels(rig, place));
+    const auto frame = surrogate_frame(paper_setup(factors, those), rig, place, sample_pixels(rig, place)).estimates;
     const CupOutline& outline = frame->outline.value();
     return 1e3 * Eigen::Vector3d(outline.off.x(), outline.off.y(), outline.wider);
   };
@@ -128,7 +128,7 @@ std::pair<FrameEstimates, FrameEstimates> desk_with(const Json& effects) {
   const fathom::Setup setup = paper_setup(factors, effects);
   Camera camera(setup, CaptureMode::geometric, 1, 1);
   const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {});
-  const auto few = surrogate_frame(setup, rig, std::nullopt, sample_pixels(rig, std::nullopt));
+  const auto few = surrogate_frame(setup, rig, std::nullopt, sample_pixels(rig, std::nullopt)).estimates;
   return {frame.value(), few.value()};
 }
 
