@@ -156,21 +156,30 @@ std::vector<Confirmation> confirm(const std::vector<Observation>& observations, 
   return result;
 }
 
+// With P the inverse of the covariance, the other folds O predict what this one, F, has of any x but P_FF⁻¹ (P x)_F,
+// which has the covariance P_FF⁻¹; and x_Oᵀ Σ_OO⁻¹ y_O = xᵀ P y − (P x)_Fᵀ P_FF⁻¹ (P y)_F: one inverse serves all
+// folds.
 HeldOut held_out(const Covariance& covariance, const LinearFit& fit, const std::vector<int>& folds) {
-  const Eigen::Index n = fit.residual.size();
+  const Eigen::Index n = fit.residual.size(), parameters = fit.jacobian.cols();
   HeldOut result{Eigen::VectorXd::Zero(n), covariance.total.diagonal()};
-  const Eigen::MatrixXd none(n, 0);
+  const Eigen::MatrixXd root = covariance.whiten(Eigen::MatrixXd::Identity(n, n));  // P = rootᵀ root
+  Eigen::MatrixXd all(n, parameters + 1);
+  all << fit.jacobian, fit.residual;
+  const Eigen::MatrixXd weighted = covariance.factor.solve(all), squares = all.transpose() * weighted;
   for (int fold = 0; fold < kFolds; ++fold) {
-    const auto rows = rows_in(folds, {fold}, true), others = rows_in(folds, {fold}, false);
-    if (rows.empty() || others.empty()) continue;
-    Eigen::VectorXd left = fit.residual;
-    if (fit.jacobian.cols() > 0) left -= fit.jacobian * Part(covariance, fit, none, others).parameters().col(0);
-    // What the other folds say about the errors that this one shares with them.
-    const Eigen::LLT<Eigen::MatrixXd> factor(part(covariance, others));
-    const Eigen::MatrixXd between = covariance.total(others, rows);
-    const Eigen::MatrixXd weights = factor.solve(between);
-    result.residual(rows) = left(rows) - weights.transpose() * left(others);
-    result.variance(rows) -= between.cwiseProduct(weights).colwise().sum().transpose();
+    const auto rows = rows_in(folds, {fold}, true);
+    if (rows.empty() || rows.size() == folds.size()) continue;
+    const Eigen::MatrixXd own = root(Eigen::all, rows), of_fold = weighted(rows, Eigen::all);
+    const Eigen::LLT<Eigen::MatrixXd> precision(own.transpose() * own);
+    const Eigen::MatrixXd left = precision.solve(of_fold);
+    const Eigen::MatrixXd of_others = squares - of_fold.transpose() * left;
+    Eigen::MatrixXd G = of_others.topLeftCorner(parameters, parameters);
+    G.diagonal() += fit.prior;
+    result.residual(rows) = left.col(parameters);
+    if (parameters > 0)
+      result.residual(rows) -= left.leftCols(parameters) * G.llt().solve(of_others.col(parameters).head(parameters));
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    result.variance(rows) = precision.solve(Eigen::MatrixXd::Identity(count, count)).diagonal();
   }
   return result;
 }
