@@ -103,50 +103,76 @@ Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covaria
   return total;
 }
 
-/// Old and new observations, with what they share: nuisances of one name.
+/// What effects change in observations, per prior scale: one column for each of their parameters.
+Eigen::MatrixXd signatures(const Evidence& evidence, const std::vector<const Candidate*>& candidates) {
+  std::vector<Eigen::VectorXd> columns;
+  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
+  for (const Candidate* known : candidates) {
+    const auto seen = std::find_if(evidence.candidates.begin(), evidence.candidates.end(),
+                                   [&](const Candidate& c) { return c.effect == known->effect; });
+    for (std::size_t k = 0; k < known->parameters.size(); ++k) {
+      columns.emplace_back(Eigen::VectorXd::Zero(n));
+      if (seen != evidence.candidates.end())
+        columns.back() = known->parameters[k].prior_scale * seen->signature.col(static_cast<Eigen::Index>(k));
+    }
+  }
+  Eigen::MatrixXd result(n, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
+  return result;
+}
+
+/// An explanation, with what its effects change in the old observations.
+struct Rival {
+  const Option& option;
+  std::vector<const Candidate*> effects;
+  Eigen::MatrixXd old_signatures;  ///< whitened
+
+  Rival(const Evidence& evidence, const Covariance& covariance, const Option& explanation) : option(explanation) {
+    for (const int effect : option.effects) effects.push_back(&evidence.candidates[effect]);
+    old_signatures = covariance.whiten(signatures(evidence, effects));
+  }
+};
+
+/// Old and new observations, with what they share: nuisances of one name. With N of those, L Lᵀ the covariance of the
+/// old observations and C that of the new ones, the factor of both is (L, 0; N_new Wᵀ, R) with W = L⁻¹ N_old and
+/// R Rᵀ = C − N_new WᵀW N_newᵀ: what the old ones are is factored once for all designs.
 class Together {
  public:
-  Together(const Evidence& evidence, const Covariance& covariance, const Design& design)
-      : evidence_(evidence), added_(design.evidence) {
-    const Eigen::Index old = covariance.total.rows(), added = added_.numerical_sd.size();
-    std::map<std::string, Eigen::Index> columns;
-    Eigen::Index count = 0;
-    for (const Nuisance& nuisance : evidence.nuisances) columns.emplace(nuisance.name, count++);
-    for (const Nuisance& nuisance : added_.nuisances)
-      if (columns.emplace(nuisance.name, count).second) ++count;
-    Eigen::MatrixXd nuisances = Eigen::MatrixXd::Zero(old + added, count);
-    nuisances.topLeftCorner(old, covariance.nuisance.cols()) = covariance.nuisance;
-    for (const Nuisance& nuisance : added_.nuisances)
-      nuisances.col(columns.at(nuisance.name)).tail(added) = nuisance.sigma * nuisance.signature;
-    Eigen::MatrixXd total = nuisances * nuisances.transpose();
-    total.topLeftCorner(old, old) = covariance.total;
-    total.bottomRightCorner(added, added) += covariance_of_new(evidence, covariance, added_);
-    factor_.compute(total);
+  Together(const Evidence& evidence, const Covariance& covariance, const Design& design) : added_(design.evidence) {
+    std::map<std::string, Eigen::Index> of_old;
+    for (const Nuisance& nuisance : evidence.nuisances)
+      of_old.emplace(nuisance.name, static_cast<Eigen::Index>(of_old.size()));
+    const Eigen::Index added = added_.numerical_sd.size();
+    Eigen::MatrixXd nuisances(added, static_cast<Eigen::Index>(added_.nuisances.size()));
+    std::vector<Eigen::Index> shared_old, shared_new;
+    for (Eigen::Index k = 0; k < nuisances.cols(); ++k) {
+      const Nuisance& nuisance = added_.nuisances[k];
+      nuisances.col(k) = nuisance.sigma * nuisance.signature;
+      const auto same = of_old.find(nuisance.name);
+      if (same == of_old.end()) continue;
+      shared_old.push_back(same->second);
+      shared_new.push_back(k);
+    }
+    shared_old_ = covariance.whiten(covariance.nuisance(Eigen::all, shared_old));
+    shared_new_ = nuisances(Eigen::all, shared_new);
+    factor_.compute(nuisances * nuisances.transpose() + covariance_of_new(evidence, covariance, added_) -
+                    shared_new_ * (shared_old_.transpose() * shared_old_) * shared_new_.transpose());
   }
 
-  /// Changes of old and new observations by effects, per prior scale; whitened.
-  Eigen::MatrixXd signatures(const std::vector<int>& effects) const {
-    std::vector<Eigen::VectorXd> columns;
-    for (const int effect : effects) {
-      const Candidate& known = evidence_.candidates[effect];
-      const auto seen = std::find_if(added_.candidates.begin(), added_.candidates.end(),
-                                     [&](const Candidate& c) { return c.effect == known.effect; });
-      for (std::size_t k = 0; k < known.parameters.size(); ++k) {
-        const auto column = static_cast<Eigen::Index>(k);
-        Eigen::VectorXd both = Eigen::VectorXd::Zero(factor_.rows());
-        both.head(known.signature.rows()) = known.signature.col(column);
-        if (seen != added_.candidates.end()) both.tail(added_.numerical_sd.size()) = seen->signature.col(column);
-        columns.push_back(known.parameters[k].prior_scale * both);
-      }
-    }
-    Eigen::MatrixXd result(factor_.rows(), static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = columns[k];
-    return factor_.matrixL().solve(result);
+  /// Changes of old and new observations by a rival's effects; whitened.
+  Eigen::MatrixXd changes(const Rival& rival) const {
+    const Eigen::MatrixXd& old = rival.old_signatures;
+    Eigen::MatrixXd result(old.rows() + factor_.rows(), old.cols());
+    result << old,
+        factor_.matrixL().solve(signatures(added_, rival.effects) - shared_new_ * (shared_old_.transpose() * old));
+    return result;
   }
 
  private:
-  const Evidence &evidence_, &added_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  const Evidence& added_;
+  Eigen::MatrixXd shared_old_;  ///< W
+  Eigen::MatrixXd shared_new_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< R
 };
 
 /// Norm of what columns cannot take from a difference, all whitened.
@@ -161,11 +187,12 @@ bool includes(const Option& option, const Option& part) {
   });
 }
 
-double t_criterion(const Together& together, const Option& first, const Option& second) {
-  const Eigen::MatrixXd one = together.signatures(first.effects), other = together.signatures(second.effects);
-  const double first_true = left(one * first.parameters, other), second_true = left(other * second.parameters, one);
-  if (includes(first, second)) return first_true;
-  if (includes(second, first)) return second_true;
+double t_criterion(const Together& together, const Rival& first, const Rival& second) {
+  const Eigen::MatrixXd one = together.changes(first), other = together.changes(second);
+  const double first_true = left(one * first.option.parameters, other);
+  const double second_true = left(other * second.option.parameters, one);
+  if (includes(first.option, second.option)) return first_true;
+  if (includes(second.option, first.option)) return second_true;
   return std::min(first_true, second_true);
 }
 
@@ -179,26 +206,27 @@ std::vector<std::string> names(const Evidence& evidence, const Option& option) {
 
 double t_criterion(const Evidence& evidence, const Covariance& covariance, const Design& design, const Option& first,
                    const Option& second) {
-  return t_criterion(Together(evidence, covariance, design), first, second);
+  return t_criterion(Together(evidence, covariance, design), Rival(evidence, covariance, first),
+                     Rival(evidence, covariance, second));
 }
 
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Covariance& covariance,
                                                const Designs& designs, const AmbiguitySet& set) {
-  std::vector<Option> options;
+  std::vector<Rival> rivals;
   std::set<std::string> effects;
   for (const AmbiguityClass& alike : set.classes)
     for (const Option& option : alike.options)
-      if (!alike.adds_to_likelier && !option.has_unknown && options.size() < kLikeliest) {
-        options.push_back(option);
+      if (!alike.adds_to_likelier && !option.has_unknown && rivals.size() < kLikeliest) {
+        rivals.emplace_back(evidence, covariance, option);
         for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
       }
-  if (options.size() < 2) return {};
+  if (rivals.size() < 2) return {};
   const std::vector<Design> possible = designs({effects.begin(), effects.end()});
   std::vector<Together> together;
   for (const Design& design : possible) together.emplace_back(evidence, covariance, design);
   std::vector<NextMeasurement> result;
-  for (std::size_t i = 0; i < options.size(); ++i)
-    for (std::size_t j = i + 1; j < options.size(); ++j) {
+  for (std::size_t i = 0; i < rivals.size(); ++i)
+    for (std::size_t j = i + 1; j < rivals.size(); ++j) {
       // Whatever settles it comes before what does not.
       const auto worth = [](const NextMeasurement& next) {
         return std::pair(next.settles(), next.settles() ? next.sigma * next.sigma / next.cost : next.sigma);
@@ -206,8 +234,8 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
       std::vector<NextMeasurement> each;
       for (std::size_t d = 0; d < possible.size(); ++d)
         each.push_back({possible[d].name,
-                        {names(evidence, options[i]), names(evidence, options[j])},
-                        t_criterion(together[d], options[i], options[j]),
+                        {names(evidence, rivals[i].option), names(evidence, rivals[j].option)},
+                        t_criterion(together[d], rivals[i], rivals[j]),
                         possible[d].cost});
       const auto best =
           std::max_element(each.begin(), each.end(),
