@@ -6,10 +6,10 @@ Case case_of(const Evidence& evidence, const Predict& predict, const DecisionSet
   Case c{evidence, predict, settings, estimate_covariance(evidence, measured_minus_predicted(evidence)), {}, {}, {},
          {},       {},      {}};
   c.problem = whitened_problem(evidence, c.covariance);
-  c.draws = pseudo_experiments(c.covariance, settings.pseudo_experiments, settings.seed);
   c.shapes = gap_shapes(evidence, c.covariance);
+  c.draws = gap_draws(c.shapes, pseudo_experiments(c.covariance, settings.pseudo_experiments, settings.seed));
   c.spaces = candidate_spaces(c.problem, c.covariance);
-  c.discovery = discovery_tail(c.spaces, c.draws);
+  c.discovery = discovery_tail(c.spaces, c.draws.all);
   c.gap = gap_test(c.shapes, c.problem.residual, c.draws, Eigen::MatrixXd(c.problem.residual.size(), 0));
   return c;
 }

@@ -21,8 +21,8 @@ struct Case {
   const DecisionSettings& settings;
   Covariance covariance;
   Problem problem;
-  Eigen::MatrixXd draws;  ///< whitened
   GapShapes shapes;
+  GapDraws draws;
   std::vector<CandidateSpace> spaces;
   MaximumTail discovery;  ///< of the largest effect
   GapTest gap;            ///< of the residual itself

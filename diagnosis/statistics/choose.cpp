@@ -45,8 +45,8 @@ std::vector<std::optional<NamedEffect>> tested(const Case& c, const Refit& fit) 
   std::vector<std::optional<NamedEffect>> passed(sizes.size());
   const auto is_discovered = [&](const NamedEffect& effect) { return effect.p_discovery < c.settings.p_discovery; };
   if (std::none_of(effects.begin(), effects.end(), is_discovered)) return passed;
-  const Eigen::MatrixXd draws =
-      c.covariance.factor.matrixL() * c.draws.leftCols(std::min<Eigen::Index>(kConfirmationDraws, c.draws.cols()));
+  const Eigen::MatrixXd draws = c.covariance.factor.matrixL() *
+                                c.draws.all.leftCols(std::min<Eigen::Index>(kConfirmationDraws, c.draws.all.cols()));
   const std::vector<Confirmation> confirmations = confirm(
       c.evidence.observations, c.covariance, linear_fit(c.covariance, c.problem, fit), draws, dof, c.settings.seed);
   for (std::size_t e = 0; e < sizes.size(); ++e) {

@@ -1,6 +1,7 @@
 #include "diagnosis/statistics/covariance.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +58,9 @@ Eigen::VectorXd redrawn(const ObservableErrors& errors, const Eigen::MatrixXd& r
   return variances;
 }
 
+/// Most nuisances are of one pour or placement, and move few observations.
+Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& nuisances) { return nuisances.sparseView(); }
+
 /// R with R Rᵀ = a covariance that may be singular.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
   if (covariance.size() == 0) return covariance;
@@ -75,7 +79,8 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
     covariance.nuisance.col(static_cast<Eigen::Index>(k)) =
         evidence.nuisances[k].sigma * evidence.nuisances[k].signature;
   const Eigen::VectorXd repeats = repeat_variances(evidence.observations);
-  covariance.total = covariance.nuisance * covariance.nuisance.transpose();
+  const Eigen::SparseMatrix<double> nuisance = sparse(covariance.nuisance);
+  covariance.total = nuisance * nuisance.transpose();
   covariance.total.diagonal() += repeats + covariance.numerical_variance;
   covariance.errors = estimate_errors(evidence, residual, covariance.total, repeats);
   const auto add_all = [&](const std::vector<ObservableErrors>& observables) {
@@ -98,7 +103,7 @@ Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::Ma
   constexpr double kMost = 1e4;
   const Eigen::MatrixXd weights = covariance.factor.matrixU().solve(columns);
   const Eigen::VectorXd total = columns.colwise().squaredNorm().transpose().array().max(1e-300);
-  const Eigen::VectorXd from_priors = (covariance.nuisance.transpose() * weights).colwise().squaredNorm();
+  const Eigen::VectorXd from_priors = (sparse(covariance.nuisance).transpose() * weights).colwise().squaredNorm();
   // Variance of the variance, relative to its square.
   Eigen::ArrayXd relative = 2.0 / kPriorDof * (from_priors.array() / total.array()).square();
   for (const ObservableErrors& errors : covariance.errors.observables) {
@@ -141,7 +146,7 @@ Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std:
       }
     }
   }
-  residuals += covariance.nuisance * nuisances;
+  residuals += sparse(covariance.nuisance) * nuisances;
   return covariance.whiten(residuals);
 }
 

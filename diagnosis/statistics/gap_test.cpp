@@ -32,14 +32,14 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& x, const Eigen::MatrixXd& explain
   return x - explained * (explained.transpose() * x);
 }
 
-/// Unit columns; those with hardly anything left become 0.
-Eigen::MatrixXd unit_columns(const Eigen::MatrixXd& x, const Eigen::VectorXd& norms_before) {
-  Eigen::MatrixXd result = x;
-  for (Eigen::Index k = 0; k < x.cols(); ++k) {
-    const double norm = x.col(k).norm();
-    result.col(k) *= norm > kLeastLeft * norms_before[k] ? 1.0 / norm : 0.0;
+/// What makes unit columns of `left`; 0 where hardly anything is left of a column.
+Eigen::VectorXd to_unit(const Eigen::MatrixXd& left, const Eigen::VectorXd& norms_before) {
+  Eigen::VectorXd factors(left.cols());
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    const double norm = left.col(k).norm();
+    factors[k] = norm > kLeastLeft * norms_before[k] ? 1.0 / norm : 0.0;
   }
-  return result;
+  return factors;
 }
 
 WeightedDirections main_effects(const GapShapes& shapes, const Covariance& covariance) {
@@ -65,13 +65,34 @@ struct Statistic {
   Eigen::VectorXd draws;
 };
 
-/// f of the columns' projections: of the residual (one column) and of the draws.
-template <class F>
-Statistic statistic(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& residual, const Eigen::MatrixXd& draws,
-                    F f) {
-  return {f(Eigen::MatrixXd(columns.transpose() * residual), residual)[0],
-          f(Eigen::MatrixXd(columns.transpose() * draws), draws)};
-}
+/// Projections of data and draws on columns, all of them without what is explained.
+struct Projections {
+  Eigen::MatrixXd data, draws;  ///< columns × 1 and × draws
+
+  /// f of both.
+  template <class F>
+  Statistic statistic(F f) const {
+    return {f(data)[0], f(draws)};
+  }
+};
+
+/// What a test starts from: with E what is explained, Cᵀ D − (Eᵀ C)ᵀ Eᵀ D are the projections of what is left.
+struct Left {
+  const Eigen::MatrixXd& explained;
+  Eigen::VectorXd data;             ///< what is left of it
+  Eigen::MatrixXd draws_explained;  ///< Eᵀ D
+
+  Projections on(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& projected_draws) const {
+    return {columns.transpose() * data,
+            projected_draws - (explained.transpose() * columns).transpose() * draws_explained};
+  }
+  Projections on_unit(const Eigen::MatrixXd& columns, const Eigen::VectorXd& norms,
+                      const Eigen::MatrixXd& projected_draws) const {
+    const Eigen::VectorXd factors = to_unit(without(columns, explained), norms);
+    const Projections all = on(columns, projected_draws);
+    return {factors.asDiagonal() * all.data, factors.asDiagonal() * all.draws};
+  }
+};
 
 /// Σ weight · z² of each column of projections, each z as of a normal.
 Eigen::VectorXd weighted_squares(const Eigen::MatrixXd& projected, const WeightedDirections& directions) {
@@ -115,39 +136,47 @@ GapShapes gap_shapes(const Evidence& evidence, const Covariance& covariance) {
   return shapes;
 }
 
-GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const Eigen::MatrixXd& draws,
+GapDraws gap_draws(const GapShapes& shapes, Eigen::MatrixXd draws) {
+  GapDraws result{.all = std::move(draws), .strata = {}, .main_effects = {}, .smooth_departures = {}, .cells = {}};
+  result.strata = shapes.stratum_columns.transpose() * result.all;
+  result.main_effects = shapes.main_effects.columns.transpose() * result.all;
+  result.smooth_departures = shapes.smooth_departures.columns.transpose() * result.all;
+  result.cells = shapes.cells.transpose() * result.all;
+  return result;
+}
+
+GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const GapDraws& draws,
                  const Eigen::MatrixXd& explained) {
-  const Eigen::MatrixXd left = without(residual, explained), draws_left = without(draws, explained);
-  const Eigen::MatrixXd strata =
-      unit_columns(without(shapes.stratum_columns, explained), shapes.stratum_columns.colwise().norm().transpose());
+  const Left left{explained, without(residual, explained), explained.transpose() * draws.all};
   GapTest test;
-  Eigen::VectorXd largest_z = Eigen::VectorXd::Constant(draws.cols(), -INFINITY);
+  Eigen::VectorXd largest_z = Eigen::VectorXd::Constant(draws.all.cols(), -INFINITY);
   double data_z = -INFINITY;
   const auto quadratic = [&](const Statistic& s) { return calibrate(s, fit_quadratic(s.draws), largest_z, data_z); };
-  const auto sum_over = [&](const WeightedDirections& directions) {
+  const auto sum_over = [&](const WeightedDirections& directions, const Eigen::MatrixXd& projected_draws) {
     const Eigen::VectorXd norms = Eigen::VectorXd::Ones(directions.columns.cols());
-    return quadratic(statistic(unit_columns(without(directions.columns, explained), norms), left, draws_left,
-                               [&](const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) {
-                                 return weighted_squares(projected, directions);
-                               }));
+    return quadratic(
+        left.on_unit(directions.columns, norms, projected_draws).statistic([&](const Eigen::MatrixXd& projected) {
+          return weighted_squares(projected, directions);
+        }));
   };
-  test.p_strata = sum_over(shapes.main_effects);
-  test.p_smooth = sum_over(shapes.smooth_departures);
-  const Statistic scan = statistic(
-      strata, left, draws_left,
-      [&](const Eigen::MatrixXd& projected, const Eigen::MatrixXd&) { return largest(projected, shapes.stratum_dof); });
+  test.p_strata = sum_over(shapes.main_effects, draws.main_effects);
+  test.p_smooth = sum_over(shapes.smooth_departures, draws.smooth_departures);
+  const Statistic scan =
+      left.on_unit(shapes.stratum_columns, shapes.stratum_columns.colwise().norm(), draws.strata)
+          .statistic([&](const Eigen::MatrixXd& projected) { return largest(projected, shapes.stratum_dof); });
   test.scan_tail = fit_maximum(scan.draws);
   test.p_scan = calibrate(scan, test.scan_tail, largest_z, data_z);
   if (shapes.cells.cols() > 0) {
     const double between = static_cast<double>(shapes.cells.cols() - explained.cols());
     const double within = static_cast<double>(residual.size() - shapes.cells.cols());
-    test.p_lack_of_fit = quadratic(
-        statistic(shapes.cells, left, draws_left, [&](const Eigen::MatrixXd& means, const Eigen::MatrixXd& all) {
-          const Eigen::VectorXd explained_squares = means.colwise().squaredNorm();
-          const Eigen::VectorXd squares = all.colwise().squaredNorm();
-          return Eigen::VectorXd((explained_squares.array() / between) /
-                                 ((squares - explained_squares).array() / within).max(kLeastWithin));
-        }));
+    const auto ratio = [&](const Eigen::MatrixXd& means, const Eigen::ArrayXd& squares) -> Eigen::VectorXd {
+      const Eigen::ArrayXd of_means = means.colwise().squaredNorm();
+      return (of_means / between) / ((squares - of_means) / within).max(kLeastWithin);
+    };
+    const Projections means = left.on(shapes.cells, draws.cells);
+    const Eigen::ArrayXd squares = draws.all.colwise().squaredNorm() - left.draws_explained.colwise().squaredNorm();
+    test.p_lack_of_fit =
+        quadratic({ratio(means.data, left.data.colwise().squaredNorm())[0], ratio(means.draws, squares)});
   }
   test.p = fit_maximum(largest_z).p(data_z);
   return test;

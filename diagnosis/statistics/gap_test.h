@@ -31,6 +31,13 @@ struct GapShapes {
 
 GapShapes gap_shapes(const Evidence& evidence, const Covariance& covariance);
 
+/// Pseudo-experiments (n × draws, whitened) and their projections on all shapes, once for all tests.
+struct GapDraws {
+  Eigen::MatrixXd all;
+  Eigen::MatrixXd strata, main_effects, smooth_departures, cells;  ///< columns of the shape × draws
+};
+GapDraws gap_draws(const GapShapes& shapes, Eigen::MatrixXd draws);
+
 struct GapTest {
   double p = 1.0;                         ///< of the least of those below, calibrated on pseudo-experiments
   std::optional<double> p_lack_of_fit{};  ///< F of cell means against the scatter within cells
@@ -40,8 +47,8 @@ struct GapTest {
   MaximumTail scan_tail;
 };
 
-/// All three whitened; `explained` (orthonormal columns, may have none) is projected out of residual, draws and shapes.
-GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const Eigen::MatrixXd& draws,
+/// All whitened; `explained` (orthonormal columns, may have none) is projected out of residual, draws and shapes.
+GapTest gap_test(const GapShapes& shapes, const Eigen::VectorXd& residual, const GapDraws& draws,
                  const Eigen::MatrixXd& explained);
 
 }  // namespace fathom

@@ -18,11 +18,15 @@ class Screening {
         keep_(keep),
         gram_(problem.signatures.transpose() * problem.signatures),
         projections_(problem.signatures.transpose() * problem.residual),
-        best_(kLargestSet) {}
+        best_(kLargestSet) {
+    for (const auto& columns : problem.columns)
+      is_seen_.push_back(!problem.signatures(Eigen::all, columns).isZero(0.0));
+  }
 
   void extend(std::vector<int>& effects) {
     const int next = effects.empty() ? 0 : effects.back() + 1;
     for (int effect = next; effect < static_cast<int>(problem_.columns.size()); ++effect) {
+      if (!is_seen_[effect]) continue;  // its best value is none in every set
       effects.push_back(effect);
       consider(effects);
       if (effects.size() < kLargestSet) extend(effects);
@@ -70,6 +74,7 @@ class Screening {
   int keep_;
   Eigen::MatrixXd gram_;
   Eigen::VectorXd projections_;
+  std::vector<bool> is_seen_;
   std::vector<std::vector<Hypothesis>> best_;
 };
 
