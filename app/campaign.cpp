@@ -39,7 +39,7 @@ struct Placement {
   const CampaignFilling* filling;             ///< none: the bare desk
   double true_fill;                           ///< [m]
   Eigen::Vector2d nominal_place, true_place;  ///< [m] (lateral, distance)
-  double time_s = 0.0;                        ///< of its first shot
+  double time_s = 0.0, stood_s = 0.0;         ///< of its first shot, since the session and since the pour
   int first_frame = 0, trials = 0;
 };
 
@@ -70,6 +70,7 @@ class Planner {
   void pour(const CampaignFilling& filling) {
     const double fill = poured(spec_, filling, pours_, seed_);
     time_s_ += spec_.pour_s;
+    poured_s_ = time_s_;
     for (const double distance : spec_.distances)
       for (const double lateral : spec_.laterals)
         for (int j = 0; j < spec_.placements; ++j, ++cups_) {
@@ -85,6 +86,7 @@ class Planner {
  private:
   void add(Placement placement, int trials) {
     placement.time_s = time_s_;
+    if (placement.filling) placement.stood_s = time_s_ - poured_s_;
     placement.first_frame = frames_;
     placement.trials = trials;
     frames_ += trials;
@@ -95,7 +97,7 @@ class Planner {
   const CampaignSpec& spec_;
   std::uint64_t seed_;
   int session_ = 0, pours_ = 0, cups_ = 0, frames_ = 0;
-  double time_s_ = 0.0;
+  double time_s_ = 0.0, poured_s_ = 0.0;
   std::vector<Placement> placements_;
 };
 
@@ -135,6 +137,7 @@ Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json&
   unit.on_for_s += placement.time_s;
   unit.frame_interval_s = spec.frame_s;
   setup.circumstances.time_s = placement.time_s;
+  setup.circumstances.stood_s = placement.stood_s;
   setup.circumstances.liquids = spec.media;
   if (!placement.filling) return setup;
   setup.circumstances.liquid = placement.filling->liquid;

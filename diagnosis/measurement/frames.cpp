@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -69,6 +71,18 @@ FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<s
   return record;
 }
 
+void set_stood(std::vector<FrameRecord>& records) {
+  using Pour = std::tuple<int, int, std::string, double>;
+  const auto pour_of = [](const FrameRecord& r) { return Pour(r.session, r.pour, r.liquid, r.fill_m); };
+  std::map<Pour, double> first_s;
+  for (const FrameRecord& record : records) {
+    double& first = first_s.try_emplace(pour_of(record), record.time_s).first->second;
+    first = std::min(first, record.time_s);
+  }
+  for (FrameRecord& record : records)
+    if (!record.bare_desk()) record.stood_s = record.time_s - first_s.at(pour_of(record));
+}
+
 }  // namespace
 
 std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
@@ -83,6 +97,7 @@ std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& r
     records.push_back(read_frame(frames, row, liquids, folder));
     require_mm(frames, row, records.back(), rig);
   }
+  set_stood(records);
   return records;
 }
 

@@ -132,7 +132,7 @@ struct Trials {
   std::vector<double> values;
 };
 
-Observation observation_of(const Trials& trials, const FrameRecord& frame, double time_s) {
+Observation observation_of(const Trials& trials, const FrameRecord& frame, double time_s, double stood_s) {
   const double n = static_cast<double>(trials.values.size());
   Observation observation;
   observation.observable = trials.observable;
@@ -142,6 +142,7 @@ Observation observation_of(const Trials& trials, const FrameRecord& frame, doubl
   factors.pour = frame.pour;
   factors.placement = frame.placement;
   factors.time_s = time_s;
+  factors.stood_s = stood_s;
   factors.liquid = frame.liquid;
   factors.fill_mm = mm_from_metres(frame.fill_m);
   factors.distance_mm = mm_from_metres(frame.distance_m);
@@ -209,9 +210,10 @@ void leave_out_copies(const std::vector<FrameReading>& readings,
 void add_observations(const std::vector<std::size_t>& rows, const std::vector<FrameReading>& readings,
                       Measurement& measurement) {
   std::vector<Trials> all;
-  double time_s = 0.0;
+  double time_s = 0.0, stood_s = 0.0;
   for (const std::size_t row : rows) {
     time_s += measurement.frames[row].time_s / static_cast<double>(rows.size());
+    stood_s += measurement.frames[row].stood_s / static_cast<double>(rows.size());
     for (const NamedValue& named : readings[row].values) {
       auto same = std::find_if(all.begin(), all.end(), [&](const Trials& trials) {
         return trials.observable == named.observable && trials.region == named.region;
@@ -221,7 +223,7 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
     }
   }
   for (const Trials& trials : all)
-    measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s));
+    measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s, stood_s));
 }
 
 void add_notes(const std::vector<FrameReading>& readings, Measurement& measurement) {

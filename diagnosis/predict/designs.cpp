@@ -108,15 +108,18 @@ std::vector<Observation> observations_of(const MeasurementPlan& plan, int sessio
   factors.liquid = "none";
   if (plan.bare_desk_views > 0) add_frame(factors, plan.bare_desk_views, observations);
   for (const auto& [liquid, fill_mm] : plan.fillings)
-    for (int pour = 0; pour < plan.pours; ++pour, ++factors.pour)
+    for (int pour = 0; pour < plan.pours; ++pour, ++factors.pour) {
+      const double first_frame_s = factors.time_s + plan.wait_s();
       for (const double distance_mm : plan.distances_mm)
         for (const double lateral_mm : plan.laterals_mm)
           for (int i = 0; i < plan.placements; ++i, ++factors.placement) {
             factors.time_s += plan.wait_s();
+            factors.stood_s = factors.time_s - first_frame_s;
             factors.liquid = liquid;
             factors.fill_mm = fill_mm, factors.distance_mm = distance_mm, factors.lateral_mm = lateral_mm;
             add_frame(factors, plan.trials, observations);
           }
+    }
   return observations;
 }
 

@@ -59,6 +59,7 @@ NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& f
 Setup setup_of(const NominalModel& model, const Factors& factors) {
   Setup setup{.scene = {}, .rig = model.rig};
   setup.circumstances.time_s = factors.time_s;
+  setup.circumstances.stood_s = factors.stood_s;
   setup.circumstances.liquid = factors.liquid;
   for (const auto& [name, medium] : model.liquids) setup.circumstances.liquids.push_back(medium);
   if (factors.liquid == "none") return setup;

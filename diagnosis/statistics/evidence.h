@@ -11,8 +11,9 @@ namespace fathom {
 /// How an observation came about. What does not apply is 0 or empty.
 struct Factors {
   int session = 0, pour = 0, placement = 0;
-  double time_s = 0.0;  ///< since the session began, mean of the repeats
-  std::string liquid;   ///< "empty", "none" (bare desk), or a liquid of the rig
+  double time_s = 0.0;   ///< since the session began, mean of the repeats
+  double stood_s = 0.0;  ///< since the first frame of its pour, mean of the repeats
+  std::string liquid;    ///< "empty", "none" (bare desk), or a liquid of the rig
   double fill_mm = 0.0, distance_mm = 0.0, lateral_mm = 0.0;
   std::string region;  ///< of the cup or of the desk around it
 };

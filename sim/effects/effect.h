@@ -35,7 +35,7 @@ struct Effect {
   /// Changes scene, rig, circumstances or processing; at the nominal values it changes nothing.
   void (*apply)(Setup& setup, const EffectSetting& setting);
   bool of_liquids = false;  ///< may be limited to one liquid
-  bool of_time = false;     ///< goes by Circumstances::time_s
+  bool of_time = false;     ///< goes by the times of Circumstances
 };
 
 }  // namespace fathom

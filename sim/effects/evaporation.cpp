@@ -9,7 +9,7 @@ namespace {
 
 void apply(Setup& setup, const EffectSetting& setting) {
   constexpr double kSecondsPerHour = 3600.0;
-  const double fallen = metres_from_mm(setting.values[0]) * setup.circumstances.time_s / kSecondsPerHour;
+  const double fallen = metres_from_mm(setting.values[0]) * setup.circumstances.stood_s / kSecondsPerHour;
   for_each_filling(setup, setting,
                    [&](Cup&, Filling& filling) { filling.depth = std::max(filling.depth - fallen, 0.0); });
 }
@@ -19,11 +19,11 @@ void apply(Setup& setup, const EffectSetting& setting) {
 Effect evaporation() {
   return {.id = "evaporation",
           .family = "book-keeping",
-          .sentence = "The liquid's level falls while the session lasts.",
+          .sentence = "The liquid's level falls from the moment it is poured.",
           .parameters = {{"rate_mm_per_h", "by which the level falls", 0.0, 1.0, 0.0, 50.0}},
           .citation = "Sartori 2000, Solar Energy 68, 77: tenths of a millimetre an hour from water at rest",
           .twins = {"thermal_drift", "fill_offset"},
-          .discriminated_by = "the same pour at the beginning and the end of a session",
+          .discriminated_by = "the same pour when it is fresh and after it has stood",
           .apply = apply,
           .of_liquids = true,
           .of_time = true};

@@ -11,6 +11,7 @@ namespace fathom {
 /// When a shot is taken, and of what as far as the laboratory knows.
 struct Circumstances {
   double time_s = 0.0;               ///< of frame 0, since the session began
+  double stood_s = 0.0;              ///< how long the cups have been filled by then
   std::string liquid;                ///< as labelled; empty: by the medium's name
   std::vector<Medium> liquids = {};  ///< all that the campaign pours, in the order of their labels
 };

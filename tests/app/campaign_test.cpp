@@ -166,6 +166,25 @@ TEST_F(CampaignCommand, SessionsBeginWithTheBareDeskAndTheirTimeAtZero) {
   EXPECT_EQ(run_fathom("measure " + (folder / "out").string()).exit_code, 0);
 }
 
+TEST_F(CampaignCommand, EveryPourEvaporatesFromItsOwnBeginning) {
+  Json spec = kSpec;
+  spec["liquids"] = {{"milk", {{"index", 1.336}, {"scattering_per_mm", 1000}}}};
+  spec["fillings"] = {{{"liquid", "milk"}, {"fill_mm", 30}}};
+  spec.update({{"distance_mm", {300}}, {"trials", 1}, {"pours", 2}, {"pour_s", 3600}, {"placement_s", 72}});
+  ASSERT_EQ(campaign(spec, "plain").exit_code, 0);
+  spec["effects"] = {{{"name", "evaporation"}, {"rate_mm_per_h", 50}}};
+  ASSERT_EQ(campaign(spec, "dry").exit_code, 0);
+  const auto heights_of = [&](const char* name) {
+    EXPECT_EQ(run_fathom("measure " + (folder / name).string()).exit_code, 0);
+    return read_table(folder / name / "heights.csv");
+  };
+  const Table plain = heights_of("plain"), dry = heights_of("dry");
+  ASSERT_EQ(dry.rows(), 2u);
+  // 72 s of 50 mm an hour; steps of the depth, 1 mm, over some hundred points.
+  for (std::size_t pour = 0; pour < 2; ++pour)
+    EXPECT_NEAR(dry.number(pour, "height_mm") - plain.number(pour, "height_mm"), -1.0, 0.3) << pour;
+}
+
 TEST_F(CampaignCommand, EffectsAreInTheCloudsAndTheTruthAlone) {
   Json spec = kSpec;
   spec.update({{"distance_mm", {300}}, {"trials", 1}, {"fillings", {{{"liquid", "empty"}}}}});

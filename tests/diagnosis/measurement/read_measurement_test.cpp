@@ -93,6 +93,20 @@ TEST_F(MeasurementFolder, HeightsAreThoseOfTheRegionsOverTheTrials) {
   EXPECT_LT(find(measurement, "comb_strength", "desk")->value, 0.05);  // even depths have no comb
 }
 
+TEST_F(MeasurementFolder, APourHasStoodSinceItsFirstFrame) {
+  const Measurement measurement = read(
+      "0,0,0,0,0,0,none,0,0,0,clouds/a.pcd\n"
+      "1,0,0,0,0,90,water,20,300,0,clouds/a.pcd\n"
+      "2,0,0,1,0,120,water,20,300,0,clouds/b.pcd\n"
+      "3,0,1,2,0,210,water,20,300,0,clouds/a.pcd\n"
+      "4,1,0,3,0,30,water,20,300,0,clouds/b.pcd\n");
+  const double expected_s[] = {0.0, 0.0, 30.0, 0.0, 0.0};
+  for (std::size_t i = 0; i < std::size(expected_s); ++i) EXPECT_EQ(measurement.frames[i].stood_s, expected_s[i]) << i;
+  double longest_s = 0.0;
+  for (const Observation& o : measurement.observations) longest_s = std::max(longest_s, o.factors.stood_s);
+  EXPECT_EQ(longest_s, 30.0);
+}
+
 TEST_F(MeasurementFolder, RegionsAreTurnedAsTheirNamesSay) {
   const Measurement measurement = read("0,0,0,0,0,0,water,20,300,0,clouds/tilted.pcd\n");
   // Rises by a tenth away from the sensor: the sectors' centroids are 21.0 mm from the axis.

@@ -19,7 +19,7 @@ namespace {
 struct Scenery {
   const char* liquid;
   double fill_mm, distance_mm;
-  double time_s = 0.0;
+  double time_s = 0.0, stood_s = 0.0;
   const char* effects = "[]";  ///< that are there before
 };
 
@@ -32,6 +32,7 @@ std::optional<double> value_of(const Scenery& scenery, const Json& effect, std::
   factors.fill_mm = scenery.fill_mm;
   factors.distance_mm = scenery.distance_mm;
   factors.time_s = scenery.time_s;
+  factors.stood_s = scenery.stood_s;
   Json effects = Json::parse(scenery.effects);
   if (!effect.is_null()) effects.push_back(effect);
   const fathom::Setup setup = paper_setup(factors, std::move(effects));
@@ -112,18 +113,32 @@ const Row kRows[] = {
     {R"({"name": "fill_offset", "fill_mm": 1})", kEmpty, "height_mm", "centre", 0.0, 0.0, "nothing was poured"},
     {R"({"name": "fill_scale", "scale": 0.1})", kMilk, "height_mm", "centre", 1.99, 2.01, "a tenth of 20 mm"},
     {R"({"name": "evaporation", "rate_mm_per_h": 2})",
-     {"milk", 20, 300, 1800.0},
+     {"milk", 20, 300, 3600.0, 1800.0},
      "height_mm",
      "centre",
      -1.01,
      -0.99,
      "half an hour of 2 mm an hour"},
+    {R"({"name": "evaporation", "rate_mm_per_h": 50})",
+     {"milk", 20, 300, 3600.0},
+     "height_mm",
+     "centre",
+     0.0,
+     0.0,
+     "just poured, however long the session has lasted"},
+    {R"({"name": "evaporation", "rate_mm_per_h": 50})",
+     {"milk", 1, 300, 3600.0, 3600.0},
+     "height_mm",
+     "centre",
+     -1.01,
+     -0.99,
+     "no more can go than was there"},
     {R"({"name": "label_swap", "swapped": 1})", kMilk, "height_mm", "centre", -15.5, -14.0,
      "water of 20 mm raises its bottom by 28 %: 20 · (1 − 0.28) lower than its surface"},
     {R"({"name": "unit_error", "factor": 1.5})", kMilk, "height_mm", "centre", 9.95, 10.05, "half of 20 mm more"},
     {R"({"name": "wrong_cup", "scale": 0.1})", kEmpty, "height_mm", "centre", 0.69, 0.71, "a tenth of 7 mm"},
     {R"({"name": "window_averaging", "window_px": 9})",
-     {"milk", 60, 200, 0.0, R"([{"name": "ripples", "amplitude_mm": 1}])"},
+     {"milk", 60, 200, 0.0, 0.0, R"([{"name": "ripples", "amplitude_mm": 1}])"},
      "height_sd_mm",
      "interior",
      -0.43,

@@ -70,11 +70,11 @@ TEST(Physics, RowsAreWhatTheModelPredicts) {
 }
 
 TEST(Predictor, SeesTimeWhereEffectsGoByItAndNowhereElse) {
-  // The same shot at the beginning of a session and after an hour.
+  // The same shot of the same pour at the beginning of a session and after an hour.
   Observation early{.observable = "height_mm", .factors = {.liquid = "water", .region = "centre"}};
   early.factors.fill_mm = 20.0, early.factors.distance_mm = 200.0;
   Observation late = early;
-  late.factors.placement = 1, late.factors.time_s = 3600.0;
+  late.factors.placement = 1, late.factors.time_s = late.factors.stood_s = 3600.0;
   const Predictor predictor(paper_laboratory(), {early, late});
   ASSERT_EQ(predictor.conditions().size(), 2u);
   for (const Effect& effect : effect_registry()) {
