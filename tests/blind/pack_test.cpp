@@ -127,32 +127,42 @@ TEST(BlindSeeds, OfPackKindsAreDisjoint) {
 }
 
 struct BlindStrength : testing::Test {
-  static inline const Views views = views_of(designs());
+  static inline Views views;
+  static void SetUpTestSuite() { views = views_of(designs()); }
   static Strengths of(const char* name) { return {design(name), plan(design(name), 1), views}; }
 };
 
 TEST_F(BlindStrength, GrowsWithTheEffectAndReachesWhatIsAsked) {
   const Strengths strengths = of("one_distance");
   const Hidden& fill = hidden_effect("fill_offset");
-  const double one = strengths.of({&fill, 1.0});
+  const double one = strengths.shown({&fill, 1.0}).s;
   EXPECT_GT(one, 1.0);
-  EXPECT_NEAR(strengths.of({&fill, 2.0}) / one, 2.0, 0.1);  // signatures are nearly straight
-  EXPECT_EQ(strengths.of({&fill, 0.0}), 0.0);
+  EXPECT_NEAR(strengths.shown({&fill, 2.0}).s / one, 2.0, 0.1);  // signatures are nearly straight
+  EXPECT_EQ(strengths.shown({&fill, 0.0}).s, 0.0);
   // Not better, because regions on the border of sight come and go.
-  EXPECT_NEAR(strengths.of({&fill, strengths.departure_for(fill, 6.0, -1.0)}), 6.0, 0.9);
+  const Shown asked = strengths.sized(fill, 6.0, -1.0);
+  EXPECT_NEAR(asked.s, 6.0, 0.9);
+  EXPECT_LT(asked.active.departure, 0.0);
+}
+
+TEST_F(BlindStrength, WhatAllSetsShareIsWhatEachWouldSee) {
+  const Strengths strengths = of("one_distance");
+  const Hidden& fill = hidden_effect("fill_offset");
+  const double next_to_typical = fill.typical * (1.0 + 1e-12);  // seen anew; moves no dot by more than rounding
+  EXPECT_NEAR(strengths.shown({&fill, fill.typical}).s / strengths.shown({&fill, next_to_typical}).s, 1.0, 1e-6);
 }
 
 TEST_F(BlindStrength, OfWhatIsUncertainAnywayIsAtMostItsPrior) {
   const Strengths strengths = of("one_distance");
   // A departure of one prior σ has s < 1, whatever the data: s² = x² / (σ² + …).
-  EXPECT_LT(strengths.of({&hidden_effect("baseline"), 0.05}), 1.0);
-  EXPECT_LT(strengths.of({&hidden_effect("sensor_height"), 0.5}), 1.0);
+  EXPECT_LT(strengths.shown({&hidden_effect("baseline"), 0.05}).s, 1.0);
+  EXPECT_LT(strengths.shown({&hidden_effect("sensor_height"), 0.5}).s, 1.0);
   // So at any size: of dots that fall into other windows nothing may be left. A tenth: refraction is not quite linear.
-  EXPECT_LT(strengths.of({&hidden_effect("sensor_pitch"), 0.2}), 1.1 * 0.2 / 0.05);
-  EXPECT_LT(strengths.of({&hidden_effect("baseline"), -0.7}), 1.1 * 0.7 / 0.05);
+  EXPECT_LT(strengths.shown({&hidden_effect("sensor_pitch"), 0.2}).s, 1.1 * 0.2 / 0.05);
+  EXPECT_LT(strengths.shown({&hidden_effect("baseline"), -0.7}).s, 1.1 * 0.7 / 0.05);
   // Nobody wrote down albedos: −0.2 of 0.7 are 0.34 in the logarithm, of a prior of 0.3. Twice that: blocks that see
   // wall and bottom at once go with the brighter.
-  EXPECT_LT(strengths.of({&hidden_effect("wall_albedo"), -0.2}), 2.0 * 0.34 / 0.3);
+  EXPECT_LT(strengths.shown({&hidden_effect("wall_albedo"), -0.2}).s, 2.0 * 0.34 / 0.3);
 }
 
 TEST_F(BlindStrength, TwinsDoNotEscapeEachOther) {
