@@ -177,10 +177,7 @@ struct Follower {
     const Liquid& liquid = *world.liquid;
     const Vector2 place = surface.head<2>();
     const Vector3 normal = normal_of(cavity.top(place));
-    if (is_foam(world, place - cavity.axis)) {
-      const Vector3 on_foam = surface + Vector3(0, 0, world.top.foam_thickness);
-      return see_in_air({on_foam, Vector3::UnitZ(), Lit::surface, kFoamAlbedo}, true, 1.0);
-    }
+    if (is_foam(world, place - cavity.axis)) return;  // past its top, into its side: lost
     const double cosine = -beam.along.dot(normal), mirrored = fresnel(cosine, liquid.index);
     if (world.ghost_gain > 0.0) mirror_on_wall(surface, beam.along, normal, world.ghost_gain * mirrored);
     if (liquid.reduced_scattering > 0.0) {
@@ -212,8 +209,22 @@ struct Follower {
     }
   }
 
+  std::optional<Landing> land_on_foam(const Beam& beam) const {
+    if (world.top.foam_cover <= 0.0) return std::nullopt;
+    const double thickness = world.top.foam_thickness;
+    const auto point = meet(beam, world.cup.bottom + world.fill + thickness, [&](const Vector2& p) {
+      Slope top = cavity.top(p);
+      top.z += thickness;
+      return top;
+    });
+    if (!point || (point->head<2>() - cavity.axis).norm() >= world.cup.inner_radius) return std::nullopt;
+    if (!is_foam(world, point->head<2>() - cavity.axis)) return std::nullopt;
+    return Landing{*point, Vector3::UnitZ(), Lit::surface, kFoamAlbedo};
+  }
+
   void enter_cup(const Beam& beam) const {
     if (world.liquid && world.fill > 0.0) {
+      if (const auto foam = land_on_foam(beam)) return see_in_air(*foam, true, 1.0);
       const auto surface = meet(beam, world.cup.bottom + world.fill, [&](const Vector2& p) { return cavity.top(p); });
       if (surface && (surface->head<2>() - cavity.axis).norm() < world.cup.inner_radius)
         return enter_liquid(beam, *surface);

@@ -63,6 +63,20 @@ TEST(BlindLight, RaisesMoreWithDistanceAndDepthAndMilkNotAtAll) {
   }
 }
 
+TEST(BlindLight, ShowsFoamWhereItsTopIs) {
+  World world = wide_cup(0.3, 0.02, 1.33);
+  world.top.foam_cover = 1.0, world.top.foam_thickness = 0.005;
+  const Eyes eyes = eyes_of(world.sensor);
+  std::vector<SeenDot> seen;
+  for (const int u : {180, 300, 420}) follow(world, eyes, {{u, 240}, 0}, true, seen);
+  ASSERT_EQ(seen.size(), 3u);
+  for (const SeenDot& dot : seen) {
+    EXPECT_EQ(dot.lit, Lit::surface);
+    const double depth = kTableFocalPx * kTableBaseline / dot.disparity_px;
+    EXPECT_NEAR((eyes.camera + eyes.world_from_camera * cloud_point(dot.pixel, depth)).z(), 0.025, 1e-9);
+  }
+}
+
 World uneven_cup() {
   World world = wide_cup(0.3, 0.03, 1.33);
   world.cup.inner_radius = 0.04;
