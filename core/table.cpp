@@ -19,7 +19,22 @@ std::string trimmed(const std::string& cell) {
   return first == std::string::npos ? std::string() : cell.substr(first, cell.find_last_not_of(kBlanks) - first + 1);
 }
 
-std::vector<std::string> split_line(std::string_view line, std::string_view file, std::size_t number) {
+/// Takes the first line off, whichever of "\n", "\r\n" and "\r" ends it.
+std::string_view take_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  text.remove_prefix(line.size());
+  text.remove_prefix(text.starts_with("\r\n") ? 2 : std::min<std::size_t>(text.size(), 1));
+  return line;
+}
+
+/// Where a comma is the decimal sign, spreadsheets part cells by semicolons.
+char separator_of(std::string_view header) {
+  for (const char separator : {',', '\t', ';'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+std::vector<std::string> split_line(std::string_view line, char separator, std::string_view file, std::size_t number) {
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -28,7 +43,7 @@ std::vector<std::string> split_line(std::string_view line, std::string_view file
       cells.back() += line[i++];
     } else if (c == '"') {
       quoted = !quoted;
-    } else if (c == ',' && !quoted) {
+    } else if (c == separator && !quoted) {
       cells.emplace_back();
     } else {
       cells.back() += c;
@@ -64,6 +79,8 @@ bool Table::has(std::string_view column) const {
   return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
 }
 
+void Table::need(std::string_view column) const { index(column); }
+
 std::size_t Table::index(std::string_view column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end())
@@ -85,7 +102,8 @@ std::optional<double> Table::number_if_any(std::size_t row, std::string_view col
   const std::string& cell = text(row, column);
   if (cell.empty()) return std::nullopt;
   double value = 0.0;
-  const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  const auto [end, problem] = std::from_chars(begin, cell.data() + cell.size(), value);
   if (problem != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
     fail(row, column, fmt::format("must be a finite number, got '{}'", cell));
   return value;
@@ -116,33 +134,29 @@ std::string Table::csv() const {
 }
 
 Table read_table(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
-  std::optional<Table> table;
-  std::size_t number = 0;
-  const std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets put it before UTF-8
-  for (std::size_t start = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    std::string_view line(text.data() + start, end - start);
-    start = end + 1;
-    ++number;
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    std::vector<std::string> cells = split_line(line, path.string(), number);
-    if (!table) {
-      std::vector<std::string> sorted = cells;
-      std::sort(sorted.begin(), sorted.end());
-      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-      if (twice != sorted.end()) throw Error(path.string(), "line 1", fmt::format("has the column '{}' twice", *twice));
-      table.emplace(std::move(cells), path.string());
-      continue;
-    }
-    if (text.find_first_not_of(" \t\r\n", end - line.size()) == std::string::npos) break;
-    if (cells.size() != table->columns().size())
-      throw Error(path.string(), fmt::format("line {}", number),
-                  fmt::format("has {} cells, the header has {}", cells.size(), table->columns().size()));
-    table->add(std::move(cells));
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets put it before UTF-8
+  constexpr std::string_view kBlank = " \t\r\n,;\"";
+  const std::string content = read_text(path), file = path.string();
+  std::string_view text = content;
+  if (text.find('\0') != std::string_view::npos)
+    throw Error(file, "is no plain text (UTF-16? a workbook?), must be CSV in UTF-8");
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (text.find_first_not_of(kBlank) == std::string_view::npos) throw Error(file, "is empty, expected a header line");
+  const std::string_view header = take_line(text);
+  const char separator = separator_of(header);
+  Table table(split_line(header, separator, file, 1), file);
+  for (auto column = table.columns().begin(); column != table.columns().end(); ++column)
+    if (!column->empty() && std::find(std::next(column), table.columns().end(), *column) != table.columns().end())
+      throw Error(file, "line 1", fmt::format("has the column '{}' twice", *column));
+  for (std::size_t number = 2; text.find_first_not_of(kBlank) != std::string_view::npos; ++number) {
+    std::vector<std::string> cells = split_line(take_line(text), separator, file, number);
+    while (cells.size() > table.columns().size() && cells.back().empty()) cells.pop_back();
+    if (cells.size() != table.columns().size())
+      throw Error(file, fmt::format("line {}", number),
+                  fmt::format("has {} cells, the header has {}", cells.size(), table.columns().size()));
+    table.add(std::move(cells));
   }
-  if (!table) throw Error(path.string(), "is empty, expected a header line");
-  return *table;
+  return table;
 }
 
 void write_table(const std::filesystem::path& path, const Table& table) { write_text(path, table.csv()); }

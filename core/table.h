@@ -20,6 +20,8 @@ class Table {
 
   bool has(std::string_view column) const;
   /// Throws Error when the column is missing.
+  void need(std::string_view column) const;
+  /// Throws Error when the column is missing.
   const std::string& text(std::size_t row, std::string_view column) const;
   /// Throws Error when the cell is no finite number.
   double number(std::size_t row, std::string_view column) const;
@@ -44,7 +46,9 @@ class Table {
   std::string file_;
 };
 
-/// RFC 4180 without line breaks inside cells. Throws Error on a missing header, double columns or ragged lines.
+/// RFC 4180 without line breaks inside cells; cells may be parted by tabs or semicolons as well, lines end in any way.
+/// Empty cells beyond the header's and blank lines at the end do not count. Throws Error on a missing header, double
+/// columns, ragged lines and what is no text.
 Table read_table(const std::filesystem::path& path);
 void write_table(const std::filesystem::path& path, const Table& table);
 

@@ -47,6 +47,18 @@ TEST(Table, BlanksAroundCellsAndLinesBelowMeanNothing) {
   EXPECT_EQ(table.number(0, "fill_mm"), 10.0);
 }
 
+TEST(Table, LinesAndCellsMayBePartedInAnyCommonWay) {
+  for (const char* text : {"a,b\n1,+2.5\n,3e0\n", "a,b\r1,2.5\r,3\r", "a\tb\r\n1\t2.5\r\n\t3", "a;b\n1;2.5\n;3\n;\n",
+                           "a,b,,\n1,2.5,,\n,3,,\n,,,\n", "a,b\n1,2.5,\n,3,,,\n"}) {
+    const Table table = table_of(text);
+    ASSERT_EQ(table.rows(), 2u) << text;
+    EXPECT_EQ(table.number(0, "a"), 1.0) << text;
+    EXPECT_EQ(table.number(0, "b"), 2.5) << text;
+    EXPECT_FALSE(table.number_if_any(1, "a")) << text;
+    EXPECT_EQ(table.number(1, "b"), 3.0) << text;
+  }
+}
+
 TEST(Table, ErrorsNameFileLineAndColumn) {
   const Table table = table_of("frame,fill_mm\n1,10\n2,ten\n3,\n4,inf\n");
   expect_error([&] { table.number(1, "fill_mm"); },
@@ -58,6 +70,15 @@ TEST(Table, ErrorsNameFileLineAndColumn) {
 
 TEST(Table, BrokenTablesAreRefused) {
   expect_error([] { table_of(""); }, {"frames.csv: is empty, expected a header line"});
+  expect_error([] { table_of("\n"); }, {"frames.csv: is empty, expected a header line"});
+  expect_error(
+      [] {
+        table_of(
+            std::string_view("\xFF\xFE"
+                             "a\0,\0b\0",
+                             8));
+      },
+      {"frames.csv: is no plain text (UTF-16? a workbook?), must be CSV in UTF-8"});
   expect_error([] { table_of("a,b\n1,2\n1,2,3\n"); }, {"frames.csv: line 3: has 3 cells, the header has 2"});
   expect_error([] { table_of("a,b\n1,2\n\n1,2\n"); }, {"line 3: has 1 cells, the header has 2"});
   expect_error([] { table_of("a,b,a\n"); }, {"line 1: has the column 'a' twice"});
