@@ -176,7 +176,7 @@ CloudFormat check_cloud_header(const std::filesystem::path& path) {
     check_ply(file, {content});
     return CloudFormat::kPly;
   }
-  if (content.starts_with("# .PCD") || content.starts_with("VERSION") || content.starts_with("FIELDS")) {
+  if (content.starts_with('#') || content.starts_with("VERSION") || content.starts_with("FIELDS")) {
     check_pcd(file, {content});
     return CloudFormat::kPcd;
   }
