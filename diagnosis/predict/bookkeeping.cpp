@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/units.h"
 #include "diagnosis/predict/predictor.h"
@@ -17,6 +19,25 @@ namespace {
 
 /// What the notes mean in a case: the factors as they should have been.
 using Reading = std::function<Factors(Factors)>;
+
+/// Session, liquid and fill [mm] as written down.
+using Filling = std::tuple<int, std::string, double>;
+Filling filling_of(const Factors& factors) { return {factors.session, factors.liquid, factors.fill_mm}; }
+int session_of(const Factors& factors) { return factors.session; }
+
+/// " of session 1" where all its fillings are, " of 2 and 4 mm" where other fillings of it are not, nothing where all
+/// are.
+std::string whose(const std::set<Filling>& wrong, const std::set<Filling>& all) {
+  if (wrong == all) return {};
+  std::set<int> sessions;
+  std::set<double> fills_mm;
+  for (const auto& [session, liquid, fill_mm] : wrong) sessions.insert(session), fills_mm.insert(fill_mm);
+  const bool is_whole_sessions = std::all_of(all.begin(), all.end(), [&](const Filling& filling) {
+    return wrong.contains(filling) || !sessions.contains(std::get<0>(filling));
+  });
+  return is_whole_sessions ? fmt::format(" of session {}", fmt::join(sessions, " and "))
+                           : fmt::format(" of {} mm", fmt::join(fills_mm, " and "));
+}
 
 class Heights {
  public:
@@ -30,15 +51,27 @@ class Heights {
   /// The sessions in which the heights that another reading changes are met far better by it.
   std::set<int> sessions_that_fit_far_better(const Reading& reading) const {
     std::set<int> sessions;
-    for (const auto& [session, fit] : fits_by_session(reading))
+    for (const auto& [session, fit] : fits_by<int>(session_of, reading))
       if (fit.is_far_better()) sessions.insert(session);
     return sessions;
   }
 
+  /// The fillings whose heights another reading meets better, in sessions in which these together are met far better.
+  std::set<Filling> fillings_that_fit_far_better(const Reading& reading) const {
+    std::map<int, Fit> better;
+    const std::map<Filling, Fit> fits = fits_by<Filling>(filling_of, reading);
+    for (const auto& [filling, fit] : fits)
+      if (fit.after < fit.before) better[std::get<0>(filling)] += fit;
+    std::set<Filling> fillings;
+    for (const auto& [filling, fit] : fits)
+      if (fit.after < fit.before && better[std::get<0>(filling)].is_far_better()) fillings.insert(filling);
+    return fillings;
+  }
+
   /// All with liquids.
-  std::set<int> sessions() const {
-    std::set<int> result;
-    for (const Observation& row : rows_) result.insert(row.factors.session);
+  std::set<Filling> fillings() const {
+    std::set<Filling> result;
+    for (const Observation& row : rows_) result.insert(filling_of(row.factors));
     return result;
   }
 
@@ -54,22 +87,27 @@ class Heights {
       constexpr int kFewest = 8;
       return changed >= kFewest && change > kLeastChange * changed && before > kFarBetter * kFarBetter * after;
     }
+    Fit& operator+=(const Fit& other) {
+      before += other.before, after += other.after, change += other.change, changed += other.changed;
+      return *this;
+    }
   };
 
   /// Of heights whose liquid would not fit into the cup nothing is said.
-  std::map<int, Fit> fits_by_session(const Reading& reading) const {
+  template <class Key>
+  std::map<Key, Fit> fits_by(Key (*key_of)(const Factors&), const Reading& reading) const {
     std::vector<Observation> rows = rows_;
     for (Observation& row : rows) {
       const Factors other = reading(row.factors);
       if (metres_from_mm(other.fill_mm) < rig_.cup_height_m - rig_.bottom_m) row.factors = other;
     }
-    std::map<int, Fit> fits;
+    std::map<Key, Fit> fits;
     if (rows.empty()) return fits;
     const Eigen::VectorXd other = predicted(rows);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       if (!std::isfinite(other[k]) || !std::isfinite(as_written_[k]) || other[k] == as_written_[k]) continue;
-      Fit& fit = fits[rows[i].factors.session];
+      Fit& fit = fits[key_of(rows_[i].factors)];
       ++fit.changed;
       fit.before += std::pow(rows[i].value - as_written_[k], 2);
       fit.after += std::pow(rows[i].value - other[k], 2);
@@ -104,13 +142,11 @@ void put_units_right(const Heights& heights, Measurement& measurement) {
       factors.fill_mm *= unit.mm;
       return factors;
     };
-    const std::set<int> wrong = heights.sessions_that_fit_far_better(in_unit);
+    const std::set<Filling> wrong = heights.fillings_that_fit_far_better(in_unit);
     if (wrong.empty()) continue;
-    correct([&](const Factors& f) { return wrong.contains(f.session) ? in_unit(f) : f; }, measurement);
-    const std::string whose =
-        wrong == heights.sessions() ? "" : fmt::format(" of session {}", fmt::join(wrong, " and "));
-    measurement.mistakes.push_back(
-        {"unit_error", fmt::format("Fills{} were written down in {}, not in millimetres.", whose, unit.name)});
+    correct([&](const Factors& f) { return wrong.contains(filling_of(f)) ? in_unit(f) : f; }, measurement);
+    measurement.mistakes.push_back({"unit_error", fmt::format("Fills{} were written down in {}, not in millimetres.",
+                                                              whose(wrong, heights.fillings()), unit.name)});
     return;
   }
 }

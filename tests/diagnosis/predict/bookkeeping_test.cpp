@@ -60,6 +60,19 @@ TEST(Bookkeeping, FillsInInchesInOneOfTwoSessionsAreFoundThere) {
                 truth.observations[i % truth.observations.size()].factors.fill_mm, 1e-9);
 }
 
+TEST(Bookkeeping, OnlyThoseFillsAreChangedThatAreInCentimetres) {
+  Measurement measurement = measured();
+  const Measurement truth = measurement;
+  const double fill_mm = 30.0;
+  for (Observation& o : measurement.observations)
+    if (o.factors.fill_mm == fill_mm) o.factors.fill_mm *= 0.1;
+  put_right(measurement);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].sentence, "Fills of 3 mm were written down in centimetres, not in millimetres.");
+  for (std::size_t i = 0; i < truth.observations.size(); ++i)
+    EXPECT_NEAR(measurement.observations[i].factors.fill_mm, truth.observations[i].factors.fill_mm, 1e-9);
+}
+
 TEST(Bookkeeping, ExchangedLabelsAreFound) {
   Measurement measurement = measured();
   for (Observation& o : measurement.observations)
