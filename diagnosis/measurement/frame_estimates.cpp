@@ -9,7 +9,6 @@
 namespace fathom {
 namespace {
 
-constexpr double kImageWidth = 640.0, kImageHeight = 480.0;   ///< [px] that the thirds are of
 constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
 constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
 constexpr double kFewestPixels = 100.0;
@@ -75,8 +74,8 @@ std::optional<Plane> fit_desk(std::span<const SensedPoint> points, const Laborat
 }
 
 std::size_t third_of_image(const SensedPoint& sensed, double focal_px) {
-  const double column = focal_px * sensed.point.x() / sensed.point.z() / kImageWidth + 0.5,
-               row = focal_px * sensed.point.y() / sensed.point.z() / kImageHeight + 0.5;
+  const double column = focal_px * sensed.point.x() / sensed.point.z() / kImageWidth_px + 0.5,
+               row = focal_px * sensed.point.y() / sensed.point.z() / kImageHeight_px + 0.5;
   const auto third = [](double share) { return static_cast<std::size_t>(std::clamp(3.0 * share, 0.0, 2.0)); };
   return 3 * third(row) + third(column);
 }

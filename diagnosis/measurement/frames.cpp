@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <set>
 #include <tuple>
 
 #include "core/error.h"
 #include "core/units.h"
+#include "detector/plane.h"
 
 namespace fathom {
 namespace {
@@ -18,9 +21,11 @@ constexpr std::array kColumns{"frame",  "session", "pour",        "placement",  
                               "liquid", "fill_mm", "distance_mm", "lateral_mm", "cloud"};
 
 int whole_number(const Table& frames, std::size_t row, const char* column) {
-  const double value = frames.number(row, column);
+  const std::string& cell = frames.text(row, column);
+  const bool is_number = !cell.empty() && cell.find_first_not_of("+-.0123456789eE") == std::string::npos;
+  const double value = is_number ? frames.number(row, column) : -1.0;
   if (value < 0.0 || value > 1e9 || value != std::floor(value))
-    frames.fail(row, column, fmt::format("must be a whole number from 0, got '{}'", frames.text(row, column)));
+    frames.fail(row, column, fmt::format("must be a whole number from 0, got '{}'", cell));
   return static_cast<int>(value);
 }
 
@@ -33,16 +38,81 @@ std::optional<double> not_negative(const Table& frames, std::size_t row, const c
   return value;
 }
 
-/// A cup nearer than its own radius would stand below the sensor's foot: such a distance was written in metres.
-void require_mm(const Table& frames, std::size_t row, const FrameRecord& record, const LaboratoryRig& rig) {
-  if (record.bare_desk()) return;
-  if (record.distance_m > 0.0 && record.distance_m < metres_from_mm(10.0))
-    frames.fail(row, "distance_mm", fmt::format("must be in mm, got '{}'", frames.text(row, "distance_mm")));
-  if (record.fill_m < 0.0 || record.fill_m > rig.cup_height_m - rig.bottom_m)
-    frames.fail(row, "fill_mm",
-                fmt::format("must be from 0 to {:g}, the depth of the cup, got '{}'",
-                            mm_from_metres(rig.cup_height_m - rig.bottom_m), frames.text(row, "fill_mm")));
+/// Whether any of the foot and the rim of a cup would be in the image of the sensor as the rig has it, and no cup
+/// stands far nearer than where the sensor looks: steep ones see next to their foot, where no distance is but one in
+/// cm.
+bool is_in_sight(const FrameRecord& record, const LaboratoryRig& rig) {
+  constexpr double kNear = 0.15, kNear_m = 0.1;
+  if (record.distance_m < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;
+  const Eigen::Isometry3d camera_from_desk =
+      desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse();
+  constexpr int kAround = 8;
+  for (const double height : {0.0, rig.cup_height_m})
+    for (int i = 0; i < kAround; ++i) {
+      const double azimuth = 2.0 * std::numbers::pi * i / kAround;
+      const Eigen::Vector3d point =
+          camera_from_desk *
+          Eigen::Vector3d(record.lateral_m + 0.5 * rig.baseline_m + rig.outer_radius_m * std::cos(azimuth),
+                          record.distance_m + rig.outer_radius_m * std::sin(azimuth), height);
+      if (point.z() > 0.0 && rig.focal_px * std::abs(point.x()) < 0.5 * kImageWidth_px * point.z() &&
+          rig.focal_px * std::abs(point.y()) < 0.5 * kImageHeight_px * point.z())
+        return true;
+    }
+  return false;
 }
+
+/// What a liquid and a place cannot be, most often because of another unit.
+void require_possible(const Table& frames, std::size_t row, const FrameRecord& record, const LaboratoryRig& rig) {
+  const auto must = [&](const char* column, const std::string& what) {
+    frames.fail(row, column, fmt::format("must be {}, got '{}'", what, frames.text(row, column)));
+  };
+  if (record.bare_desk()) {
+    if (record.fill_m != 0.0) must("fill_mm", "0 where the liquid is none");
+    if (record.distance_m != 0.0) must("distance_mm", "0 where the liquid is none");
+    if (record.lateral_m != 0.0) must("lateral_mm", "0 where the liquid is none");
+    return;
+  }
+  if (record.liquid == "empty" && record.fill_m != 0.0) must("fill_mm", "0 where the liquid is empty");
+  if (record.fill_m < 0.0 || record.fill_m > rig.cup_height_m - rig.bottom_m)
+    must("fill_mm",
+         fmt::format("from 0 to {:g}, the depth of the cup", mm_from_metres(rig.cup_height_m - rig.bottom_m)));
+  if (record.liquid != "empty" && record.fill_m == 0.0) must("fill_mm", "above 0, or the liquid empty");
+  if (!is_in_sight(record, rig))
+    must("distance_mm", fmt::format("in mm and, with lateral_mm {}, where the sensor of rig.json sees the cup",
+                                    frames.text(row, "lateral_mm")));
+  if (!record.cloud.empty()) return;
+  constexpr double kLeastOfBottom = 0.25, kAboveRim_mm = 5.0;  // what no noise and no wrong cup make of a height
+  const double least = kLeastOfBottom * mm_from_metres(rig.bottom_m),
+               most = mm_from_metres(rig.cup_height_m) + kAboveRim_mm;
+  if (*record.height_mm < least || *record.height_mm > most)
+    must("height_mm", fmt::format("in mm above the desk, from {:g} to {:g} in this cup", least, most));
+}
+
+/// Of the rows before a row: what it must not contradict.
+class EarlierRows {
+ public:
+  explicit EarlierRows(const Table& frames) : frames_(frames) {}
+
+  void add(std::size_t row, const FrameRecord& record) {
+    if (!names_.emplace(record.session, record.frame).second)
+      frames_.fail(row, "frame",
+                   fmt::format("must be another one for every frame of a session, got '{}' again", record.frame));
+    std::map<int, double>& times = times_[placement_of(record)];
+    const auto [here, is_new] = times.emplace(record.trial, record.time_s);
+    if (!is_new) return;  // nobody numbered these trials
+    const auto later = std::next(here);
+    if ((here != times.begin() && std::prev(here)->second > record.time_s) ||
+        (later != times.end() && later->second < record.time_s))
+      frames_.fail(
+          row, "time_s",
+          fmt::format("must not run backwards over the trials of a placement, got '{}'", frames_.text(row, "time_s")));
+  }
+
+ private:
+  const Table& frames_;
+  std::set<std::pair<int, std::string>> names_;          // session and frame
+  std::map<PlacementKey, std::map<int, double>> times_;  // by trial
+};
 
 FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<std::string>& liquids,
                        const std::filesystem::path& folder) {
@@ -85,17 +155,22 @@ void set_stood(std::vector<FrameRecord>& records) {
 
 }  // namespace
 
+PlacementKey placement_of(const FrameRecord& f) {
+  return {f.session, f.pour, f.placement, f.liquid, f.fill_m, f.distance_m, f.lateral_m};
+}
+
 std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
                                      const std::filesystem::path& folder) {
-  for (const char* column : kColumns)
-    if (!frames.has(column)) throw Error(frames.file(), "line 1", fmt::format("has no column '{}'", column));
+  for (const char* column : kColumns) frames.need(column);
   if (frames.rows() == 0) throw Error(frames.file(), "has no frames below its header");
   std::vector<std::string> liquids{"empty", "none"};
   for (const auto& [name, medium] : rig.liquids) liquids.push_back(name);
   std::vector<FrameRecord> records;
+  EarlierRows earlier(frames);
   for (std::size_t row = 0; row < frames.rows(); ++row) {
     records.push_back(read_frame(frames, row, liquids, folder));
-    require_mm(frames, row, records.back(), rig);
+    require_possible(frames, row, records.back(), rig);
+    earlier.add(row, records.back());
   }
   set_stood(records);
   return records;

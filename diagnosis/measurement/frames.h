@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 
 #include "core/table.h"
 #include "diagnosis/measurement/rig.h"
@@ -21,8 +22,14 @@ struct FrameRecord {
   bool bare_desk() const { return liquid == "none"; }
 };
 
+/// Frames that differ in their trial only.
+using PlacementKey = std::tuple<int, int, int, std::string, double, double, double>;
+PlacementKey placement_of(const FrameRecord& frame);
+
 /// In the table's order. Throws Error naming line and column: a missing column, an unknown liquid, what is no number,
-/// lengths that must be in another unit, a cloud that is not there, and neither cloud nor height.
+/// a frame that a session has twice, time that runs backwards over a placement's trials, lengths that cannot be in mm
+/// (a cup out of the sensor's sight, a fill or a height beyond the cup's), fills and places where there are none, a
+/// cloud that is not there, and neither cloud nor height.
 std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
                                      const std::filesystem::path& folder);
 

@@ -63,6 +63,9 @@ void append(Measurement more, Measurement& all) {
 Measurement read_measurements(std::span<const std::filesystem::path> folders) {
   Measurement all = read_measurement(folders.front());
   for (const std::filesystem::path& folder : folders.subspan(1)) {
+    for (const std::filesystem::path& earlier : folders)
+      if (&earlier < &folder && std::filesystem::equivalent(earlier, folder))
+        throw Error(folder.string(), "is given twice, must be another measurement");
     Measurement more = read_measurement(folder);
     require_same(more.rig, folder, all.rig, folders.front());
     append(std::move(more), all);

@@ -1,17 +1,21 @@
 #include "diagnosis/measurement/read_measurement.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <exception>
+#include <iterator>
 #include <map>
-#include <tuple>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/rng.h"
 #include "core/units.h"
 #include "detector/quiet_pcl.h"
 #include "detector/read_cloud.h"
+#include "diagnosis/measurement/copies.h"
 #include "diagnosis/measurement/desk_wander.h"
 #include "diagnosis/measurement/named_values.h"
 
@@ -20,7 +24,9 @@ namespace {
 
 struct FrameReading {
   std::vector<NamedValue> values;
-  bool is_mirrored = false;  ///< no cup stands where it should, but on the other side
+  bool is_bare = false;           ///< the desk is seen where the cup should stand
+  bool is_mirrored = false;       ///< no cup stands where it should, but on the other side
+  std::uint64_t fingerprint = 0;  ///< of the cloud
 };
 
 std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
@@ -30,6 +36,15 @@ std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
     if (cloud.points[i].allFinite() && cloud.points[i].z() > 0.0f)
       points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
   return points;
+}
+
+/// Equal for equal clouds, in whatever file; 0 without points.
+std::uint64_t fingerprint_of(const std::vector<SensedPoint>& points) {
+  std::uint64_t bits = 0;
+  for (const SensedPoint& sensed : points)
+    bits = mix_bits(bits ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(sensed.point.z())) << 32 |
+                            std::bit_cast<std::uint32_t>(sensed.intensity)));
+  return bits;
 }
 
 /// Of the pixels whose lines of sight pass through the cup's opening; nothing when there are none.
@@ -70,6 +85,13 @@ bool shows_cup(const std::optional<FrameEstimates>& estimates) {
   return estimates && estimates->interior.weight >= kFewestPixels && estimates->interior.mean > kLeastBottom;
 }
 
+/// Whether the desk is seen inside a cup whose bottom should stand clear of it.
+bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
+  constexpr double kManyPixels = 60.0;
+  const double clear = 0.3 * rig.bottom_m;
+  return clear > 0.001 && estimates.interior.weight >= kManyPixels && estimates.interior.mean < clear;
+}
+
 bool stands_mirrored(const std::vector<SensedPoint>& points, const LaboratoryRig& rig, const FrameRecord& frame,
                      const std::optional<FrameEstimates>& as_written) {
   if (frame.bare_desk() || frame.lateral_m == 0.0 || shows_cup(as_written)) return false;
@@ -85,11 +107,13 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   const Cloud cloud = read_cloud(folder / frame.cloud);
   const std::vector<SensedPoint> points = sensed_points(cloud);
   require_metres(points, folder / frame.cloud);
+  reading.fingerprint = fingerprint_of(points);
   FrameView view;
   if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates) return reading;
   reading.is_mirrored = stands_mirrored(points, rig, frame, estimates);
+  reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
   const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
     if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
@@ -118,12 +142,6 @@ std::vector<FrameReading> read_frames_of(const Measurement& measurement, const s
   for (std::size_t row = 0; row < problems.size(); ++row)
     if (!problems[row].empty()) table.fail(row, "cloud", problems[row]);
   return readings;
-}
-
-/// Frames that differ in their trial only.
-using PlacementKey = std::tuple<int, int, int, std::string, double, double, double>;
-PlacementKey key_of(const FrameRecord& f) {
-  return {f.session, f.pour, f.placement, f.liquid, f.fill_m, f.distance_m, f.lateral_m};
 }
 
 /// The values of one observable over the trials, in the order in which frames first name it.
@@ -171,42 +189,6 @@ bool put_axis_right(const std::vector<FrameReading>& readings, Measurement& meas
   return true;
 }
 
-/// Of the trials of each placement those that are no copies of earlier ones, by their readings. Where no trial differs
-/// from the others nothing is a copy: there is no noise.
-void leave_out_copies(const std::vector<FrameReading>& readings,
-                      std::map<PlacementKey, std::vector<std::size_t>>& placements, Measurement& measurement) {
-  constexpr std::size_t kFewestValues = 4;
-  constexpr std::size_t kFewestRows =
-      3;  // of a table: its numbers are rounded, so that one or two may be alike by chance
-  const auto is_copied_row = [](const FrameRecord& one, const FrameRecord& other) {
-    return one.cloud.empty() && one.height_mm && one.height_sd_mm && one.points && one.height_mm == other.height_mm &&
-           one.height_sd_mm == other.height_sd_mm && one.points == other.points;
-  };
-  const auto is_copy = [&](std::size_t a, std::size_t b) {
-    if (is_copied_row(measurement.frames[a], measurement.frames[b])) return true;
-    const auto &one = readings[a].values, &other = readings[b].values;
-    return one.size() >= kFewestValues &&
-           std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const NamedValue& x, const NamedValue& y) {
-             return x.observable == y.observable && x.value == y.value;
-           });
-  };
-  std::map<PlacementKey, std::vector<std::size_t>> different;
-  std::size_t copies = 0, repeats = 0;
-  for (const auto& [key, rows] : placements) {
-    std::vector<std::size_t>& kept = different[key];
-    for (const std::size_t row : rows)
-      if (std::none_of(kept.begin(), kept.end(), [&](std::size_t earlier) { return is_copy(earlier, row); }))
-        kept.push_back(row);
-    if (measurement.frames[rows.front()].cloud.empty() && rows.size() < kept.size() + kFewestRows) kept = rows;
-    copies += rows.size() - kept.size();
-    repeats += rows.size() - 1;
-  }
-  if (copies == 0 || copies == repeats) return;
-  placements = std::move(different);
-  measurement.mistakes.push_back(
-      {"duplicated_trial", fmt::format("{} of {} repeated trials are copies of others.", copies, repeats)});
-}
-
 void add_observations(const std::vector<std::size_t>& rows, const std::vector<FrameReading>& readings,
                       Measurement& measurement) {
   std::vector<Trials> all;
@@ -226,21 +208,40 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
     measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s, stood_s));
 }
 
-void add_notes(const std::vector<FrameReading>& readings, Measurement& measurement) {
-  std::size_t tables = 0, silent = 0;
+/// "12 of 378 clouds WHAT: frames 3, 4, …". Where it is most of them, the line of the first is an error.
+void note_clouds(const std::vector<std::size_t>& rows, std::size_t clouds, const Table& table, const char* column,
+                 const char* what, const char* wanted, Measurement& measurement) {
+  constexpr std::size_t kNamed = 5;
+  if (rows.empty()) return;
+  const std::string finding = fmt::format("{} of {} clouds {}", rows.size(), clouds, what);
+  if (2 * rows.size() > clouds) table.fail(rows.front(), column, fmt::format("{}, {}", finding, wanted));
+  std::vector<std::string> frames;
+  for (std::size_t i = 0; i < std::min(rows.size(), kNamed); ++i) frames.push_back(measurement.frames[rows[i]].frame);
+  measurement.notes.push_back(fmt::format("{} and do not count: {} {}{}", finding, rows.size() > 1 ? "frames" : "frame",
+                                          fmt::join(frames, ", "), rows.size() > kNamed ? ", …" : ""));
+}
+
+/// What shows no desk or no cup is said, and does not count.
+void leave_out_misplaced(const Table& table, std::vector<FrameReading>& readings, Measurement& measurement) {
+  std::size_t tables = 0, clouds = 0;
+  std::vector<std::size_t> silent, bare;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const FrameRecord& frame = measurement.frames[i];
     tables += frame.cloud.empty() && !frame.bare_desk();
-    silent += !frame.cloud.empty() && readings[i].values.empty();
+    clouds += !frame.cloud.empty();
+    if (!frame.cloud.empty() && readings[i].values.empty()) silent.push_back(i);
+    if (readings[i].is_bare) bare.push_back(i);
   }
   if (tables > 0)
     measurement.notes.push_back(
         fmt::format("{} of {} frames have a height and no cloud: only mean heights are compared there, which tell few "
                     "effects apart",
                     tables, readings.size()));
-  if (silent > 0)
-    measurement.notes.push_back(
-        fmt::format("{} of {} clouds show no desk where the rig says it is", silent, readings.size()));
+  note_clouds(silent, clouds, table, "cloud", "show no desk where rig.json says it is",
+              "must be in metres in the camera's frame: x right, y down, z forward", measurement);
+  note_clouds(bare, clouds, table, "distance_mm", "show the bare desk where distance_mm and lateral_mm say the cup is",
+              "must be the places of the cup's axis in mm", measurement);
+  for (const std::size_t row : bare) readings[row].values.clear();
 }
 
 }  // namespace
@@ -252,14 +253,17 @@ Measurement read_measurement(const std::filesystem::path& folder) {
   measurement.frames = read_frames(table, measurement.rig, folder);
   std::vector<FrameReading> readings = read_frames_of(measurement, folder, table);
   if (put_axis_right(readings, measurement)) readings = read_frames_of(measurement, folder, table);
+  leave_out_misplaced(table, readings, measurement);
+  std::vector<std::uint64_t> fingerprints;
+  for (const FrameReading& reading : readings) fingerprints.push_back(reading.fingerprint);
+  Copies copies = find_copies(measurement.frames, fingerprints);
+  std::move(copies.mistakes.begin(), copies.mistakes.end(), std::back_inserter(measurement.mistakes));
   std::map<PlacementKey, std::vector<std::size_t>> placements;
   for (std::size_t row = 0; row < measurement.frames.size(); ++row)
-    placements[key_of(measurement.frames[row])].push_back(row);
-  leave_out_copies(readings, placements, measurement);
+    if (!copies.left_out[row]) placements[placement_of(measurement.frames[row])].push_back(row);
   for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
   for (Observation& wander : desk_wander(measurement.observations, measurement.rig))
     measurement.observations.push_back(std::move(wander));
-  add_notes(readings, measurement);
   return measurement;
 }
 

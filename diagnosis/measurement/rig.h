@@ -9,6 +9,9 @@
 
 namespace fathom {
 
+/// Of the images that a rig's focal length is for.
+inline constexpr double kImageWidth_px = 640.0, kImageHeight_px = 480.0;
+
 /// Lengths in metres, angles in radians. What the file does not give keeps its default: the sensor model's optics, and
 /// of the paper's cup its lengths.
 struct LaboratoryRig {

@@ -84,7 +84,7 @@ TEST_F(MeasureCommand, MistakesNameTheLineAndTheColumn) {
             "line 3, column 'cloud': there is no file " + (folder / "clouds/no.pcd").string() + "\n");
   EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,\n"),
             "line 2, column 'cloud': is empty, and there is no height_mm in its place\n");
-  EXPECT_EQ(error_of("0,0\n", "frame,liquid"), "line 1: has no column 'session'\n");
+  EXPECT_EQ(error_of("0,0\n", "frame,liquid"), "line 1: has no column 'session', only frame,liquid\n");
   write_text(folder / "clouds/bad.pcd", "hello\n");
   EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,clouds/bad.pcd\n"),
             "line 2, column 'cloud': " + (folder / "clouds/bad.pcd").string() + ": is neither PCD nor PLY\n");

@@ -123,16 +123,30 @@ TEST_F(MeasurementFolder, CopiesOfTrialsDoNotCountAndAreSaid) {
   const Measurement measurement = read(different + alike);
   ASSERT_EQ(measurement.mistakes.size(), 1u);
   EXPECT_EQ(measurement.mistakes[0].id, "duplicated_trial");
-  EXPECT_EQ(measurement.mistakes[0].sentence, "1 of 2 repeated trials are copies of others.");
-  EXPECT_EQ(measurement.observations.back().repeats, 1);
+  EXPECT_EQ(measurement.mistakes[0].sentence, "2 of 4 frames are copies of others.");
+  for (const Observation& observation : measurement.observations) EXPECT_EQ(observation.factors.placement, 0);
+  EXPECT_EQ(measurement.observations.front().repeats, 2);
   // Where all trials are alike there is no noise.
   EXPECT_TRUE(read(alike).mistakes.empty());
 }
 
+TEST_F(MeasurementFolder, ACloudThatStandsForTwoConditionsCountsForNeither) {
+  fs::copy(folder / "clouds/b.pcd", folder / "clouds/copied.pcd");
+  const Measurement measurement = read(
+      "a1,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n"
+      "b1,0,1,1,0,9,water,30,300,0,clouds/b.pcd\n"
+      "b2,0,2,2,0,18,empty,0,300,0,clouds/copied.pcd\n");
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].sentence,
+            "Frames b1 and b2 have the same cloud, but another liquid, fill or place: none of them counts.");
+  for (const Observation& observation : measurement.observations) EXPECT_EQ(observation.factors.placement, 0);
+}
+
 TEST_F(MeasurementFolder, CopiedRowsOfATableAreFoundWhereChanceWouldNotMakeThem) {
-  const auto rows = [](std::initializer_list<const char*> trials) {
+  int next = 0;
+  const auto rows = [&](std::initializer_list<const char*> trials) {
     std::string text;
-    for (const char* trial : trials) text += fmt::format("0,0,0,0,{},0,water,20,300,0,,{}\n", text.size(), trial);
+    for (const char* trial : trials) text += fmt::format("{0},0,0,0,{0},0,water,20,300,0,,{1}\n", next++, trial);
     return text;
   };
   const std::string header = std::string(kHeader) + ",height_mm,height_sd_mm,points";
@@ -142,7 +156,7 @@ TEST_F(MeasurementFolder, CopiedRowsOfATableAreFoundWhereChanceWouldNotMakeThem)
   EXPECT_TRUE(read(once + rows({"15.1,0.8,900", "15.4,0.9,901", "15.0,0.8,903"}), header).mistakes.empty());
   const Measurement twice = read(once + rows(first), header);
   ASSERT_EQ(twice.mistakes.size(), 1u);
-  EXPECT_EQ(twice.mistakes[0].sentence, "3 of 5 repeated trials are copies of others.");
+  EXPECT_EQ(twice.mistakes[0].sentence, "3 of 6 frames are copies of others.");
   EXPECT_EQ(twice.observations.back().repeats, 3);
 }
 
@@ -165,7 +179,7 @@ TEST_F(MeasurementFolder, AMirroredAxisIsPutRight) {
   write_pcd(folder / "clouds/left.pcd", at(-0.1));
   std::string rows;
   for (int i = 0; i < 4; ++i)
-    rows += fmt::format("{},0,0,{},0,{},water,20,300,{},clouds/{}.pcd\n", i, i, i, i % 2 ? -100 : 100,
+    rows += fmt::format("{},0,0,{},{},{},water,20,300,{},clouds/{}.pcd\n", i, i % 2, i / 2, i, i % 2 ? -100 : 100,
                         i % 2 ? "right" : "left");
   const Measurement measurement = read(rows);
   ASSERT_EQ(measurement.mistakes.size(), 1u);
@@ -191,15 +205,28 @@ TEST_F(MeasurementFolder, ATableOfHeightsWorksAndSaysWhatItLacks) {
   EXPECT_EQ(measurement.notes[0].rfind("2 of 2 frames have a height and no cloud", 0), 0u);
 }
 
+TEST_F(MeasurementFolder, WhatShowsTheDeskInPlaceOfItsCupDoesNotCount) {
+  const std::string right = "0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/b.pcd\n";
+  const Measurement measurement = read(right + "beside,0,0,1,0,9,water,20,300,150,clouds/tilted.pcd\n");
+  ASSERT_EQ(measurement.notes.size(), 1u);
+  EXPECT_EQ(measurement.notes[0],
+            "1 of 3 clouds show the bare desk where distance_mm and lateral_mm say the cup is and do not count: frame "
+            "beside");
+  for (const Observation& observation : measurement.observations) EXPECT_EQ(observation.factors.placement, 0);
+}
+
 TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
   expect_refused("", "has no frames below its header");
-  expect_refused("0,0\n", "line 1: has no column 'session'", "frame,liquid");
+  expect_refused("0,0\n", "line 1: has no column 'session', only frame,liquid", "frame,liquid");
   expect_refused("0,0,0,0,0,0,wine,0,300,0,clouds/a.pcd\n",
                  "line 2, column 'liquid': unknown liquid 'wine', choose from empty, none, water");
   expect_refused("0,0,0.5,0,0,0,water,0,300,0,clouds/a.pcd\n",
                  "line 2, column 'pour': must be a whole number from 0, got '0.5'");
   expect_refused("0,0,0,0,0,0,water,0,300,0,clouds/none.pcd\n", "line 2, column 'cloud': there is no file ");
-  expect_refused("0,0,0,0,0,0,water,20,0.3,0,clouds/a.pcd\n", "line 2, column 'distance_mm': must be in mm, got '0.3'");
+  expect_refused(
+      "0,0,0,0,0,0,water,20,0.3,0,clouds/a.pcd\n",
+      "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json sees the "
+      "cup, got '0.3'");
   expect_refused("0,0,0,0,0,0,water,200,300,0,clouds/a.pcd\n",
                  "line 2, column 'fill_mm': must be from 0 to 80, the depth of the cup, got '200'");
   expect_refused("0,0,0,0,0,0,water,20,300,0,,nan\n", "line 2, column 'height_mm': must be a finite number, got 'nan'",
@@ -207,9 +234,39 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
   expect_refused(
       "0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/mm.pcd\n",
       "line 3, column 'cloud': " + (folder / "clouds/mm.pcd").string() + ": must be in metres: a point lies ");
+  expect_refused(
+      "0,0,0,0,0,0,water,20,300,150,clouds/a.pcd\n",
+      "line 2, column 'distance_mm': 1 of 1 clouds show the bare desk where distance_mm and lateral_mm say the cup is, "
+      "must be the places of the cup's axis in mm");
+  write_pcd(folder / "clouds/lower.pcd", ideal_cloud(1.2 * kHeight, 0.020));
+  expect_refused(
+      "0,0,0,0,0,0,water,20,300,0,clouds/lower.pcd\n",
+      "line 2, column 'cloud': 1 of 1 clouds show no desk where rig.json says it is, must be in metres in the "
+      "camera's frame: x right, y down, z forward");
   write_text(folder / "clouds/bad.pcd", "hello\n");
   expect_refused("0,0,0,0,0,0,water,20,300,0,clouds/bad.pcd\n",
                  "line 2, column 'cloud': " + (folder / "clouds/bad.pcd").string() + ": is neither PCD nor PLY");
+}
+
+TEST_F(MeasurementFolder, RowsMustBePossible) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"0,may,0,0,0,0,water,20,300,0,,15", "line 2, column 'session': must be a whole number from 0, got 'may'"},
+      {"0,0,,0,0,0,water,20,300,0,,15", "line 2, column 'pour': must be a whole number from 0, got ''"},
+      {"0,0,0,0,0,0,none,20,0,0,,", "line 2, column 'fill_mm': must be 0 where the liquid is none, got '20'"},
+      {"0,0,0,0,0,0,empty,20,300,0,,7", "line 2, column 'fill_mm': must be 0 where the liquid is empty, got '20'"},
+      {"0,0,0,0,0,0,water,20,30,0,,15",
+       "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json sees the cup, "
+       "got '30'"},
+      {"0,0,0,0,0,0,water,20,300,-5000,,15",
+       "line 2, column 'distance_mm': must be in mm and, with lateral_mm -5000, where the sensor of rig.json sees the "
+       "cup, got '300'"},
+      {"0,0,0,0,0,0,water,20,300,0,,1.5",
+       "line 2, column 'height_mm': must be in mm above the desk, from 1.75 to 92 in this cup, got '1.5'"},
+      {"0,0,0,0,0,0,water,20,300,0,,15\n0,0,0,0,1,1,water,20,300,0,,15",
+       "line 3, column 'frame': must be another one for every frame of a session, got '0' again"},
+      {"0,0,0,0,0,9,water,20,300,0,,15\n1,0,0,0,1,8,water,20,300,0,,15",
+       "line 3, column 'time_s': must not run backwards over the trials of a placement, got '8'"}};
+  for (const auto& [row, what] : rows) expect_refused(row, what, kHeader + std::string(",height_mm"));
 }
 
 }  // namespace

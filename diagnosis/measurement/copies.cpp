@@ -1,0 +1,85 @@
+#include "diagnosis/measurement/copies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace fathom {
+namespace {
+
+constexpr std::size_t kFewestRows =
+    3;  // of a table: its numbers are rounded, so that one or two may be alike by chance
+
+/// A row and the earlier one that it repeats.
+struct Pair {
+  std::size_t row, earlier;
+};
+
+std::vector<Pair> equal_clouds(std::span<const std::uint64_t> fingerprints) {
+  std::map<std::uint64_t, std::size_t> first;
+  std::vector<Pair> pairs;
+  for (std::size_t row = 0; row < fingerprints.size(); ++row) {
+    if (fingerprints[row] == 0) continue;
+    const auto [known, is_new] = first.emplace(fingerprints[row], row);
+    if (!is_new) pairs.push_back({row, known->second});
+  }
+  return pairs;
+}
+
+std::vector<Pair> equal_numbers(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& placement) {
+  std::map<std::tuple<double, double, double>, std::size_t> first;
+  std::vector<Pair> pairs;
+  for (const std::size_t row : placement) {
+    const FrameRecord& frame = frames[row];
+    if (!frame.cloud.empty() || !frame.height_mm || !frame.height_sd_mm || !frame.points) continue;
+    const auto [known, is_new] = first.emplace(std::tuple(*frame.height_mm, *frame.height_sd_mm, *frame.points), row);
+    if (!is_new) pairs.push_back({row, known->second});
+  }
+  return pairs.size() < kFewestRows ? std::vector<Pair>{} : pairs;
+}
+
+bool are_of_one_condition(const FrameRecord& a, const FrameRecord& b) {
+  return a.liquid == b.liquid && a.fill_m == b.fill_m && a.distance_m == b.distance_m && a.lateral_m == b.lateral_m;
+}
+
+}  // namespace
+
+Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::uint64_t> fingerprints) {
+  std::map<PlacementKey, std::vector<std::size_t>> placements;
+  for (std::size_t row = 0; row < frames.size(); ++row) placements[placement_of(frames[row])].push_back(row);
+  std::vector<Pair> pairs = equal_clouds(fingerprints);
+  for (const auto& [key, rows] : placements)
+    for (const Pair& pair : equal_numbers(frames, rows)) pairs.push_back(pair);
+
+  const std::size_t repeats = frames.size() - placements.size();
+  const auto in_placements = static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+    return placement_of(frames[pair.row]) == placement_of(frames[pair.earlier]);
+  }));
+  const bool is_without_noise = repeats > 0 && in_placements == repeats;
+
+  Copies copies{std::vector<bool>(frames.size()), {}};
+  std::size_t repeated = 0;
+  std::vector<std::string> contradictions;  // names of frames
+  for (const auto& [row, earlier] : pairs) {
+    const bool is_contradiction = !are_of_one_condition(frames[row], frames[earlier]);
+    if (!is_contradiction && is_without_noise) continue;
+    copies.left_out[row] = true;
+    repeated += !is_contradiction;
+    if (!is_contradiction) continue;
+    copies.left_out[earlier] = true;
+    contradictions.push_back(fmt::format("{} and {}", frames[earlier].frame, frames[row].frame));
+  }
+  if (repeated > 0)
+    copies.mistakes.push_back(
+        {"duplicated_trial", fmt::format("{} of {} frames are copies of others.", repeated, frames.size())});
+  if (!contradictions.empty())
+    copies.mistakes.push_back(
+        {"duplicated_trial",
+         fmt::format("Frames {}{} have the same cloud, but another liquid, fill or place: none of them counts.",
+                     contradictions.front(),
+                     contradictions.size() > 1 ? fmt::format(", and {} more pairs,", contradictions.size() - 1) : "")});
+  return copies;
+}
+
+}  // namespace fathom

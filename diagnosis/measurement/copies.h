@@ -1,0 +1,23 @@
+// Frames that were not measured but copied: one cloud, or the same numbers, in two rows.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "diagnosis/measurement/frames.h"
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+struct Copies {
+  std::vector<bool> left_out;     ///< of each frame, whether it does not count
+  std::vector<Mistake> mistakes;  ///< "duplicated_trial"
+};
+
+/// Of a cloud that stands in several rows of one liquid, fill and place the first counts; of one that stands for two of
+/// these, none: nobody knows which it was. Where all trials repeat the first of their placement nothing is a copy:
+/// there is no noise. `fingerprints` are equal where clouds are; 0 where there is none. Of rows without clouds height,
+/// spread and points tell, within a placement.
+Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::uint64_t> fingerprints);
+
+}  // namespace fathom
