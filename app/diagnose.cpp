@@ -46,6 +46,8 @@ Json model_json(const Json& had, const Diagnosis& diagnosis, const Json& provena
     model["effects"] = had["effects"];
     model["provenance"]["earlier"] = had.value("provenance", Json::object());
   }
+  for (const Mistake& mistake : diagnosis.mistakes)
+    model["provenance"]["mistakes"].push_back({{"name", mistake.id}, {"sentence", mistake.sentence}});
   const bool is_sure = diagnosis.verdict == Verdict::named || diagnosis.verdict == Verdict::named_and_unknown;
   if (!is_sure) return model;
   std::vector<std::string> parameters;  // of the covariance's rows: the effect's place in the list and the key
@@ -74,10 +76,12 @@ void add_inverses(const Diagnosis& diagnosis, Json& report) {
           {"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
 }
 
-std::string rows_text(const Diagnosis& diagnosis, const fs::path& output, bool as_json) {
+std::string rows_text(const Diagnosis& diagnosis, const std::vector<std::string>& notes, const fs::path& output,
+                      bool as_json) {
   if (as_json) return json_from(diagnosis).dump(2) + "\n";
   std::string text = answer(diagnosis) + "\n";
-  for (const std::string& warning : diagnosis.warnings) text += "note: " + warning + "\n";
+  for (const auto& sentences : {notes, diagnosis.warnings})
+    for (const std::string& sentence : sentences) text += "note: " + sentence + "\n";
   return text + fmt::format("report: {}\n", (output / "report.html").string());
 }
 
@@ -102,17 +106,19 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   require_gnuplot();
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
-  Progress progress("diagnose", 3, common.quiet);
+  std::optional<Progress> progress(std::in_place, "diagnose", 3, common.quiet);
   Measurement measurement = read_measurements(options.folders);
   const std::string rig_file = (options.folders.front() / "rig.json").string();
   put_bookkeeping_right(had, rig_file, measurement);
-  progress.step();
+  progress->step();
   Physics physics = physics_of(measurement, had, rig_file);
+  make_directory(common.output);  // what cannot be written shows before the long work
+  remove_leftovers(common.output);
   std::erase_if(physics.evidence.candidates, [&](const Candidate& candidate) {
     return std::find(options.without.begin(), options.without.end(), effect_name(candidate.effect).id) !=
            options.without.end();
   });
-  progress.step();
+  progress->step();
   DecisionSettings settings;
   settings.seed = common.seed;
   const std::vector<MeasurementPlan> plans = possible_plans(measurement);
@@ -128,7 +134,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                              .notes = measurement.notes,
                              .diagnosis = decide(physics.evidence, physics.predict, designs, settings),
                              .ray_traced_html = {}};
-  progress.step();
+  progress.reset();
   std::optional<RayTracedDiagnosis> traced;
   const Diagnosis by_few_rays = campaign.diagnosis;
   if (options.fidelity == "photometric" && by_few_rays.verdict != Verdict::insufficient) {
@@ -149,7 +155,6 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                            {"seed", common.seed},
                            {"frames", measurement.frames.size()},
                            {"observations", campaign.observations.size()}};
-  make_directory(common.output);
   Json report = json_from(campaign.diagnosis);
   add_inverses(campaign.diagnosis, report);
   if (traced) add_ray_traced(*traced, by_few_rays, report);
@@ -160,7 +165,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   write_next(common.output, campaign.diagnosis, plans, measurement.rig);
   write_json(common.output / "model.json", model_json(earlier, campaign.diagnosis, provenance));
   write_json(common.output / "report.json", report);
-  fmt::print("{}", rows_text(campaign.diagnosis, common.output, common.json));
+  fmt::print("{}", rows_text(campaign.diagnosis, measurement.notes, common.output, common.json));
 }
 
 }  // namespace

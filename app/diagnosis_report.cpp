@@ -23,6 +23,12 @@ std::string list(const std::vector<std::string>& items) {
   return html + "</ul>\n";
 }
 
+std::string mistakes_html(const Diagnosis& diagnosis) {
+  Rows rows;
+  for (const Mistake& mistake : diagnosis.mistakes) rows.push_back({effect_words(mistake.id), mistake.sentence});
+  return html_table({"mistake", "what was found, and put right for all that follows"}, rows);
+}
+
 std::string where_html(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) return paragraph("No part of the measurements departs from the model for sure.");
   Rows rows;
@@ -126,6 +132,7 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
   const Diagnosis& diagnosis = campaign.diagnosis;
   std::string html = fmt::format("<h1>Where model and measurement differ: {}</h1>\n<p class=\"answer\">{}</p>\n",
                                  html_escaped(campaign.name), html_escaped(answer(diagnosis)));
+  if (!diagnosis.mistakes.empty()) html += heading("What was written down wrongly") + mistakes_html(diagnosis);
   if (!diagnosis.warnings.empty()) html += heading("Look at this first") + list(diagnosis.warnings);
   if (!campaign.notes.empty()) html += heading("What limits this") + list(campaign.notes);
   if (diagnosis.verdict == Verdict::insufficient) {
