@@ -79,6 +79,14 @@ void require_metres(const std::vector<SensedPoint>& points, const std::filesyste
   if (z > kFarthest) throw Error(file.string(), fmt::format("must be in metres: a point lies {:g} away", z));
 }
 
+/// Whether a fitted plane may be the desk that the rig stands on: within what the detector allows one.
+bool is_near(const Plane& desk, const LaboratoryRig& rig) {
+  const PlaneSearch allowed;
+  const Plane expected = plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad});
+  return desk.normal.dot(expected.normal) > std::cos(allowed.prior_angle_max_rad) &&
+         std::abs(desk.offset - expected.offset) < allowed.prior_height_max_m;
+}
+
 /// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
 bool shows_cup(const std::optional<FrameEstimates>& estimates) {
   constexpr double kLeastBottom = 0.002, kFewestPixels = 10.0;
@@ -87,9 +95,9 @@ bool shows_cup(const std::optional<FrameEstimates>& estimates) {
 
 /// Whether the desk is seen inside a cup whose bottom should stand clear of it.
 bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
-  constexpr double kManyPixels = 60.0;
+  constexpr double kFewestPixels = 10.0;
   const double clear = 0.3 * rig.bottom_m;
-  return clear > 0.001 && estimates.interior.weight >= kManyPixels && estimates.interior.mean < clear;
+  return clear > 0.001 && estimates.interior.weight >= kFewestPixels && estimates.interior.mean < clear;
 }
 
 bool stands_mirrored(const std::vector<SensedPoint>& points, const LaboratoryRig& rig, const FrameRecord& frame,
@@ -111,7 +119,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   FrameView view;
   if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
-  if (!estimates) return reading;
+  if (!estimates || !is_near(estimates->desk, rig)) return reading;
   reading.is_mirrored = stands_mirrored(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);

@@ -1,11 +1,14 @@
 // What `fathom diagnose` promises: silence where nothing is hidden, the name and size of what is, and a model that has
 // it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "core/files.h"
 #include "core/json.h"
+#include "core/table.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/temporary_folder.h"
 
@@ -137,6 +140,41 @@ TEST_F(DiagnoseCommand, SaysWhatIsMissing) {
   const Json report = diagnosis("out");
   EXPECT_EQ(report["verdict"], "insufficient");
   EXPECT_FALSE(report["missing"].empty());
+}
+
+TEST_F(DiagnoseCommand, MistakesStandInEveryReport) {
+  measure(Json::array());
+  Table frames = read_table(folder / "campaign" / "frames.csv");
+  for (std::size_t row = 0; row < frames.rows(); ++row)
+    frames.set(row, "fill_mm", fmt::format("{}", 0.1 * frames.number(row, "fill_mm")));
+  write_table(folder / "campaign" / "frames.csv", frames);
+  const Json report = diagnosis("out");
+  const std::string sentence = "Fills were written down in centimetres, not in millimetres.";
+  const Json mistake{{"name", "unit_error"}, {"sentence", sentence}};
+  EXPECT_EQ(report["effects"], Json::array({mistake}));
+  EXPECT_EQ(read_json(folder / "out" / "model.json")["provenance"]["mistakes"], Json::array({mistake}));
+  EXPECT_NE(read_text(folder / "out" / "report.html").find("<td>" + sentence + "</td>"), std::string::npos);
+}
+
+TEST_F(DiagnoseCommand, AKilledRunLeavesWholeFilesOnly) {
+  measure(Json::array());
+  for (const int files : {1, 3, 5, 8}) {
+    std::filesystem::remove_all(folder / "out");
+    const std::string killed = fmt::format(
+        "{} diagnose {} -o {} > /dev/null 2>&1 & run=$!; "
+        "until [ $(ls -A {} 2> /dev/null | wc -l) -ge {} ] || ! kill -0 $run; do sleep 0.002; done; kill -KILL $run",
+        FATHOM_PROGRAM, path("campaign"), path("out"), path("out"), files);
+    ASSERT_EQ(std::system(killed.c_str()), 0) << "it ended before it wrote " << files << " files";
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+      if (entry.path().filename().string().starts_with('.')) continue;
+      const bool is_html = entry.path().extension() == ".html", is_json = entry.path().extension() == ".json";
+      EXPECT_TRUE(!is_html || read_text(entry.path()).ends_with("</html>\n")) << entry.path();
+      EXPECT_NO_THROW(is_json ? read_json(entry.path()) : Json()) << entry.path();
+    }
+  }
+  diagnosis("out");
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+    EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
 }
 
 TEST_F(DiagnoseCommand, KnowsTwoFidelities) {
