@@ -10,7 +10,6 @@ namespace fathom {
 
 namespace {
 
-constexpr int kVerified = 8;  // sets that are put to the tests, at most
 constexpr int kConfirmationDraws = 300;
 constexpr double kNearlyAll = 0.9;  // of the gap's squares
 
@@ -72,6 +71,19 @@ std::optional<std::vector<NamedEffect>> verified(const Case& c, const Refit& fit
   return effects;
 }
 
+bool is_part(const Refit& part, const Refit& whole) {
+  const std::vector<int>&few = part.hypothesis.effects, &all = whole.hypothesis.effects;
+  return std::includes(all.begin(), all.end(), few.begin(), few.end());
+}
+
+/// Whether more effects, not much less likely, take so much more from the residual that each may be discovered.
+bool adds_enough(const Case& c, const Refit& more, const Refit& fit) {
+  const double least = std::pow(c.discovery.quantile(c.settings.p_discovery), 2);
+  const auto added = static_cast<double>(more.hypothesis.effects.size() - fit.hypothesis.effects.size());
+  return more.hypothesis.log_evidence > fit.hypothesis.log_evidence - c.settings.delta &&
+         more.hypothesis.gain > fit.hypothesis.gain + added * least;
+}
+
 /// Whether every option that is not excluded has this effect, in whatever liquid.
 bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
   const auto id_of = [&](int candidate) { return effect_name(c.evidence.candidates[candidate].effect).id; };
@@ -88,15 +100,16 @@ bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
   const auto first = std::find_if(fits.begin(), fits.end(), [](const Refit& f) { return f.hypothesis.effects.size(); });
   if (first == fits.end()) return std::nullopt;
-  const std::vector<int>& likeliest = first->hypothesis.effects;
-  int tried = 0;
-  for (const Refit& fit : fits) {
-    const Hypothesis& h = fit.hypothesis;
-    const bool is_subset = std::includes(likeliest.begin(), likeliest.end(), h.effects.begin(), h.effects.end());
-    if (h.effects.empty() || !is_subset || h.log_evidence < 0.0) continue;  // BIC's opinion: nothing is likelier
-    if (++tried > kVerified) return std::nullopt;
-    if (auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, fit)))
-      return Choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, fit), std::move(*effects)};
+  std::vector<const Refit*> nested;  // largest sets first
+  for (const Refit& fit : fits)
+    if (is_part(fit, *first) || (is_part(*first, fit) && adds_enough(c, fit, *first))) nested.push_back(&fit);
+  std::stable_sort(nested.begin(), nested.end(), [](const Refit* a, const Refit* b) {
+    return a->hypothesis.effects.size() > b->hypothesis.effects.size();
+  });
+  for (const Refit* fit : nested) {
+    if (fit->hypothesis.effects.empty() || fit->hypothesis.log_evidence < 0.0) continue;  // nothing is likelier
+    if (auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, *fit)))
+      return Choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, *fit), std::move(*effects)};
   }
   return std::nullopt;
 }

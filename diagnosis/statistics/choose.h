@@ -16,7 +16,8 @@ struct Choice {
   std::vector<NamedEffect> effects;  ///< with their evidence, without parameters
 };
 
-/// The likeliest set of effects, or the likeliest of its subsets, that passes all tests. `fits`: likeliest first.
+/// The largest that passes all tests of the likeliest set of effects, its subsets, and sets that hold it and take so
+/// much more from the residual that chance does not. `fits`: likeliest first.
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits);
 
 /// Where no set as a whole passes: of the effects that pass in the likeliest set and that all explanations have, the

@@ -88,8 +88,9 @@ Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral
   factors.distance_mm = distance_mm, factors.lateral_mm = lateral_mm;
   const Eigen::Vector2d place(metres_from_mm(lateral_mm), metres_from_mm(distance_mm));
   const auto seen = [&](const Json& those) -> Eigen::Vector3d {
-    const auto frame = surrogate_frame(paper_setup(factors, those), rig, place, sample_pixels(rig, place)).estimates;
-    const CupOutline& outline = frame->outline.value();
+    const FrameEstimates frame =
+        surrogate_frame(paper_setup(factors, those), rig, place, sample_pixels(rig, place)).estimates.value();
+    const CupOutline& outline = frame.outline.value();
     return 1e3 * Eigen::Vector3d(outline.off.x(), outline.off.y(), outline.wider);
   };
   return seen(effects) - seen(Json::array());

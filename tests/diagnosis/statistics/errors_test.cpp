@@ -90,17 +90,19 @@ double shared_variance(const Evidence& evidence) {
   return 0.0;
 }
 
-TEST(SharedErrors, AreAsLargeAsTheDataShow) {
+TEST(SharedErrors, AreAsLargeAsTheDataShowAndAtMostTwiceAsLargeAsThought) {
   const World world;
   constexpr int kSets = 8;
-  double large = 0.0, none = 0.0;
+  double large = 0.0, too_large = 0.0, none = 0.0;
   for (int set = 0; set < kSets; ++set) {
-    large += shared_variance(with_error_of_conditions(world, 0.4, 0.05, set)) / kSets;
+    large += shared_variance(with_error_of_conditions(world, 0.4, 0.25, set)) / kSets;
+    too_large += shared_variance(with_error_of_conditions(world, 0.4, 0.05, set)) / kSets;
     none += shared_variance(with_error_of_conditions(world, 0.0, 0.2, set)) / kSets;
   }
   // 63 conditions, of which the candidates leave half: each variance scatters by a quarter, the mean of eight by a
   // tenth; the ten degrees of freedom of what was thought pull by a quarter as well.
   EXPECT_NEAR(std::sqrt(large), 0.4, 0.1);
+  EXPECT_NEAR(std::sqrt(too_large), 0.1, 1e-9);
   EXPECT_LT(std::sqrt(none), 0.15) << "errors that are not there are believed less than they were thought";
 }
 
