@@ -10,11 +10,21 @@ namespace {
 
 struct RealDesks : testing::TestWithParam<std::string> {};
 
+/// The slow bias that this unit's memorised image has left is smooth and lens-like: a distortion explains it as well.
+bool is_name_of(const std::string& effect, const std::string& known) {
+  return effect == known || (known == "reference_residue" && effect == "radial_distortion");
+}
+
 TEST_P(RealDesks, NameWhatTheModelLacks) {
   const auto found = diagnose_desks(GetParam());
   if (!found) GTEST_SKIP() << "no measured clouds: FATHOM_REAL_DATA names no folder with mOSD in it";
-  const std::vector<NamedEffect>& effects = found->diagnosis.effects;
-  EXPECT_TRUE(std::any_of(effects.begin(), effects.end(), [](const NamedEffect& e) { return e.name == GetParam(); }));
+  const auto is_it = [](const NamedEffect& e) { return is_name_of(e.name, GetParam()); };
+  const auto holds_it = [](const Explanation& explanation) {
+    return std::count(explanation.effects.begin(), explanation.effects.end(), GetParam()) > 0;
+  };
+  const Diagnosis& diagnosis = found->diagnosis;
+  EXPECT_TRUE(std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), is_it));
+  EXPECT_TRUE(std::any_of(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), holds_it));
   EXPECT_LT(found->after, 1.0);  // in errors: the gap is closed
   EXPECT_GT(found->before, 2.0);
 }
