@@ -232,7 +232,10 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
   with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
   check_folder(common.output, identity);
-  if (!options.truth.empty()) write_json(options.truth, truth_json(placements, effects));
+  if (!options.truth.empty()) {
+    if (options.truth.has_parent_path()) make_directory(options.truth.parent_path());
+    write_json(options.truth, truth_json(placements, effects));
+  }
   claim_folder(common.output, identity);
   write_json(common.output / "rig.json", json_from_laboratory_rig(spec.nominal));
   Progress progress("placement", placements.size(), common.quiet);

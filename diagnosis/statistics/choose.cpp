@@ -107,7 +107,7 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
     return a->hypothesis.effects.size() > b->hypothesis.effects.size();
   });
   for (const Refit* fit : nested) {
-    if (fit->hypothesis.effects.empty() || fit->hypothesis.log_evidence < 0.0) continue;  // nothing is likelier
+    if (fit->hypothesis.effects.empty() || fit->hypothesis.log_evidence < std::log(kSureOdds)) continue;
     if (auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, *fit)))
       return Choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, *fit), std::move(*effects)};
   }

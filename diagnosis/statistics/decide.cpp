@@ -21,8 +21,6 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSureOdds = 20.0;  // that an effect must add to something unknown, and all of them to nothing
-
 /// Of the likeliest option that has these effects, with something unknown or without.
 double log_posterior_with(const std::vector<Option>& options, const std::vector<int>& effects) {
   double best = -INFINITY;
@@ -52,8 +50,7 @@ Verdict verdict_of_named(const Case& c, const Choice& choice, bool is_rest, cons
 Verdict verdict_of_unnamed(const Case& c, bool is_rest, const AmbiguitySet& set) {
   if (is_rest || set.classes.front().options.front().has_unknown) return Verdict::unknown;
   if (!c.evidence.mistakes.empty()) return Verdict::named;
-  // Some effect may still be needed: then nothing at all is no explanation any more. Where nothing is wrong, odds like
-  // these turn up once in as many measurements at most (Markov's inequality).
+  // Some effect may still be needed: then nothing at all is no explanation any more.
   return kSureOdds * probability_of_nothing(set) > 1.0 ? Verdict::none : Verdict::ambiguous;
 }
 

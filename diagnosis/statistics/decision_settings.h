@@ -5,6 +5,10 @@
 
 namespace fathom {
 
+/// Odds at which something is sure: that an effect is needed beside something unknown, or at all, or something at all.
+/// Where nothing is wrong, odds like these turn up once in as many measurements at most (Markov's inequality).
+inline constexpr double kSureOdds = 20.0;
+
 /// Frozen on the development seeds of bench/diagnosis_statistics.
 struct DecisionSettings {
   std::uint64_t seed = 1;

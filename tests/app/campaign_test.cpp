@@ -82,8 +82,8 @@ TEST_F(CampaignCommand, EqualSeedsGiveEqualFilesOthersDoNot) {
 }
 
 TEST_F(CampaignCommand, TheTruthStaysOutOfTheFolder) {
-  ASSERT_EQ(campaign(kSpec, "out", "--truth " + (folder / "truth.json").string()).exit_code, 0);
-  const Json truth = read_json(folder / "truth.json");
+  ASSERT_EQ(campaign(kSpec, "out", "--truth " + (folder / "new" / "truth.json").string()).exit_code, 0);
+  const Json truth = read_json(folder / "new" / "truth.json");
   ASSERT_EQ(truth["placements"].size(), 4u);
   const double fill_mm = truth["placements"][2]["fill_mm"];
   EXPECT_NE(fill_mm, 30.0);
