@@ -1,5 +1,7 @@
 #include "diagnosis/statistics/mean_space.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <array>
 #include <cmath>
@@ -61,14 +63,14 @@ Eigen::MatrixXd polynomials(const std::vector<Observation>& observations) {
   return result;
 }
 
-void add_signatures(const Evidence& evidence, const std::vector<Eigen::Index>& rows, Span& means) {
-  for (const Candidate& candidate : evidence.candidates)
-    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
-      means.add(Eigen::VectorXd(candidate.signature.col(k))(rows));
-}
-
-/// What goes on as sessions do, whether a candidate says so or not: a parabola over their time.
+/// What goes on as sessions do, whether a candidate says so or not: a parabola over their time. Pours follow time as
+/// well: it is left to them where too few would be left to say how they scatter.
 void add_drift(const std::vector<Observation>& observations, Span& means) {
+  constexpr int kFewestFreePours = 8;
+  const Groups fillings = group_by(observations, [](const Observation& o) {
+    return o.factors.liquid == "none" ? "" : fmt::format("{}, {} mm", o.factors.liquid, o.factors.fill_mm);
+  });
+  if (group_by(observations, pour_key).count - fillings.count < kFewestFreePours) return;
   Eigen::VectorXd time(static_cast<Eigen::Index>(observations.size()));
   for (Eigen::Index i = 0; i < time.size(); ++i) time[i] = observations[i].factors.time_s;
   time /= std::max(time.maxCoeff(), 1e-12);
@@ -94,7 +96,6 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
     Span means(n, n - kFewestReplicates);
     const Eigen::MatrixXd columns = indicators(cells);
     for (Eigen::Index k = 0; k < columns.cols(); ++k) means.add(columns.col(k));
-    add_signatures(evidence, rows, means);
     add_drift(observations, means);
     return {means.complement(), true};
   }
@@ -106,7 +107,9 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
   const Eigen::MatrixXd shapes = polynomials(observations);
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
                shapes.leftCols(1));
-  add_signatures(evidence, rows, means);
+  for (const Candidate& candidate : evidence.candidates)
+    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
+      means.add(Eigen::VectorXd(candidate.signature.col(k))(rows));
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
   add_products(indicators(group_by(observations,
                                    [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),

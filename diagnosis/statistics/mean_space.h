@@ -18,7 +18,7 @@ struct MeanSpace {
 Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::MatrixXd& weights);
 
 /// For the rows of one observable. Where at least eight contrasts lie within cells (equal conditions, observable and
-/// region), those that no candidate's signature and no drift over the sessions changes. Otherwise the mean may be
+/// region), those that no drift over the sessions changes. Otherwise the mean may be
 /// anything that the candidates' signatures and second-degree polynomials in fill, distance and lateral, for each
 /// liquid and region, make: as many of them as leave half of the rows.
 MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& rows);

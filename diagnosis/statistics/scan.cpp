@@ -103,14 +103,15 @@ std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen:
     const Eigen::VectorXd squares = left.colwise().squaredNorm();
     Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
     z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
+    const Eigen::ArrayXd scores = z.binaryExpr(dof, &normal_score).array();
+    const Eigen::ArrayXd p = scores.unaryExpr([&](double score) { return tail.p(score); });
+    // Of what chance does not explain the largest, though it may be known by fewer degrees of freedom.
     Eigen::Index best = 0;
-    const double largest = z.binaryExpr(dof, &normal_score).maxCoeff(&best);
-    const double p = tail.p(largest);
-    if (p >= level) break;
+    if ((p < level).select(z.array().abs(), 0.0).maxCoeff(&best) == 0.0) break;
     const Stratum& stratum = strata[best];
     const double sigma = 1.0 / std::sqrt(squares[best]);
     result.push_back(
-        {stratum.observable, stratum.name, z[best] * sigma, sigma, std::min(1.0, z[best] * z[best] / gap), p});
+        {stratum.observable, stratum.name, z[best] * sigma, sigma, std::min(1.0, z[best] * z[best] / gap), p[best]});
     const Eigen::VectorXd direction = left.col(best).normalized();
     residual -= direction * direction.dot(residual);
     left -= direction * (direction.transpose() * left);
