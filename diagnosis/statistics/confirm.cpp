@@ -15,7 +15,7 @@ namespace fathom {
 namespace {
 
 constexpr int kThirds = 3;
-constexpr double kInformative = 0.02;  // share of an effect's information that makes a fold count
+constexpr double kInformative = 0.02;  // share of an effect's information that makes a part count
 constexpr int kFlips = 1999;
 constexpr int kFewestPours = 6;
 
@@ -108,10 +108,13 @@ std::vector<Confirmation> confirm(const std::vector<Observation>& observations, 
     const auto rows = rows_in(folds, confirming, true);
     if (rows.empty() || rows.size() == observations.size()) continue;
     const Part tested(covariance, fit, draws, rows);
-    const Eigen::MatrixXd found = Part(covariance, fit, draws, rows_in(folds, confirming, false)).parameters();
+    const Part discovery(covariance, fit, draws, rows_in(folds, confirming, false));
+    const Eigen::MatrixXd found = discovery.parameters();
     for (std::size_t e = 0; e < effects; ++e) {
       const Sight sight(tested, fit.columns[e]);
       const double weight = sight.information.trace();
+      const double others = Sight(discovery, fit.columns[e]).information.trace();
+      if (others < kInformative * weight) continue;  // what they find of it is rounding
       sums[e] += std::sqrt(weight) * sight.along(found(fit.columns[e], Eigen::all));
       weights[e] += weight;
     }

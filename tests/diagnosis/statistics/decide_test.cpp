@@ -160,6 +160,26 @@ TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
   }
 }
 
+TEST(Decide, DoesNotNameWhatOneNumberAloneShows) {
+  const World world(small_design());
+  Evidence evidence = world.measure({}, {}, 3);
+  evidence.observations[0].value += 10.0;
+  Candidate candidate{.effect = "of_one_number", .parameters = {{"departure", 0.0, 1.0, -20.0, 20.0}}, .signature = {}};
+  candidate.signature = Eigen::VectorXd::Unit(evidence.predicted.size(), 0);
+  evidence.candidates.push_back(candidate);
+  const Predict predict = [&](std::vector<EffectValue> values) {
+    const auto own = std::partition(values.begin(), values.end(),
+                                    [](const EffectValue& value) { return value.effect != "of_one_number"; });
+    Eigen::VectorXd predicted = world.predict()({values.begin(), own});
+    for (auto value = own; value != values.end(); ++value) predicted += value->values[0] * candidate.signature;
+    return predicted;
+  };
+  const Diagnosis diagnosis = decide(evidence, predict);
+  EXPECT_TRUE(diagnosis.effects.empty());
+  ASSERT_FALSE(diagnosis.ambiguity_set.empty());
+  EXPECT_EQ(diagnosis.ambiguity_set[0].effects, std::vector<std::string>{"of_one_number"});
+}
+
 TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationIsApart) {
   const auto option = [](std::vector<int> effects, double log_posterior, double prediction) {
     const auto count = static_cast<Eigen::Index>(effects.size());
