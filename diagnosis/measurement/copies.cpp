@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace fathom {
 namespace {
@@ -43,6 +45,21 @@ bool are_of_one_condition(const FrameRecord& a, const FrameRecord& b) {
   return a.liquid == b.liquid && a.fill_m == b.fill_m && a.distance_m == b.distance_m && a.lateral_m == b.lateral_m;
 }
 
+std::size_t number_of_conditions(const std::vector<FrameRecord>& frames) {
+  std::set<std::tuple<std::string, double, double, double>> conditions;
+  for (const FrameRecord& f : frames) conditions.emplace(f.liquid, f.fill_m, f.distance_m, f.lateral_m);
+  return conditions.size();
+}
+
+/// Whether all frames but the first of each of so many groups are repeated ones: then nothing scatters there.
+template <class AreTogether>
+bool are_all_alike(const std::vector<FrameRecord>& frames, const std::vector<Pair>& pairs, std::size_t groups,
+                   const AreTogether& are_together) {
+  const auto repeated = static_cast<std::size_t>(std::count_if(
+      pairs.begin(), pairs.end(), [&](const Pair& p) { return are_together(frames[p.row], frames[p.earlier]); }));
+  return frames.size() > groups && repeated == frames.size() - groups;
+}
+
 }  // namespace
 
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::uint64_t> fingerprints) {
@@ -52,18 +69,17 @@ Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::
   for (const auto& [key, rows] : placements)
     for (const Pair& pair : equal_numbers(frames, rows)) pairs.push_back(pair);
 
-  const std::size_t repeats = frames.size() - placements.size();
-  const auto in_placements = static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
-    return placement_of(frames[pair.row]) == placement_of(frames[pair.earlier]);
-  }));
-  const bool is_without_noise = repeats > 0 && in_placements == repeats;
+  const bool is_without_noise =
+      are_all_alike(frames, pairs, placements.size(),
+                    [](const FrameRecord& a, const FrameRecord& b) { return placement_of(a) == placement_of(b); });
+  const bool is_without_errors = are_all_alike(frames, pairs, number_of_conditions(frames), are_of_one_condition);
 
   Copies copies{std::vector<bool>(frames.size()), {}};
   std::size_t repeated = 0;
   std::vector<std::string> contradictions;  // names of frames
   for (const auto& [row, earlier] : pairs) {
     const bool is_contradiction = !are_of_one_condition(frames[row], frames[earlier]);
-    if (!is_contradiction && is_without_noise) continue;
+    if (!is_contradiction && (is_without_noise || is_without_errors)) continue;
     copies.left_out[row] = true;
     repeated += !is_contradiction;
     if (!is_contradiction) continue;

@@ -15,9 +15,9 @@ struct Copies {
 };
 
 /// Of a cloud that stands in several rows of one liquid, fill and place the first counts; of one that stands for two of
-/// these, none: nobody knows which it was. Where all trials repeat the first of their placement nothing is a copy:
-/// there is no noise. `fingerprints` are equal where clouds are; 0 where there is none. Of rows without clouds height,
-/// spread and points tell, within a placement.
+/// these, none: nobody knows which it was. Where all trials repeat the first of their placement, or all frames the
+/// first of their condition, nothing is a copy: nothing scatters. `fingerprints` are equal where clouds are; 0 where
+/// there is none. Of rows without clouds height, spread and points tell, within a placement.
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::uint64_t> fingerprints);
 
 }  // namespace fathom

@@ -126,8 +126,10 @@ TEST_F(MeasurementFolder, CopiesOfTrialsDoNotCountAndAreSaid) {
   EXPECT_EQ(measurement.mistakes[0].sentence, "2 of 4 frames are copies of others.");
   for (const Observation& observation : measurement.observations) EXPECT_EQ(observation.factors.placement, 0);
   EXPECT_EQ(measurement.observations.front().repeats, 2);
-  // Where all trials are alike there is no noise.
+  // Where all trials are alike there is no noise, and where all pours are there are no other errors.
   EXPECT_TRUE(read(alike).mistakes.empty());
+  EXPECT_TRUE(
+      read("0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,1,1,0,9,water,20,300,0,clouds/a.pcd\n").mistakes.empty());
 }
 
 TEST_F(MeasurementFolder, ACloudThatStandsForTwoConditionsCountsForNeither) {
