@@ -10,8 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kWidth = 640.0, kHeight = 480.0;  // [px]
-constexpr double kFarthestDesk = 2.0;              // [m] beyond, a desk is none
+constexpr double kFarthestDesk = 2.0;  // [m] beyond, a desk is none
 
 Pose believed_pose(const LaboratoryRig& rig) {
   return camera_pose({0.0, 0.0, rig.height_m}, rig.pitch_rad, 0.0, rig.roll_rad, rig.baseline_m);
@@ -138,11 +137,11 @@ BoxOfPixels pixels_about(const LaboratoryRig& rig, const Pose& camera_from_world
       for (const double y : {-half, half}) {
         const Eigen::Vector3d p = camera_from_world * Eigen::Vector3d(axis.x() + x, axis.y() + y, height);
         if (p.z() <= 0.0) continue;
-        seen.box.extend(
-            Eigen::Vector2d(rig.focal_px * p.x() / p.z() + 0.5 * kWidth, rig.focal_px * p.y() / p.z() + 0.5 * kHeight));
+        seen.box.extend(Eigen::Vector2d(rig.focal_px * p.x() / p.z() + 0.5 * kImageWidth_px,
+                                        rig.focal_px * p.y() / p.z() + 0.5 * kImageHeight_px));
         seen.depth = std::max(seen.depth, p.z());
       }
-  seen.box = seen.box.intersection({Eigen::Vector2d::Zero(), Eigen::Vector2d(kWidth, kHeight)});
+  seen.box = seen.box.intersection({Eigen::Vector2d::Zero(), Eigen::Vector2d(kImageWidth_px, kImageHeight_px)});
   return seen;
 }
 
@@ -160,8 +159,9 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
   SampledPixels pixels;
   for (int row = 0; row < kDeskRows; ++row)
     for (int column = 0; column < kDeskColumns; ++column)
-      pixels.desk.emplace_back((column + 0.5) * kWidth / kDeskColumns, (row + 0.5) * kHeight / kDeskRows);
-  pixels.desk_weight = kWidth * kHeight / (kDeskColumns * kDeskRows);
+      pixels.desk.emplace_back((column + 0.5) * kImageWidth_px / kDeskColumns,
+                               (row + 0.5) * kImageHeight_px / kDeskRows);
+  pixels.desk_weight = kImageWidth_px * kImageHeight_px / (kDeskColumns * kDeskRows);
   if (!cup) return pixels;
 
   const Pose camera_from_world = believed_pose(rig).inverse();

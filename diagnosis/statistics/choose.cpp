@@ -114,11 +114,11 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
   return std::nullopt;
 }
 
-std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options) {
+std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options,
+                                    bool is_open) {
   const Refit first = with_chords(c.evidence, c.predict, c.covariance, c.problem, fits.front());
   const std::vector<int>& effects = first.hypothesis.effects;
   if (effects.empty()) return std::nullopt;
-  const bool is_open = rest_of(c, fits.front()).p < c.settings.p_gap;
   const std::vector<std::optional<NamedEffect>> passed = tested(c, first);
   std::vector<std::pair<double, std::size_t>> common;  // how much each changes, whitened; its position
   Eigen::Index column = 0;

@@ -21,7 +21,9 @@ struct Choice {
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits);
 
 /// Where no set as a whole passes: of the effects that pass in the likeliest set and that all explanations have, the
-/// largest, if few of them close nearly all of the gap. What goes beside them stays open.
-std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options);
+/// largest, if few of them close nearly all of the gap. What goes beside them stays open. `is_open`: even the likeliest
+/// set leaves something.
+std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options,
+                                    bool is_open);
 
 }  // namespace fathom

@@ -77,16 +77,20 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   const std::vector<Hypothesis> hypotheses = screened(c);
   const std::vector<Refit> fits = likeliest_fits(c, hypotheses);
   std::vector<Option> options = options_of(c, hypotheses, fits);
-  std::optional<Choice> choice = choose(c, fits);
-  // As long as something stays open, what is small beside the rest is not told from it.
-  if (!choice || rest_of(c, choice->fit).p < settings.p_gap)
-    if (std::optional<Choice> common = common_to_all(c, fits, options)) choice = std::move(common);
+  const double p_rest_of_likeliest = rest_of(c, fits.front()).p;
   const Refit& nothing =
       *std::find_if(fits.begin(), fits.end(), [](const Refit& f) { return f.hypothesis.effects.empty(); });
+  std::optional<Choice> choice = choose(c, fits);
+  Rest rest = rest_of(c, choice ? choice->fit : nothing);
+  // As long as something stays open, what is small beside the rest is not told from it.
+  if (!choice || rest.p < settings.p_gap)
+    if (std::optional<Choice> common = common_to_all(c, fits, options, p_rest_of_likeliest < settings.p_gap)) {
+      choice = std::move(common);
+      rest = rest_of(c, choice->fit);
+    }
   const Refit& fit = choice ? choice->fit : nothing;
-  const Rest rest = rest_of(c, fit);
   // What no test confirms may yet explain the gap: unknown is what the likeliest effects leave, too.
-  const double p_rest = std::max(rest.p, rest_of(c, fits.front()).p);
+  const double p_rest = std::max(rest.p, p_rest_of_likeliest);
   const bool is_rest = p_rest < settings.p_gap;
 
   // Nothing at all is rejected, and so is what moves nothing.

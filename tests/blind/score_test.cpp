@@ -23,7 +23,7 @@ TEST(ClopperPearson, GivesThePublishedIntervals) {
 }
 
 Answer answer_of(const std::string& json) {
-  const fs::path folder = fs::path(testing::TempDir()) / "answer";
+  const fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
   make_directory(folder);
   write_text(folder / "report.json", json);
   const Answer answer = read_answer(folder);
