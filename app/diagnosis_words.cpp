@@ -103,7 +103,7 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   std::size_t others = 0;
   double probability_of_others = 0.0;
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
-    if (explanation.probability < kWorthNaming || explanation.adds_to_likelier) {
+    if (explanation.probability < kWorthNaming) {
       others += 1 + explanation.alternatives.size();
       probability_of_others += explanation.probability;
       continue;

@@ -32,11 +32,6 @@ std::vector<const Judged*> most_confident_first(std::span<const Judged> judged) 
   return order;
 }
 
-/// What is put first is true.
-bool first_is_true(const Judged& one) {
-  return !one.answer.ambiguity_set.empty() && one.is_true(one.answer.ambiguity_set.front().sets.front());
-}
-
 }  // namespace
 
 Table power_table(std::span<const Judged> judged) {
@@ -82,7 +77,7 @@ Table reliability_table(std::span<const Judged> judged) {
     if (one->answer.ambiguity_set.empty()) continue;
     const double p = one->answer.confidence();
     const int bin = std::clamp(static_cast<int>(p * kBins), 0, kBins - 1);
-    counts[bin].add(first_is_true(*one));
+    counts[bin].add(one->first_holds_truth());
     said[bin] += p;
   }
   Table table({"said", "true", "low95", "high95", "sets"});

@@ -16,7 +16,7 @@ Table power_table(std::span<const Judged> judged);
 /// hidden, said, sets
 Table confusion_table(std::span<const Judged> judged);
 
-/// By bins of the probability of what is put first: how often it is right.
+/// By bins of the probability of what is put first: how often what is hidden is there (first_holds_truth).
 Table reliability_table(std::span<const Judged> judged);
 
 /// Answers by falling confidence: the share that is given, and that of wrong ones among them.

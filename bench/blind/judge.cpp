@@ -59,17 +59,19 @@ bool Judged::is_right() const {
 
 bool Judged::is_confidently_wrong() const {
   constexpr double kConfident = 0.9;
-  if (is_right() || !truth.book_keeping.empty() || answer.confidence() < kConfident) return false;
-  // An explanation is put first together with what it says cannot be told from it.
-  const std::vector<Names>& first = answer.ambiguity_set.front().sets;
-  return std::none_of(first.begin(), first.end(), [&](const Names& names) { return is_true(names); });
+  return !is_right() && truth.book_keeping.empty() && answer.confidence() >= kConfident && !first_holds_truth();
+}
+
+bool Judged::first_holds_truth() const {
+  return !answer.ambiguity_set.empty() &&
+         answer.ambiguity_set.front().leaves_open([&](const Names& names) { return is_true(names); });
 }
 
 bool Judged::holds_truth() const {
-  if (is_true(answer.named)) return true;
-  return std::any_of(answer.ambiguity_set.begin(), answer.ambiguity_set.end(), [&](const auto& explanation) {
-    return std::any_of(explanation.sets.begin(), explanation.sets.end(), [&](const Names& n) { return is_true(n); });
-  });
+  return is_true(answer.named) ||
+         std::any_of(answer.ambiguity_set.begin(), answer.ambiguity_set.end(), [&](const auto& explanation) {
+           return explanation.leaves_open([&](const Names& names) { return is_true(names); });
+         });
 }
 
 bool Judged::finds_mistake() const {

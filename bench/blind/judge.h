@@ -20,7 +20,9 @@ struct Judged {
   bool is_right() const;
   /// The same of a set of effects.
   bool is_true(const Names& effects) const;
-  /// Puts something wrong first, with all that it calls indistinguishable from it, with a probability of at least 0.9.
+  /// What is hidden is what it puts first, or what it says cannot be told from that or may be there as well.
+  bool first_holds_truth() const;
+  /// It does not, and has a probability of at least 0.9.
   bool is_confidently_wrong() const;
   /// What is hidden is among its explanations.
   bool holds_truth() const;

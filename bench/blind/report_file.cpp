@@ -40,10 +40,11 @@ void read_effects(const JsonReader& report, Answer& answer) {
 
 void read_ambiguity(const JsonReader& report, Answer& answer) {
   for (const JsonReader& item : report.items_or_none("ambiguity_set")) {
-    Answer::Explanation explanation{{names_of(item.at("effects").value())}, item.number("probability")};
-    if (item.has("indistinguishable"))
-      for (const JsonReader& other : item.at("indistinguishable").items())
-        explanation.sets.push_back(names_of(other.value()));
+    Answer::Explanation explanation{{names_of(item.at("effects").value())}, {}, item.number("probability")};
+    for (const JsonReader& other : item.items_or_none("indistinguishable"))
+      explanation.sets.push_back(names_of(other.value()));
+    for (const JsonReader& superset : item.items_or_none("supersets"))
+      explanation.supersets.push_back(names_of(superset.value()));
     answer.ambiguity_set.push_back(explanation);
   }
   std::stable_sort(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),

@@ -1,7 +1,9 @@
 // What an analyser answered: the parts of its report.json that are scored.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,8 +23,13 @@ struct Answer {
   Names named;          ///< effects, without "@liquid"
   std::map<std::string, std::map<std::string, Estimated>> parameters;  ///< of each
   struct Explanation {
-    std::vector<Names> sets;  ///< what it holds for one: itself first, then what cannot be told from it
-    double probability;
+    std::vector<Names> sets;       ///< what it holds for one: itself first, then what cannot be told from it
+    std::vector<Names> supersets;  ///< of them, which it leaves open
+    double probability;            ///< of all of them
+
+    bool leaves_open(const std::function<bool(const Names&)>& is) const {
+      return std::any_of(sets.begin(), sets.end(), is) || std::any_of(supersets.begin(), supersets.end(), is);
+    }
   };
   std::vector<Explanation> ambiguity_set;  ///< most probable first
   Names liquids_in_gap;                    ///< of its strata …

@@ -46,7 +46,7 @@ std::vector<Set> all_sets(const Physics& physics, const Diagnosis& diagnosis) {
   std::vector<Set> sets{named_set(diagnosis)};
   for (Set& set : light_sets(physics)) sets.push_back(std::move(set));
   for (std::size_t i = 0; i < std::min(kLikeliest, diagnosis.ambiguity_set.size()); ++i)
-    if (!diagnosis.ambiguity_set[i].adds_to_likelier && sees_some(physics.evidence, diagnosis.ambiguity_set[i].effects))
+    if (sees_some(physics.evidence, diagnosis.ambiguity_set[i].effects))
       sets.push_back(diagnosis.ambiguity_set[i].effects);
   std::vector<Set> different;
   for (Set& set : sets) {

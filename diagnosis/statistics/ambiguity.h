@@ -15,20 +15,22 @@ struct Option {
   Eigen::VectorXd prediction;  ///< change against the nominal model, whitened; of the effects
 };
 
-/// Explanations that cannot be told apart.
+/// Explanations that cannot be told apart, or that name the same effects in other liquids.
 struct AmbiguityClass {
-  std::vector<Option> options;  ///< likeliest first
-  double probability = 0.0;
-  bool adds_to_likelier = false;  ///< hold all effects of a likelier class, and more that the data need not have
+  std::vector<Option> options;         ///< likeliest first
+  std::vector<Option> supersets = {};  ///< all effects of one of the options, and more that the data need not have
+  double probability = 0.0;            ///< of all of them together
+  double alone = 0.0;                  ///< of the options
 };
 
 struct AmbiguitySet {
-  std::vector<AmbiguityClass> classes;  ///< likeliest first; those that add to a class after all others
+  std::vector<AmbiguityClass> classes;  ///< in the order of their likeliest options
 };
 
-/// Options within `delta` of the best log posterior. Those whose predictions differ by less than one σ of all the data
-/// together are one class: twins. Supersets of an option (other than none) that are no better go with it; those that
-/// are plausible nevertheless are together a class of their own.
-AmbiguitySet ambiguity_set(std::vector<Option> options, double delta);
+/// Options within `delta` of the best log posterior; probabilities are shared among them. Those whose predictions
+/// differ by less than one σ of all the data together are twins, of one class. Supersets of an option (other than none)
+/// that are no likelier go with it. `kinds`: of each candidate, a number that it shares with the same effect in other
+/// liquids.
+AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta);
 
 }  // namespace fathom

@@ -96,7 +96,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   // Nothing at all is rejected, and so is what moves nothing.
   if (choice) std::erase_if(options, [](const Option& o) { return o.prediction.isZero(0.0) && !o.has_unknown; });
   if (rest.p >= settings.p_gap) std::erase_if(options, [](const Option& o) { return o.has_unknown; });
-  const AmbiguitySet set = ambiguity_set(options, settings.delta);
+  const AmbiguitySet set = ambiguity_set(options, kinds_of_candidates(evidence), settings.delta);
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.verdict =
       choice ? verdict_of_named(c, *choice, is_rest, options, set) : verdict_of_unnamed(c, is_rest, set);

@@ -36,12 +36,13 @@ struct NamedEffect {
   int folds_improved = 0, folds = 0;
 };
 
-/// Effects that explain the data about as well as the best ones do. `alternatives` cannot be told from them.
+/// Effects that explain the data about as well as the best ones do.
 struct Explanation {
-  std::vector<std::string> effects;  ///< none: no effect; "unknown" stands for what no candidate explains
-  std::vector<std::vector<std::string>> alternatives;
-  double probability = 0.0;
-  bool adds_to_likelier = false;  ///< all effects of a likelier one, and more that the data need not have
+  std::vector<std::string> effects;                    ///< none: no effect; "unknown": what no candidate explains
+  std::vector<std::vector<std::string>> alternatives;  ///< cannot be told from them, or are them in another liquid
+  std::vector<std::vector<std::string>> supersets;     ///< hold more that the data neither need nor exclude
+  double probability = 0.0;                            ///< of all of these together
+  double alone = 0.0;                                  ///< without the supersets
 };
 
 /// Root mean square of the heights' residuals.

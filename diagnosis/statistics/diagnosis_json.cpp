@@ -1,5 +1,7 @@
 #include "diagnosis/statistics/diagnosis_json.h"
 
+#include <set>
+
 #include "diagnosis/statistics/effect_name.h"
 
 namespace fathom {
@@ -52,9 +54,15 @@ Json json_from(const NamedEffect& effect) {
 Json json_from(const Explanation& explanation) {
   Json json{{"effects", ids_of(explanation.effects)}, {"probability", explanation.probability}};
   if (ids_of(explanation.effects) != explanation.effects) json["in_detail"] = explanation.effects;
+  std::set<std::set<std::string>> known;
+  const auto is_new = [&](const std::vector<std::string>& ids) { return known.emplace(ids.begin(), ids.end()).second; };
+  is_new(ids_of(explanation.effects));
   for (const std::vector<std::string>& twin : explanation.alternatives)
-    json["indistinguishable"].push_back(ids_of(twin));
-  if (explanation.adds_to_likelier) json["adds_to_likelier"] = true;
+    if (const std::vector<std::string> ids = ids_of(twin); is_new(ids)) json["indistinguishable"].push_back(ids);
+  if (explanation.supersets.empty()) return json;
+  json["alone"] = explanation.alone;
+  for (const std::vector<std::string>& superset : explanation.supersets)
+    if (const std::vector<std::string> ids = ids_of(superset); is_new(ids)) json["supersets"].push_back(ids);
   return json;
 }
 

@@ -1,6 +1,7 @@
 #include "diagnosis/statistics/explanations.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "diagnosis/statistics/effect_name.h"
@@ -27,9 +28,10 @@ std::set<std::string> ids(const Evidence& evidence, const Option& option) {
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
   std::vector<Explanation> result;
   for (const AmbiguityClass& one : set.classes) {
-    Explanation explanation{words(evidence, one.options.front()), {}, one.probability, one.adds_to_likelier};
+    Explanation explanation{words(evidence, one.options.front()), {}, {}, one.probability, one.alone};
     for (std::size_t i = 1; i < one.options.size(); ++i)
       explanation.alternatives.push_back(words(evidence, one.options[i]));
+    for (const Option& superset : one.supersets) explanation.supersets.push_back(words(evidence, superset));
     result.push_back(std::move(explanation));
   }
   return result;
@@ -38,9 +40,17 @@ std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguityS
 bool all_name(const Evidence& evidence, const std::vector<int>& effects, const AmbiguitySet& set) {
   const std::set<std::string> named = ids(evidence, {effects, {}, false, 0.0, {}});
   return std::all_of(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {
-    return one.adds_to_likelier || std::all_of(one.options.begin(), one.options.end(),
-                                               [&](const Option& o) { return ids(evidence, o) == named; });
+    return std::all_of(one.options.begin(), one.options.end(),
+                       [&](const Option& o) { return ids(evidence, o) == named; });
   });
+}
+
+std::vector<int> kinds_of_candidates(const Evidence& evidence) {
+  std::map<std::string, int> known;
+  std::vector<int> kinds;
+  for (const Candidate& candidate : evidence.candidates)
+    kinds.push_back(known.try_emplace(effect_name(candidate.effect).id, static_cast<int>(known.size())).first->second);
+  return kinds;
 }
 
 double probability_of_nothing(const AmbiguitySet& set) {

@@ -12,6 +12,9 @@ namespace fathom {
 
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set);
 
+/// Of each candidate a number that the same effect has in all liquids.
+std::vector<int> kinds_of_candidates(const Evidence& evidence);
+
 /// Whether all explanations are these effects, but for what may be added; of which liquids they are may differ.
 bool all_name(const Evidence& evidence, const std::vector<int>& effects, const AmbiguitySet& set);
 

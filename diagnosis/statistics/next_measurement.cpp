@@ -216,7 +216,7 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
   std::set<std::string> effects;
   for (const AmbiguityClass& alike : set.classes)
     for (const Option& option : alike.options)
-      if (!alike.adds_to_likelier && !option.has_unknown && rivals.size() < kLikeliest) {
+      if (!option.has_unknown && rivals.size() < kLikeliest) {
         rivals.emplace_back(evidence, covariance, option);
         for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
       }

@@ -16,6 +16,24 @@ constexpr std::size_t kRefitted = 8;     // … and refitted, likeliest first
 constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
 const double kLogPriorUnknown = std::log(0.1);
 
+/// A fit beside an effect that these observations do not show: it changes nothing but the prior.
+Option with_unseen(const Case& c, const Refit& fit, int effect) {
+  Option option{
+      fit.hypothesis.effects, {}, false, fit.hypothesis.log_evidence + c.problem.log_odds[effect], fit.prediction};
+  option.effects.insert(std::upper_bound(option.effects.begin(), option.effects.end(), effect), effect);
+  option.parameters.setZero(static_cast<Eigen::Index>(columns_of(c.problem, option.effects).size()));
+  Eigen::Index to = 0, from = 0;
+  for (const int one : option.effects) {
+    const auto count = static_cast<Eigen::Index>(c.problem.columns[one].size());
+    if (one != effect) {
+      option.parameters.segment(to, count) = fit.hypothesis.parameters.segment(from, count);
+      from += count;
+    }
+    to += count;
+  }
+  return option;
+}
+
 /// What was not worth a refit may still not be excluded: sets by their signatures, and effects that these observations
 /// do not show.
 void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
@@ -27,13 +45,12 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
     options.push_back({h.effects, h.parameters, false, h.log_evidence,
                        c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
   }
-  for (std::size_t effect = 0; effect < c.problem.columns.size(); ++effect) {
-    const std::vector<int> alone{static_cast<int>(effect)};
-    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.problem.columns[effect].size()));
+  for (int effect = 0; effect < static_cast<int>(c.problem.columns.size()); ++effect) {
     if (!c.problem.signatures(Eigen::all, c.problem.columns[effect]).isZero(0.0)) continue;
-    const Eigen::MatrixXd unseen = Eigen::MatrixXd::Zero(nothing.size(), nothing.size());
-    options.push_back({alone, nothing, false, log_evidence(c.problem, 0.0, alone, nothing, unseen),
-                       Eigen::VectorXd::Zero(c.problem.residual.size())});
+    for (const Refit& fit : fits)
+      if (Option more = with_unseen(c, fit, effect);
+          more.log_posterior > options.front().log_posterior - c.settings.delta)
+        options.push_back(std::move(more));
   }
 }
 

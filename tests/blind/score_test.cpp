@@ -103,6 +103,21 @@ TEST(BlindScore, TwinsHaveToBeSaidToBeTwins) {
   EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, one}}), "twins called ambiguous").value, 0.0);
 }
 
+TEST(BlindScore, WhatIsLeftOpenBesideTheFirstIsNoError) {
+  SetTruth truth = single("fill_offset", 1.0, 9.0);
+  truth.kind = "pair";
+  truth.effects.push_back({{&hidden_effect("absorption"), 0.001}, 2.0});
+  const auto wrong = [&](const std::string& supersets) {
+    const Answer answer = answer_of(R"({"verdict": "named", "effects": [{"name": "fill_offset"}], "ambiguity_set": [
+      {"effects": ["fill_offset"], "probability": 0.99, "supersets": )" +
+                                    supersets + "}]}");
+    const std::vector<Goal> goals = goals_of(std::vector<Judged>{{truth, answer}});
+    return goal(goals, "confidently wrong").value + (1.0 - goal(goals, "truth in the ambiguity set").value);
+  };
+  EXPECT_EQ(wrong(R"([["absorption", "fill_offset"]])"), 0.0);
+  EXPECT_EQ(wrong(R"([["fill_offset", "meniscus"]])"), 2.0);
+}
+
 TEST(BlindScore, UnknownIsFlaggedByItsVerdict) {
   SetTruth truth = single("wall_caustic", 0.5, 12.0);
   truth.kind = "unknown";

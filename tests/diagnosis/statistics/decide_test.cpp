@@ -180,23 +180,27 @@ TEST(Decide, DoesNotNameWhatOneNumberAloneShows) {
   EXPECT_EQ(diagnosis.ambiguity_set[0].effects, std::vector<std::string>{"of_one_number"});
 }
 
-TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationIsApart) {
+TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationGoesWithIt) {
   const auto option = [](std::vector<int> effects, double log_posterior, double prediction) {
     const auto count = static_cast<Eigen::Index>(effects.size());
     return Option{std::move(effects), Eigen::VectorXd::Zero(count), false, log_posterior,
                   Eigen::VectorXd::Constant(1, prediction)};
   };
-  const AmbiguitySet set =
-      ambiguity_set({option({}, -40.0, 0.0), option({0}, 0.0, 9.0), option({4}, -2.0, 9.5), option({5}, -3.0, 6.0),
-                     option({0, 1}, -1.0, 9.2), option({0, 2}, -2.5, 9.1), option({0, 3}, -9.0, 9.0)},
-                    7.0);
-  ASSERT_EQ(set.classes.size(), 3U);  // 0 and its twin 4; 5; what adds to 0
-  EXPECT_EQ(set.classes[0].options.size(), 2U);
-  EXPECT_EQ(set.classes[1].options[0].effects, std::vector<int>{5});
-  EXPECT_TRUE(set.classes[2].adds_to_likelier);
-  EXPECT_EQ(set.classes[2].options.size(), 2U);  // the third is not plausible
-  EXPECT_NEAR(set.classes[2].probability / set.classes[1].probability,
-              (std::exp(-1.0) + std::exp(-2.5) + std::exp(-9.0)) / std::exp(-3.0), 1e-9);
+  const std::vector<int> kinds{0, 1, 2, 3, 4, 5, 5};  // the last is the one before, in one liquid only
+  const AmbiguitySet set = ambiguity_set(
+      {option({}, -40.0, 0.0), option({0}, 0.0, 9.0), option({4}, -2.0, 9.5), option({5}, -3.0, 6.0),
+       option({6}, -4.0, 3.0), option({0, 1}, -1.0, 9.2), option({2, 6}, -5.0, 9.1), option({0, 3}, -9.0, 9.0)},
+      kinds, 7.0);
+  ASSERT_EQ(set.classes.size(), 2U);
+  const AmbiguityClass &first = set.classes[0], &second = set.classes[1];
+  EXPECT_EQ(first.options.size(), 2U);  // 0 and its twin 4
+  ASSERT_EQ(first.supersets.size(), 1U) << "further than delta from the best is none";
+  EXPECT_EQ(first.supersets[0].effects, (std::vector<int>{0, 1}));
+  EXPECT_EQ(second.options.size(), 2U) << "one effect, in all liquids or in one";
+  EXPECT_EQ(second.supersets.size(), 1U);
+  const double alone = 1.0 + std::exp(-2.0);
+  EXPECT_NEAR(first.alone / first.probability, alone / (alone + std::exp(-1.0)), 1e-9);
+  EXPECT_NEAR(first.probability + second.probability, 1.0, 1e-9);
 }
 
 TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {
