@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnosis/statistics/screen.h"
 #include "diagnosis/statistics/smooth_score.h"
@@ -16,10 +17,16 @@ constexpr std::size_t kRefitted = 8;     // … and refitted, likeliest first
 constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
 const double kLogPriorUnknown = std::log(0.1);
 
-/// A fit beside an effect that these observations do not show: it changes nothing but the prior.
-Option with_unseen(const Case& c, const Refit& fit, int effect) {
+/// A fit beside an effect of which there is next to nothing.
+Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
+  const auto columns = c.problem.signatures(Eigen::all, c.problem.columns[effect]);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(columns.cols());
   Option option{
-      fit.hypothesis.effects, {}, false, fit.hypothesis.log_evidence + c.problem.log_odds[effect], fit.prediction};
+      fit.hypothesis.effects,
+      {},
+      false,
+      fit.hypothesis.log_evidence + log_evidence(c.problem, 0.0, {effect}, nothing, columns.transpose() * columns),
+      fit.prediction};
   option.effects.insert(std::upper_bound(option.effects.begin(), option.effects.end(), effect), effect);
   option.parameters.setZero(static_cast<Eigen::Index>(columns_of(c.problem, option.effects).size()));
   Eigen::Index to = 0, from = 0;
@@ -34,24 +41,25 @@ Option with_unseen(const Case& c, const Refit& fit, int effect) {
   return option;
 }
 
-/// What was not worth a refit may still not be excluded: sets by their signatures, and effects that these observations
-/// do not show.
+/// What was not worth a refit may still not be excluded: sets by their signatures; then effects that do not show in
+/// these observations, or of which the likeliest amount is none, beside each fit.
 void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
                   std::vector<Option>& options) {
-  for (const Hypothesis& h : hypotheses) {
-    const bool is_fitted =
-        std::any_of(fits.begin(), fits.end(), [&](const Refit& fit) { return fit.hypothesis.effects == h.effects; });
-    if (is_fitted || h.log_evidence < options.front().log_posterior - c.settings.delta) continue;
-    options.push_back({h.effects, h.parameters, false, h.log_evidence,
-                       c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
-  }
-  for (int effect = 0; effect < static_cast<int>(c.problem.columns.size()); ++effect) {
-    if (!c.problem.signatures(Eigen::all, c.problem.columns[effect]).isZero(0.0)) continue;
-    for (const Refit& fit : fits)
-      if (Option more = with_unseen(c, fit, effect);
-          more.log_posterior > options.front().log_posterior - c.settings.delta)
+  const double least = options.front().log_posterior - c.settings.delta;
+  std::set<std::vector<int>> known;
+  for (const Refit& fit : fits) known.insert(fit.hypothesis.effects);
+  for (const Hypothesis& h : hypotheses)
+    if (h.log_evidence > least && known.insert(h.effects).second)
+      options.push_back({h.effects, h.parameters, false, h.log_evidence,
+                         c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
+  for (const Refit& fit : fits)
+    for (int effect = 0; effect < static_cast<int>(c.problem.columns.size()); ++effect) {
+      const std::vector<int>& there = fit.hypothesis.effects;
+      if (fit.hypothesis.log_evidence < least || std::binary_search(there.begin(), there.end(), effect)) continue;
+      if (Option more = with_nothing_of(c, effect, fit);
+          more.log_posterior > least && known.insert(more.effects).second)
         options.push_back(std::move(more));
-  }
+    }
 }
 
 void sort_by_evidence(std::vector<Refit>& fits) {

@@ -10,7 +10,7 @@
 namespace fathom {
 
 namespace {
-constexpr double kExpectedEffects = 0.5;
+constexpr double kExpectedEffects = 1.0;
 constexpr double kPriorWidth = 3.0;  // typical departures
 }  // namespace
 

@@ -36,7 +36,7 @@ struct Hypothesis {
 /// Some effects of a hypothesis, by their position in it (ascending), where they are: without gain or evidence.
 Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions);
 
-/// Laplace's log evidence: the parameters' prior below, and half an effect expected among all candidates, shared out by
+/// Laplace's log evidence: the parameters' prior below, and one effect expected among all candidates, shared out by
 /// their plausibility. `gram`:
 /// parameters × parameters, of the whitened jacobian.
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
