@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,13 @@ double log_posterior_of_unknown_alone(const std::vector<Option>& options) {
   for (const Option& o : options)
     if (o.effects.empty() && o.has_unknown) return o.log_posterior;
   return -INFINITY;
+}
+
+/// What a test that rejects with p says at most against what it rejects: a bound on the Bayes factor (Sellke, Bayarri &
+/// Berger 2001, The American Statistician 55, 62).
+double log_bayes_factor(double p) {
+  const double log_p = std::log(std::max(p, std::numeric_limits<double>::min()));
+  return log_p < -1.0 ? 1.0 + log_p + std::log(-log_p) : 0.0;
 }
 
 /// Of what passed all tests.
@@ -96,6 +104,9 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   // Nothing at all is rejected, and so is what moves nothing.
   if (choice) std::erase_if(options, [](const Option& o) { return o.prediction.isZero(0.0) && !o.has_unknown; });
   if (rest.p >= settings.p_gap) std::erase_if(options, [](const Option& o) { return o.has_unknown; });
+  if (is_rest)
+    for (Option& o : options)
+      if (!o.has_unknown) o.log_posterior += log_bayes_factor(p_rest);
   const AmbiguitySet set = ambiguity_set(options, kinds_of_candidates(evidence), settings.delta);
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.verdict =
