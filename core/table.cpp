@@ -109,7 +109,8 @@ std::optional<double> Table::number_if_any(std::size_t row, std::string_view col
   return value;
 }
 
-void Table::add(std::vector<std::string> cells) {
+void Table::add(std::vector<std::string> cells, std::optional<std::size_t> line) {
+  lines_.push_back(line.value_or(lines_.empty() ? 2 : lines_.back() + 1));
   cells.resize(columns_.size());
   cells_.push_back(std::move(cells));
 }
@@ -124,7 +125,7 @@ void Table::set(std::size_t row, std::string_view column, std::string value) {
 }
 
 void Table::fail(std::size_t row, std::string_view column, std::string_view what) const {
-  throw Error(file_, fmt::format("line {}, column '{}'", row + 2, column), what);
+  throw Error(file_, fmt::format("line {}, column '{}'", lines_.at(row), column), what);
 }
 
 std::string Table::csv() const {
@@ -149,12 +150,14 @@ Table read_table(const std::filesystem::path& path) {
     if (!column->empty() && std::find(std::next(column), table.columns().end(), *column) != table.columns().end())
       throw Error(file, "line 1", fmt::format("has the column '{}' twice", *column));
   for (std::size_t number = 2; text.find_first_not_of(kBlank) != std::string_view::npos; ++number) {
-    std::vector<std::string> cells = split_line(take_line(text), separator, file, number);
+    const std::string_view line = take_line(text);
+    if (line.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    std::vector<std::string> cells = split_line(line, separator, file, number);
     while (cells.size() > table.columns().size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.columns().size())
       throw Error(file, fmt::format("line {}", number),
                   fmt::format("has {} cells, the header has {}", cells.size(), table.columns().size()));
-    table.add(std::move(cells));
+    table.add(std::move(cells), number);
   }
   return table;
 }

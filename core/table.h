@@ -28,8 +28,8 @@ class Table {
   /// As number(), but nothing when the cell is empty.
   std::optional<double> number_if_any(std::size_t row, std::string_view column) const;
 
-  /// `cells` in the order of the columns.
-  void add(std::vector<std::string> cells);
+  /// `cells` in the order of the columns; without a `line` of a file they stand below those before.
+  void add(std::vector<std::string> cells, std::optional<std::size_t> line = {});
   void add_column(std::string name);
   void set(std::size_t row, std::string_view column, std::string value);
 
@@ -43,11 +43,12 @@ class Table {
 
   std::vector<std::string> columns_;
   std::vector<std::vector<std::string>> cells_;
+  std::vector<std::size_t> lines_;  // of the file, from 1
   std::string file_;
 };
 
 /// RFC 4180 without line breaks inside cells; cells may be parted by tabs or semicolons as well, lines end in any way.
-/// Empty cells beyond the header's and blank lines at the end do not count. Throws Error on a missing header, double
+/// Empty cells beyond the header's and blank lines do not count. Throws Error on a missing header, double
 /// columns, ragged lines and what is no text.
 Table read_table(const std::filesystem::path& path);
 void write_table(const std::filesystem::path& path, const Table& table);
