@@ -14,7 +14,6 @@
 #include "app/next_campaign.h"
 #include "app/ray_traced_report.h"
 #include "core/files.h"
-#include "core/progress.h"
 #include "core/rows.h"
 #include "diagnosis/measurement/joined.h"
 #include "diagnosis/predict/bookkeeping.h"
@@ -106,19 +105,16 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   require_gnuplot();
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
-  std::optional<Progress> progress(std::in_place, "diagnose", 3, common.quiet);
-  Measurement measurement = read_measurements(options.folders);
+  Measurement measurement = read_measurements(options.folders, common.quiet);
   const std::string rig_file = (options.folders.front() / "rig.json").string();
   put_bookkeeping_right(had, rig_file, measurement);
-  progress->step();
-  Physics physics = physics_of(measurement, had, rig_file);
+  Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
   make_directory(common.output);  // what cannot be written shows before the long work
   remove_leftovers(common.output);
   std::erase_if(physics.evidence.candidates, [&](const Candidate& candidate) {
     return std::find(options.without.begin(), options.without.end(), effect_name(candidate.effect).id) !=
            options.without.end();
   });
-  progress->step();
   DecisionSettings settings;
   settings.seed = common.seed;
   const std::vector<MeasurementPlan> plans = possible_plans(measurement);
@@ -134,7 +130,6 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                              .notes = measurement.notes,
                              .diagnosis = decide(physics.evidence, physics.predict, designs, settings),
                              .ray_traced_html = {}};
-  progress.reset();
   std::optional<RayTracedDiagnosis> traced;
   const Diagnosis by_few_rays = campaign.diagnosis;
   if (options.fidelity == "photometric" && by_few_rays.verdict != Verdict::insufficient) {

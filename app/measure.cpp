@@ -16,17 +16,17 @@
 #include "core/rows.h"
 #include "core/table.h"
 #include "core/units.h"
-#include "detector/read_cloud.h"
-#include "diagnosis/measurement/frames.h"
+#include "diagnosis/measurement/frame_cloud.h"
 
 namespace fathom {
 namespace {
 
 constexpr std::array kHeightColumns{"height_mm", "height_sd_mm", "points"};
 
-Cloud read_cloud_of(const Table& frames, std::size_t row, const std::filesystem::path& folder) {
+Cloud read_cloud_of(const FrameRecord& frame, const Table& frames, std::size_t row,
+                    const std::filesystem::path& folder) {
   try {
-    return read_cloud(folder / frames.text(row, "cloud"));
+    return read_frame_cloud(frame, folder);
   } catch (const Error& problem) {
     frames.fail(row, "cloud", problem.what());
   }
@@ -43,7 +43,7 @@ void warn(NoHeight reason, const std::vector<std::string>& frames) {
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
   const LaboratoryRig rig = read_rig(folder / "rig.json");
   Table frames = read_table(folder / "frames.csv");
-  read_frames(frames, rig, folder);  // a mistake in the last line shows before the first cloud is read
+  const std::vector<FrameRecord> records = read_frames(frames, rig, folder);
   for (const char* column : kHeightColumns)
     if (!frames.has(column)) frames.add_column(column);
 
@@ -51,15 +51,15 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
   std::map<NoHeight, std::vector<std::string>> frames_without;
   Progress progress("measure", frames.rows(), common.quiet);
   for (std::size_t row = 0; row < frames.rows(); ++row, progress.step()) {
-    if (frames.text(row, "cloud").empty()) continue;
+    const FrameRecord& record = records[row];
+    if (record.cloud.empty()) continue;
     for (const char* column : kHeightColumns) frames.set(row, column, "");
-    if (frames.text(row, "liquid") == "none") continue;
+    if (record.bare_desk()) continue;
     ++clouds;
-    const Eigen::Vector2d place(metres_from_mm(frames.number(row, "lateral_mm")),
-                                metres_from_mm(frames.number(row, "distance_mm")));
-    const auto found = height_in_cup(read_cloud_of(frames, row, folder), rig, place);
+    const auto found = height_in_cup(read_cloud_of(record, frames, row, folder), rig,
+                                     Eigen::Vector2d(record.lateral_m, record.distance_m));
     if (const NoHeight* reason = std::get_if<NoHeight>(&found)) {
-      frames_without[*reason].push_back(frames.text(row, "frame"));
+      frames_without[*reason].push_back(record.frame);
       continue;
     }
     const InteriorHeight& height = std::get<InteriorHeight>(found);

@@ -14,9 +14,20 @@ Progress::~Progress() {
   if (shown_ && done_ > 0) fmt::print(stderr, "\r\033[K");
 }
 
+void Progress::step() {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  show();
+}
+
 void Progress::reach(std::size_t done, std::size_t total) {
+  const std::lock_guard lock(mutex_);
   done_ = done;
   total_ = total;
+  show();
+}
+
+void Progress::show() const {
   if (!shown_) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double rate = static_cast<double>(done_) / seconds;

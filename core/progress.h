@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <mutex>
 #include <string>
 
 namespace fathom {
@@ -14,13 +15,16 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more item is done. Not thread-safe: call it from the thread that drives the work.
-  void step() { reach(done_ + 1, total_); }
+  /// One more item is done. Any thread may say so.
+  void step();
 
   /// So many items of so many are done, where the total is found out on the way.
   void reach(std::size_t done, std::size_t total);
 
  private:
+  void show() const;
+
+  std::mutex mutex_;
   std::string what_;
   std::size_t total_;
   std::size_t done_ = 0;

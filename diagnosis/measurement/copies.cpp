@@ -18,12 +18,12 @@ struct Pair {
   std::size_t row, earlier;
 };
 
-std::vector<Pair> equal_clouds(std::span<const std::uint64_t> fingerprints) {
+std::vector<Pair> equal_clouds(std::span<const CloudPrint> prints) {
   std::map<std::uint64_t, std::size_t> first;
   std::vector<Pair> pairs;
-  for (std::size_t row = 0; row < fingerprints.size(); ++row) {
-    if (fingerprints[row] == 0) continue;
-    const auto [known, is_new] = first.emplace(fingerprints[row], row);
+  for (std::size_t row = 0; row < prints.size(); ++row) {
+    if (prints[row].whole == 0) continue;
+    const auto [known, is_new] = first.emplace(prints[row].whole, row);
     if (!is_new) pairs.push_back({row, known->second});
   }
   return pairs;
@@ -60,19 +60,43 @@ bool are_all_alike(const std::vector<FrameRecord>& frames, const std::vector<Pai
   return frames.size() > groups && repeated == frames.size() - groups;
 }
 
+/// Whether clouds that differ, one after the other in a session, differ nearly everywhere: in the desk, too.
+bool does_desk_scatter(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints) {
+  constexpr int kFewest = 8;             // parts of images
+  constexpr double kByCupsAlone = 0.25;  // of the parts are alike at least where only cups were moved
+  int compared = 0, alike = 0;
+  const CloudPrint* before = nullptr;
+  int session = 0;
+  for (std::size_t row = 0; row < frames.size(); ++row) {
+    if (prints[row].whole == 0) continue;
+    if (before && frames[row].session == session && prints[row].whole != before->whole)
+      for (std::size_t part = 0; part < before->parts.size(); ++part) {
+        const bool are_there = before->parts[part] != 0 && prints[row].parts[part] != 0;
+        compared += are_there;
+        alike += are_there && before->parts[part] == prints[row].parts[part];
+      }
+    before = &prints[row];
+    session = frames[row].session;
+  }
+  return compared >= kFewest && alike < kByCupsAlone * compared;
+}
+
 }  // namespace
 
-Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::uint64_t> fingerprints) {
+Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints) {
   std::map<PlacementKey, std::vector<std::size_t>> placements;
   for (std::size_t row = 0; row < frames.size(); ++row) placements[placement_of(frames[row])].push_back(row);
-  std::vector<Pair> pairs = equal_clouds(fingerprints);
+  std::vector<Pair> pairs = equal_clouds(prints);
   for (const auto& [key, rows] : placements)
     for (const Pair& pair : equal_numbers(frames, rows)) pairs.push_back(pair);
 
+  const bool may_be_without = !does_desk_scatter(frames, prints);
   const bool is_without_noise =
-      are_all_alike(frames, pairs, placements.size(),
-                    [](const FrameRecord& a, const FrameRecord& b) { return placement_of(a) == placement_of(b); });
-  const bool is_without_errors = are_all_alike(frames, pairs, number_of_conditions(frames), are_of_one_condition);
+      may_be_without && are_all_alike(frames, pairs, placements.size(), [](const FrameRecord& a, const FrameRecord& b) {
+        return placement_of(a) == placement_of(b);
+      });
+  const bool is_without_errors =
+      may_be_without && are_all_alike(frames, pairs, number_of_conditions(frames), are_of_one_condition);
 
   Copies copies{std::vector<bool>(frames.size()), {}};
   std::size_t repeated = 0;

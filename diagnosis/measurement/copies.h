@@ -1,9 +1,9 @@
 // Frames that were not measured but copied: one cloud, or the same numbers, in two rows.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
+#include "diagnosis/measurement/cloud_print.h"
 #include "diagnosis/measurement/frames.h"
 #include "diagnosis/statistics/evidence.h"
 
@@ -16,8 +16,9 @@ struct Copies {
 
 /// Of a cloud that stands in several rows of one liquid, fill and place the first counts; of one that stands for two of
 /// these, none: nobody knows which it was. Where all trials repeat the first of their placement, or all frames the
-/// first of their condition, nothing is a copy: nothing scatters. `fingerprints` are equal where clouds are; 0 where
-/// there is none. Of rows without clouds height, spread and points tell, within a placement.
-Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const std::uint64_t> fingerprints);
+/// first of their condition, nothing is a copy if nothing scatters: if the desk around the cups is the same to the bit
+/// in other clouds. `prints`: one of each frame. Of rows without clouds height, spread and points tell, within a
+/// placement.
+Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints);
 
 }  // namespace fathom

@@ -60,13 +60,13 @@ void append(Measurement more, Measurement& all) {
 
 }  // namespace
 
-Measurement read_measurements(std::span<const std::filesystem::path> folders) {
-  Measurement all = read_measurement(folders.front());
+Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet) {
+  Measurement all = read_measurement(folders.front(), quiet);
   for (const std::filesystem::path& folder : folders.subspan(1)) {
     for (const std::filesystem::path& earlier : folders)
       if (&earlier < &folder && std::filesystem::equivalent(earlier, folder))
         throw Error(folder.string(), "is given twice, must be another measurement");
-    Measurement more = read_measurement(folder);
+    Measurement more = read_measurement(folder, quiet);
     require_same(more.rig, folder, all.rig, folders.front());
     append(std::move(more), all);
   }

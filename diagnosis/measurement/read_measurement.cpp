@@ -4,29 +4,29 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <bit>
 #include <exception>
 #include <iterator>
 #include <map>
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/rng.h"
+#include "core/progress.h"
 #include "core/units.h"
 #include "detector/quiet_pcl.h"
-#include "detector/read_cloud.h"
 #include "diagnosis/measurement/copies.h"
 #include "diagnosis/measurement/desk_wander.h"
+#include "diagnosis/measurement/frame_cloud.h"
 #include "diagnosis/measurement/named_values.h"
+#include "diagnosis/measurement/places.h"
 
 namespace fathom {
 namespace {
 
 struct FrameReading {
   std::vector<NamedValue> values;
-  bool is_bare = false;           ///< the desk is seen where the cup should stand
-  bool is_mirrored = false;       ///< no cup stands where it should, but on the other side
-  std::uint64_t fingerprint = 0;  ///< of the cloud
+  bool is_bare = false;  ///< the desk is seen where the cup should stand
+  StandsElsewhere stands_elsewhere{};
+  CloudPrint print;
 };
 
 std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
@@ -36,15 +36,6 @@ std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
     if (cloud.points[i].allFinite() && cloud.points[i].z() > 0.0f)
       points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
   return points;
-}
-
-/// Equal for equal clouds, in whatever file; 0 without points.
-std::uint64_t fingerprint_of(const std::vector<SensedPoint>& points) {
-  std::uint64_t bits = 0;
-  for (const SensedPoint& sensed : points)
-    bits = mix_bits(bits ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(sensed.point.z())) << 32 |
-                            std::bit_cast<std::uint32_t>(sensed.intensity)));
-  return bits;
 }
 
 /// Of the pixels whose lines of sight pass through the cup's opening; nothing when there are none.
@@ -72,25 +63,12 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   return static_cast<double>(valid) / looked;
 }
 
-void require_metres(const std::vector<SensedPoint>& points, const std::filesystem::path& file) {
-  constexpr float kFarthest = 50.0f;  // [m] no sensor of this kind sees farther than 10
-  if (points.empty()) return;
-  const float z = points[points.size() / 2].point.z();
-  if (z > kFarthest) throw Error(file.string(), fmt::format("must be in metres: a point lies {:g} away", z));
-}
-
 /// Whether a fitted plane may be the desk that the rig stands on: within what the detector allows one.
 bool is_near(const Plane& desk, const LaboratoryRig& rig) {
   const PlaneSearch allowed;
   const Plane expected = plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad});
   return desk.normal.dot(expected.normal) > std::cos(allowed.prior_angle_max_rad) &&
          std::abs(desk.offset - expected.offset) < allowed.prior_height_max_m;
-}
-
-/// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
-bool shows_cup(const std::optional<FrameEstimates>& estimates) {
-  constexpr double kLeastBottom = 0.002, kFewestPixels = 10.0;
-  return estimates && estimates->interior.weight >= kFewestPixels && estimates->interior.mean > kLeastBottom;
 }
 
 /// Whether the desk is seen inside a cup whose bottom should stand clear of it.
@@ -100,27 +78,20 @@ bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
   return clear > 0.001 && estimates.interior.weight >= kFewestPixels && estimates.interior.mean < clear;
 }
 
-bool stands_mirrored(const std::vector<SensedPoint>& points, const LaboratoryRig& rig, const FrameRecord& frame,
-                     const std::optional<FrameEstimates>& as_written) {
-  if (frame.bare_desk() || frame.lateral_m == 0.0 || shows_cup(as_written)) return false;
-  return shows_cup(estimate_frame(points, rig, {Eigen::Vector2d(-frame.lateral_m, frame.distance_m), 0.0}));
-}
-
 FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder) {
   FrameReading reading;
   if (frame.cloud.empty()) {
     if (frame.height_mm) reading.values.push_back({"height_mm", kWholeInterior, *frame.height_mm});
     return reading;
   }
-  const Cloud cloud = read_cloud(folder / frame.cloud);
+  const Cloud cloud = read_frame_cloud(frame, folder);
   const std::vector<SensedPoint> points = sensed_points(cloud);
-  require_metres(points, folder / frame.cloud);
-  reading.fingerprint = fingerprint_of(points);
+  reading.print = print_of(points, rig.focal_px);
   FrameView view;
   if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
-  reading.is_mirrored = stands_mirrored(points, rig, frame, estimates);
+  reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
   const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
@@ -136,12 +107,13 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
 
 /// Of two frames that cannot be read the first is told of, whichever thread came first.
 std::vector<FrameReading> read_frames_of(const Measurement& measurement, const std::filesystem::path& folder,
-                                         const Table& table) {
+                                         const Table& table, bool quiet) {
   std::vector<FrameReading> readings(measurement.frames.size());
   std::vector<std::string> problems(readings.size());
-  const QuietPcl quiet;  // its verbosity is global: threads that silence it must all find it silent
+  const QuietPcl quiet_pcl;  // its verbosity is global: threads that silence it must all find it silent
+  Progress progress("frame", readings.size(), quiet);
   parallel_ranges(static_cast<int>(readings.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) try {
+    for (int i = begin; i < end; ++i, progress.step()) try {
         readings[i] = read_frame(measurement.frames[i], measurement.rig, folder);
       } catch (const Error& problem) {
         problems[i] = problem.what();
@@ -179,22 +151,6 @@ Observation observation_of(const Trials& trials, const FrameRecord& frame, doubl
   for (const double value : trials.values) squares += (value - observation.value) * (value - observation.value);
   if (n > 1.0) observation.repeat_sd = std::sqrt(squares / (n - 1.0));
   return observation;
-}
-
-/// Whether most of the cups off the axis stand on its other side; then laterals are changed.
-bool put_axis_right(const std::vector<FrameReading>& readings, Measurement& measurement) {
-  constexpr int kFewest = 4;
-  int off_axis = 0, mirrored = 0;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    off_axis += !measurement.frames[i].bare_desk() && measurement.frames[i].lateral_m != 0.0;
-    mirrored += readings[i].is_mirrored;
-  }
-  if (mirrored < kFewest || 2 * mirrored < off_axis) return false;
-  for (FrameRecord& frame : measurement.frames) frame.lateral_m = 0.0 - frame.lateral_m;
-  measurement.mistakes.push_back(
-      {"flipped_axis",
-       fmt::format("The lateral axis is flipped: {} of {} cups beside it stand mirrored.", mirrored, off_axis)});
-  return true;
 }
 
 void add_observations(const std::vector<std::size_t>& rows, const std::vector<FrameReading>& readings,
@@ -254,17 +210,19 @@ void leave_out_misplaced(const Table& table, std::vector<FrameReading>& readings
 
 }  // namespace
 
-Measurement read_measurement(const std::filesystem::path& folder) {
+Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
   const Table table = read_table(folder / "frames.csv");
   Measurement measurement;
   measurement.rig = read_rig(folder / "rig.json");
   measurement.frames = read_frames(table, measurement.rig, folder);
-  std::vector<FrameReading> readings = read_frames_of(measurement, folder, table);
-  if (put_axis_right(readings, measurement)) readings = read_frames_of(measurement, folder, table);
+  std::vector<FrameReading> readings = read_frames_of(measurement, folder, table, quiet);
+  std::vector<StandsElsewhere> elsewhere;
+  for (const FrameReading& reading : readings) elsewhere.push_back(reading.stands_elsewhere);
+  if (put_places_right(elsewhere, measurement)) readings = read_frames_of(measurement, folder, table, quiet);
   leave_out_misplaced(table, readings, measurement);
-  std::vector<std::uint64_t> fingerprints;
-  for (const FrameReading& reading : readings) fingerprints.push_back(reading.fingerprint);
-  Copies copies = find_copies(measurement.frames, fingerprints);
+  std::vector<CloudPrint> prints;
+  for (const FrameReading& reading : readings) prints.push_back(reading.print);
+  Copies copies = find_copies(measurement.frames, prints);
   std::move(copies.mistakes.begin(), copies.mistakes.end(), std::back_inserter(measurement.mistakes));
   std::map<PlacementKey, std::vector<std::size_t>> placements;
   for (std::size_t row = 0; row < measurement.frames.size(); ++row)

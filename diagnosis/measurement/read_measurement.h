@@ -11,15 +11,15 @@ struct Measurement {
   std::vector<FrameRecord> frames;
   std::vector<Observation> observations;  ///< by session, pour, placement; then as named_values() has them
   std::vector<std::string> notes;         ///< what limits it, one sentence each: heights without clouds, …
-  std::vector<Mistake> mistakes;          ///< "flipped_axis", "duplicated_trial": put right
+  std::vector<Mistake> mistakes;  ///< "flipped_axis", "unit_error", "distance_to_front", "duplicated_trial": put right
 };
 
 /// Reads rig.json, frames.csv and every cloud once, on all threads. Beside what named_values() lists: "valid_fraction"
 /// of the pixels that look into the cup's opening, "ir_contrast" (deviation over mean of the brightness, where a cloud
 /// has it) inside and on the desk. Placements whose frames hold heights only give "height_mm" of the whole interior.
 /// In sessions with repeats desk_wander() as well.
-/// Where cups off the axis stand mirrored, laterals change their sign; trials that are copies of others do not count.
-/// Throws Error naming file and place.
-Measurement read_measurement(const std::filesystem::path& folder);
+/// Places that were written down in another way are put right (places.h); trials that are copies of others do not
+/// count (copies.h). Throws Error naming file and place. Tells of its progress unless `quiet`.
+Measurement read_measurement(const std::filesystem::path& folder, bool quiet = true);
 
 }  // namespace fathom

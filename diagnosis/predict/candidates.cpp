@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "diagnosis/predict/slope.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
@@ -102,7 +103,7 @@ Candidate candidate_by_slopes(const Effect& effect, const std::string& name, con
   return candidate;
 }
 
-Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only) {
+Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only, bool quiet) {
   Candidates candidates;
   const std::vector<std::string> liquids = poured_liquids(predictor);
   std::vector<std::string> names = only;
@@ -114,6 +115,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
         for (std::string& name : names_of(effect, liquids)) names.push_back(std::move(name));
     }
   std::optional<Candidate> of_all;  // liquids: the last one that was predicted
+  Progress progress("effect", names.size(), quiet);
   for (const std::string& name : names) {
     const EffectName parts = effect_name(name);
     const Effect* effect = find_effect(parts.id);
@@ -128,6 +130,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
     if (!is_seen) candidate.signature.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);
     if (is_seen || (only.empty() && parts.liquid.empty())) candidates.all.push_back(std::move(candidate));
+    progress.step();
   }
   return candidates;
 }

@@ -19,7 +19,7 @@ Candidate candidate_by_slopes(const Effect& effect, const std::string& name, con
 
 /// Every effect of the registry; those of liquids also for each liquid apart, as "id@liquid", where there are several.
 /// Or of those named the ones that move anything. Signatures are central differences over the prior scale, one-sided at
-/// a bound. Throws Error on an unknown name.
-Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only = {});
+/// a bound. Throws Error on an unknown name. Tells of its progress unless `quiet`.
+Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only = {}, bool quiet = true);
 
 }  // namespace fathom

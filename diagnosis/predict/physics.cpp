@@ -23,7 +23,7 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
 }  // namespace
 
 Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
-                   const std::vector<std::string>& only) {
+                   const std::vector<std::string>& only, bool quiet) {
   Physics physics;
   Evidence& evidence = physics.evidence;
   evidence.mistakes = measurement.mistakes;
@@ -39,7 +39,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   if (Nuisance response = brightness_response(evidence.observations, evidence.predicted); !response.signature.isZero())
     evidence.nuisances.push_back(std::move(response));
   evidence.shared_errors = model_errors(evidence.observations);
-  Candidates candidates = candidates_of(*predictor, only);
+  Candidates candidates = candidates_of(*predictor, only, quiet);
   evidence.candidates = std::move(candidates.all);
   physics.unseen = std::move(candidates.unseen);
   physics.not_sought = std::move(candidates.not_sought);

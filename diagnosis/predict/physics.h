@@ -18,8 +18,9 @@ struct Physics {
 /// Rows: of the observations those that direct light predicts (predictable.h), without regions of the cup in or near
 /// shadows. What is uncertain anyway (nuisances.h) and what the model leaves out (model_errors.h) are its nuisances,
 /// the effects of the registry (candidates.h) its candidates, or where there are any `only` those. `model_effects` (as
-/// in model.json) belong to the nominal model. Throws Error on what cannot be modelled.
+/// in model.json) belong to the nominal model. Throws Error on what cannot be modelled. Tells of its progress unless
+/// `quiet`.
 Physics physics_of(const Measurement& measurement, const Json& model_effects = Json::array(),
-                   const std::string& file = "rig.json", const std::vector<std::string>& only = {});
+                   const std::string& file = "rig.json", const std::vector<std::string>& only = {}, bool quiet = true);
 
 }  // namespace fathom

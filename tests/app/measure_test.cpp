@@ -88,6 +88,12 @@ TEST_F(MeasureCommand, MistakesNameTheLineAndTheColumn) {
   write_text(folder / "clouds/bad.pcd", "hello\n");
   EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,clouds/bad.pcd\n"),
             "line 2, column 'cloud': " + (folder / "clouds/bad.pcd").string() + ": is neither PCD nor PLY\n");
+  write_text(folder / "clouds/mm.pcd",
+             "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
+             "-50 20 705\n50 20 705\n");
+  EXPECT_EQ(error_of("0,0,0,0,0,0,empty,0,400,0,clouds/mm.pcd\n"),
+            "line 2, column 'cloud': " + (folder / "clouds/mm.pcd").string() +
+                ": must be in metres: most of its points lie more than 50 away\n");
 }
 
 }  // namespace

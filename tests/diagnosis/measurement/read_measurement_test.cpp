@@ -8,6 +8,7 @@
 
 #include "core/cloud_file.h"
 #include "core/files.h"
+#include "core/rng.h"
 #include "core/units.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
@@ -132,6 +133,30 @@ TEST_F(MeasurementFolder, CopiesOfTrialsDoNotCountAndAreSaid) {
       read("0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,1,1,0,9,water,20,300,0,clouds/a.pcd\n").mistakes.empty());
 }
 
+TEST_F(MeasurementFolder, WhereEveryTrialIsACopyTheDeskTellsNoiseFromNone) {
+  const std::string rows =
+      "0,0,0,0,0,0,water,20,300,0,clouds/low.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/low.pcd\n"
+      "2,0,1,1,0,2,water,30,300,0,clouds/high.pcd\n3,0,1,1,1,3,water,30,300,0,clouds/high.pcd\n";
+  const auto write_clouds = [&](double noise) {
+    for (const auto& [name, disc] : {std::pair("low", 0.020), std::pair("high", 0.030)}) {
+      Image<CloudPoint> cloud = ideal_cloud(kHeight, disc);
+      Rng rng(1, static_cast<int>(1000 * disc));
+      for (CloudPoint& point : cloud.pixels()) {
+        const auto longer = static_cast<float>(1.0 + noise * (rng.uniform() - 0.5));
+        point.x *= longer, point.y *= longer, point.z *= longer;
+      }
+      write_pcd(folder / fmt::format("clouds/{}.pcd", name), cloud);
+    }
+  };
+  write_clouds(0.0);
+  EXPECT_TRUE(read(rows).mistakes.empty());
+  write_clouds(1e-3);
+  const Measurement measurement = read(rows);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].sentence, "2 of 4 frames are copies of others.");
+  EXPECT_EQ(measurement.observations.front().repeats, 1);
+}
+
 TEST_F(MeasurementFolder, ACloudThatStandsForTwoConditionsCountsForNeither) {
   fs::copy(folder / "clouds/b.pcd", folder / "clouds/copied.pcd");
   const Measurement measurement = read(
@@ -233,9 +258,9 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
                  "line 2, column 'fill_mm': must be from 0 to 80, the depth of the cup, got '200'");
   expect_refused("0,0,0,0,0,0,water,20,300,0,,nan\n", "line 2, column 'height_mm': must be a finite number, got 'nan'",
                  kHeader + std::string(",height_mm"));
-  expect_refused(
-      "0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/mm.pcd\n",
-      "line 3, column 'cloud': " + (folder / "clouds/mm.pcd").string() + ": must be in metres: a point lies ");
+  expect_refused("0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/mm.pcd\n",
+                 "line 3, column 'cloud': " + (folder / "clouds/mm.pcd").string() +
+                     ": must be in metres: most of its points lie more than 50 away");
   expect_refused(
       "0,0,0,0,0,0,water,20,300,150,clouds/a.pcd\n",
       "line 2, column 'distance_mm': 1 of 1 clouds show the bare desk where distance_mm and lateral_mm say the cup is, "

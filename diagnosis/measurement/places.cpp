@@ -1,0 +1,98 @@
+#include "diagnosis/measurement/places.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+/// What a written place may mean.
+struct PlaceReading {
+  const char* mistake;
+  double lateral_factor;
+  double outer_radii;  ///< to be added to the distance
+  const char* first_words;
+  const char* last_words;
+};
+
+constexpr std::array<PlaceReading, kPlaceReadings> kReadings{{
+    {"flipped_axis", -1.0, 0.0, "The lateral axis is flipped", "cups beside it stand mirrored"},
+    {"unit_error", 10.0, 0.0, "Laterals were written down in centimetres, not in millimetres", "cups stand so"},
+    {"unit_error", 25.4, 0.0, "Laterals were written down in inches, not in millimetres", "cups stand so"},
+    {"unit_error", 1000.0, 0.0, "Laterals were written down in metres, not in millimetres", "cups stand so"},
+    {"distance_to_front", 1.0, 1.0, "Distances were measured to the cup's front, not to its axis", "cups stand so"},
+}};
+
+/// Whether it says anything else than what is written.
+bool moves(const PlaceReading& reading, const FrameRecord& frame) {
+  return !frame.bare_desk() && (frame.lateral_m != 0.0 || reading.outer_radii != 0.0);
+}
+
+void apply(const PlaceReading& reading, const LaboratoryRig& rig, FrameRecord& frame) {
+  frame.lateral_m = frame.lateral_m == 0.0 ? 0.0 : reading.lateral_factor * frame.lateral_m;
+  frame.distance_m += reading.outer_radii * rig.outer_radius_m;
+}
+
+/// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
+bool shows_cup(const std::optional<FrameEstimates>& estimates) {
+  constexpr double kLeastBottom = 0.002, kFewestPixels = 10.0;
+  return estimates && estimates->interior.weight >= kFewestPixels && estimates->interior.mean > kLeastBottom;
+}
+
+/// Whether the cup's walls are where they should be.
+bool shows_walls(const std::optional<FrameEstimates>& estimates) {
+  constexpr double kNear = 0.006, kAsWide = 0.003;  // [m] a hand's error and another cup's; the fit reaches 12 mm
+  return estimates && estimates->outline && estimates->outline->off.norm() < kNear &&
+         std::abs(estimates->outline->wider) < kAsWide;
+}
+
+}  // namespace
+
+StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const LaboratoryRig& rig,
+                                 const FrameRecord& frame, const std::optional<FrameEstimates>& as_written) {
+  StandsElsewhere stands{};
+  if (frame.bare_desk() || shows_walls(as_written)) return stands;
+  for (std::size_t i = 0; i < kPlaceReadings; ++i) {
+    if (!moves(kReadings[i], frame)) continue;
+    FrameRecord other = frame;
+    apply(kReadings[i], rig, other);
+    const std::optional<FrameEstimates> there =
+        estimate_frame(points, rig, {Eigen::Vector2d(other.lateral_m, other.distance_m), 0.0});
+    stands[i] = shows_walls(there) || (shows_cup(there) && !shows_cup(as_written));
+  }
+  return stands;
+}
+
+bool put_places_right(std::span<const StandsElsewhere> frames, Measurement& measurement) {
+  constexpr int kFewest = 4;
+  struct Count {
+    int moved = 0, elsewhere = 0;
+  };
+  std::map<int, std::array<Count, kPlaceReadings>> sessions;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    for (std::size_t k = 0; k < kPlaceReadings; ++k) {
+      Count& count = sessions[measurement.frames[i].session][k];
+      count.moved += moves(kReadings[k], measurement.frames[i]);
+      count.elsewhere += frames[i][k];
+    }
+  bool is_any = false;
+  for (const auto& [session, counts] : sessions)
+    for (std::size_t k = 0; k < kPlaceReadings; ++k) {
+      const auto& [moved, elsewhere] = counts[k];
+      if (elsewhere < kFewest || 2 * elsewhere < moved) continue;
+      for (FrameRecord& frame : measurement.frames)
+        if (frame.session == session && moves(kReadings[k], frame)) apply(kReadings[k], measurement.rig, frame);
+      measurement.mistakes.push_back(
+          {kReadings[k].mistake, fmt::format("{}{}: {} of {} {}.", kReadings[k].first_words,
+                                             sessions.size() > 1 ? fmt::format(" in session {}", session) : "",
+                                             elsewhere, moved, kReadings[k].last_words)});
+      is_any = true;
+      break;
+    }
+  return is_any;
+}
+
+}  // namespace fathom
