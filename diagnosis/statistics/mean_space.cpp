@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <array>
 #include <cmath>
 
@@ -78,6 +79,43 @@ void add_drift(const std::vector<Observation>& observations, Span& means) {
   means.add(time.cwiseAbs2());
 }
 
+/// Of all candidates, one after the other.
+Eigen::MatrixXd signatures_at(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
+  Eigen::MatrixXd result(rows.size(), 0);
+  for (const Candidate& candidate : evidence.candidates) {
+    result.conservativeResize(Eigen::NoChange, result.cols() + candidate.signature.cols());
+    result.rightCols(candidate.signature.cols()) = candidate.signature(rows, Eigen::all);
+  }
+  return result;
+}
+
+/// The directions, most common first, of which hardly more than a twentieth of any column is left.
+Eigen::MatrixXd common_directions(const Eigen::MatrixXd& columns) {
+  constexpr double kLeft = 0.05;
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns.colwise().normalized(), Eigen::ComputeThinU);
+  return svd.matrixU().leftCols((svd.singularValues().array() > kLeft).count());
+}
+
+/// Contrasts of some observations that neither signatures (observations × any number, those that matter most first)
+/// nor polynomials of each liquid and region make.
+Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, const Eigen::MatrixXd& signatures) {
+  const auto n = static_cast<Eigen::Index>(observations.size());
+  Span means(n, n / 2);
+  const auto add_products = [&](const Eigen::MatrixXd& groups, const Eigen::MatrixXd& shapes) {
+    for (Eigen::Index s = 0; s < shapes.cols(); ++s)
+      for (Eigen::Index g = 0; g < groups.cols(); ++g) means.add(groups.col(g).cwiseProduct(shapes.col(s)));
+  };
+  const Eigen::MatrixXd shapes = polynomials(observations);
+  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
+               shapes.leftCols(1));
+  for (Eigen::Index k = 0; k < signatures.cols(); ++k) means.add(signatures.col(k));
+  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
+  add_products(indicators(group_by(observations,
+                                   [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),
+               shapes);
+  return means.complement();
+}
+
 }  // namespace
 
 Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::MatrixXd& weights) {
@@ -99,22 +137,20 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
     add_drift(observations, means);
     return {means.complement(), true};
   }
-  Span means(n, n / 2);
-  const auto add_products = [&](const Eigen::MatrixXd& groups, const Eigen::MatrixXd& shapes) {
-    for (Eigen::Index s = 0; s < shapes.cols(); ++s)
-      for (Eigen::Index g = 0; g < groups.cols(); ++g) means.add(groups.col(g).cwiseProduct(shapes.col(s)));
-  };
-  const Eigen::MatrixXd shapes = polynomials(observations);
-  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
-               shapes.leftCols(1));
-  for (const Candidate& candidate : evidence.candidates)
-    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
-      means.add(Eigen::VectorXd(candidate.signature.col(k))(rows));
-  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
-  add_products(indicators(group_by(observations,
-                                   [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),
-               shapes);
-  return {means.complement(), false};
+  return {smooth_contrasts(observations, signatures_at(evidence, rows)), false};
+}
+
+CellMeans cell_means(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
+  const Groups cells = group_by(at(evidence.observations, rows), cell_key);
+  CellMeans means{indicators(cells).transpose(), {}};
+  std::vector<Eigen::Index> first;
+  for (const auto& members : cells.members()) {
+    means.over.row(static_cast<Eigen::Index>(first.size())) /= static_cast<double>(members.size());
+    first.push_back(rows[members.front()]);
+  }
+  means.contrasts =
+      smooth_contrasts(at(evidence.observations, first), common_directions(means.over * signatures_at(evidence, rows)));
+  return means;
 }
 
 }  // namespace fathom

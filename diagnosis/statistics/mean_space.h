@@ -23,4 +23,11 @@ Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::Matrix
 /// liquid and region, make: as many of them as leave half of the rows.
 MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& rows);
 
+/// Means over the cells of one observable's rows, and which contrasts of them no smooth function as above makes.
+struct CellMeans {
+  Eigen::MatrixXd over;       ///< cells × rows
+  Eigen::MatrixXd contrasts;  ///< cells × m
+};
+CellMeans cell_means(const Evidence& evidence, const std::vector<Eigen::Index>& rows);
+
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/median.h"
 #include "diagnosis/statistics/mean_space.h"
@@ -49,6 +50,39 @@ Eigen::MatrixXd shared(const Groups& groups, const std::vector<Eigen::Index>& ro
 bool are_alike(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
   constexpr double kLeastCosine = 0.995;
   return one.cwiseProduct(other).sum() > kLeastCosine * one.norm() * other.norm();
+}
+
+/// Adds components that were estimated together, beside those that were before them.
+void fit(std::vector<VarianceComponent> components, const std::vector<Eigen::MatrixXd>& shapes,
+         const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known, ObservableErrors& errors) {
+  const VarianceFit fit = fit_variances(contrasts, known, shapes, std::vector<VariancePrior>(shapes.size()));
+  for (std::size_t k = 0; k < components.size(); ++k)
+    components[k].variance = fit.variances[static_cast<Eigen::Index>(k)];
+  const Eigen::Index before = errors.covariance.rows(), more = fit.covariance.rows();
+  errors.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(before + more, before + more));
+  errors.covariance.bottomRightCorner(more, more) = fit.covariance;
+  std::move(components.begin(), components.end(), std::back_inserter(errors.components));
+}
+
+/// Of what stands in the means of repeated cells, a smooth model leaves what does not go with it.
+void fit_unrepeated(const Evidence& evidence, const std::vector<Eigen::Index>& rows, const Eigen::VectorXd& residual,
+                    const Eigen::MatrixXd& known, std::vector<VarianceComponent> components, ObservableErrors& errors) {
+  constexpr double kLeastSeen = 0.02;  // of the sum of squares: the rest a smooth function may have made
+  const CellMeans means = cell_means(evidence, rows);
+  if (means.contrasts.cols() == 0) return;
+  const Eigen::MatrixXd contrasts = means.over.transpose() * means.contrasts;
+  Eigen::MatrixXd covariance = contrasts.transpose() * known(rows, rows) * contrasts;
+  for (const VarianceComponent& component : errors.components)
+    covariance += component.variance * shared(component.groups, rows, contrasts);
+  std::vector<Eigen::MatrixXd> shapes;
+  std::erase_if(components, [&](const VarianceComponent& component) {
+    Eigen::MatrixXd shape = shared(component.groups, rows, contrasts);
+    const double all = shared(component.groups, rows, means.over.transpose()).trace();
+    if (shape.trace() < kLeastSeen * all || (!shapes.empty() && are_alike(shapes.back(), shape))) return true;
+    shapes.push_back(std::move(shape));
+    return false;
+  });
+  fit(std::move(components), shapes, contrasts.transpose() * residual(rows), covariance, errors);
 }
 
 }  // namespace
@@ -113,21 +147,20 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     // What no contrast sees cannot be estimated: a pour that was never repeated stands in its mean. Nor can what they
     // see as they see a lower level: one of the two would be drawn as large as the other is drawn negative.
     std::vector<Eigen::MatrixXd> shapes;
-    std::erase_if(components, [&](const VarianceComponent& component) {
+    std::vector<VarianceComponent> unrepeated;
+    std::erase_if(components, [&](VarianceComponent& component) {
       Eigen::MatrixXd shape = shared(component.groups, rows, contrasts);
       const bool is_seen = shape.trace() > 1e-6 * static_cast<double>(rows.size());
+      if (!is_seen) unrepeated.push_back(std::move(component));
       if (!is_seen || (!shapes.empty() && are_alike(shapes.back(), shape))) return true;
       shapes.push_back(std::move(shape));
       return false;
     });
-    const Eigen::VectorXd left = contrasts.transpose() * residual(rows);
-    const VarianceFit fit = fit_variances(left, contrasts.transpose() * known(rows, rows) * contrasts, shapes,
-                                          std::vector<VariancePrior>(shapes.size()));
     ObservableErrors errors;
-    errors.covariance = fit.covariance;
-    for (std::size_t k = 0; k < components.size(); ++k)
-      components[k].variance = fit.variances[static_cast<Eigen::Index>(k)];
-    errors.components = std::move(components);
+    fit(std::move(components), shapes, contrasts.transpose() * residual(rows),
+        contrasts.transpose() * known(rows, rows) * contrasts, errors);
+    if (means.from_replicates && !unrepeated.empty())
+      fit_unrepeated(evidence, rows, residual, known, std::move(unrepeated), errors);
     budget.observables.push_back(std::move(errors));
   }
   return budget;

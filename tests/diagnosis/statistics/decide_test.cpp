@@ -39,6 +39,17 @@ TEST(Decide, NamesNothingWhereErrorsAreLargerThanStatedOrHeavyTailed) {
   EXPECT_LE(alarms, 2);
 }
 
+TEST(Decide, NamesNothingWherePoursScatterThatWereNotRepeated) {
+  const World world(once_poured_design());
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Evidence evidence = with_errors_of_pours(world.measure({}, {}, seed), 0.4, 50 + seed);
+    alarms += decide(evidence, world.predict()).verdict != Verdict::none;
+  }
+  // At a rate of 1 %, two or more of 20 come once in 60 times.
+  EXPECT_LE(alarms, 1);
+}
+
 TEST(Decide, NamesOneStrongEffectWithItsSizeAndClosesTheGap) {
   const World world(small_design());
   int named = 0, covered = 0;

@@ -58,6 +58,23 @@ TEST(VarianceComponents, AreFoundAgain) {
   EXPECT_NEAR(mean[2], 0.08 * 0.08, 0.5 * 0.08 * 0.08);
 }
 
+TEST(VarianceComponents, OfPoursThatWereNotRepeatedAreFoundBetweenThem) {
+  const World world(once_poured_design());
+  constexpr double kPours = 0.4;  // mm
+  double mean = 0.0;
+  constexpr int kSets = 20;
+  for (int set = 0; set < kSets; ++set) {
+    const Evidence evidence = with_errors_of_pours(world.measure({}, {}, 300 + set), kPours, 900 + set);
+    const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
+    ASSERT_TRUE(covariance.errors.from_replicates);
+    for (const VarianceComponent& component : covariance.errors.observables.front().components)
+      if (component.level == ErrorLevel::pour) mean += component.variance / kSets;
+  }
+  // Candidates leave some eight of 17 pours: each estimate scatters by half, the mean of twenty by a ninth: three times
+  // that allowed.
+  EXPECT_NEAR(mean, kPours * kPours + 0.08 * 0.08, 0.35 * kPours * kPours);
+}
+
 TEST(VarianceComponents, AreBlindToEffects) {
   const World world(small_design());
   const EffectValue effect = world.at_strength("radial_distortion", 50.0, 1.0);

@@ -155,11 +155,12 @@ std::vector<Observation> observations(const CampaignDesign& design) {
   const auto place = [&](int session, int of_pour, const std::string& liquid, double fill_mm) {
     const double first_frame_s = clock[session] + 40.0;
     for (const double distance : design.distances_mm)
-      for (const double lateral : design.laterals_mm) {
-        clock[session] += 40.0;
-        add({session, of_pour, ++placement, clock[session], clock[session] - first_frame_s, liquid, fill_mm, distance,
-             lateral, ""});
-      }
+      for (const double lateral : design.laterals_mm)
+        for (int again = 0; again < design.placements; ++again) {
+          clock[session] += 40.0;
+          add({session, of_pour, ++placement, clock[session], clock[session] - first_frame_s, liquid, fill_mm, distance,
+               lateral, ""});
+        }
   };
   for (int repetition = 0; repetition < design.pours; ++repetition) {
     const int session = repetition % design.sessions;

@@ -17,7 +17,8 @@ struct CampaignDesign {
   std::vector<std::string> regions{"centre", "ring"};
   bool has_infrared = true;
   bool has_desk = true;
-  int pours = 2;  ///< of each filling
+  int pours = 2;       ///< of each filling
+  int placements = 1;  ///< of each pour at each place
   int repeats = 10;
   int sessions = 2;
   bool turns_about = false;  ///< every other pour goes through the fillings backwards: time is not condition
