@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/median.h"
 #include "core/units.h"
 #include "detector/plane.h"
 
@@ -80,12 +81,32 @@ void require_possible(const Table& frames, std::size_t row, const FrameRecord& r
   if (!is_in_sight(record, rig))
     must("distance_mm", fmt::format("in mm and, with lateral_mm {}, where the sensor of rig.json sees the cup",
                                     frames.text(row, "lateral_mm")));
-  if (!record.cloud.empty()) return;
-  constexpr double kLeastOfBottom = 0.25, kAboveRim_mm = 5.0;  // what no noise and no wrong cup make of a height
+}
+
+/// Heights of tables, most often because of another unit: single ones may be noise, those of one filling are not.
+void require_possible_heights(const Table& frames, const std::vector<FrameRecord>& records, const LaboratoryRig& rig) {
+  constexpr double kLeastOfBottom = 0.25, kAboveRim_mm = 5.0;  // what no wrong cup makes of a height
+  constexpr double kNoise_mm = 20.0;
   const double least = kLeastOfBottom * mm_from_metres(rig.bottom_m),
                most = mm_from_metres(rig.cup_height_m) + kAboveRim_mm;
-  if (*record.height_mm < least || *record.height_mm > most)
-    must("height_mm", fmt::format("in mm above the desk, from {:g} to {:g} in this cup", least, most));
+  std::map<std::tuple<int, std::string, double>, std::vector<std::size_t>> fillings;
+  for (std::size_t row = 0; row < records.size(); ++row)
+    if (const FrameRecord& r = records[row]; r.cloud.empty() && !r.bare_desk())
+      fillings[{r.session, r.liquid, r.fill_m}].push_back(row);
+  std::optional<std::size_t> first;
+  for (const auto& [filling, rows] : fillings) {
+    std::vector<double> heights_mm;
+    for (const std::size_t row : rows) heights_mm.push_back(*records[row].height_mm);
+    const double middle = median(heights_mm);
+    const double noise = middle < least || middle > most ? 0.0 : kNoise_mm;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (*records[rows[i]].height_mm < least - noise || *records[rows[i]].height_mm > most + noise)
+        first = std::min(first.value_or(rows[i]), rows[i]);
+  }
+  if (first)
+    frames.fail(*first, "height_mm",
+                fmt::format("must be in mm above the desk, from {:g} to {:g} in this cup, got '{}'", least, most,
+                            frames.text(*first, "height_mm")));
 }
 
 /// Of the rows before a row: what it must not contradict.
@@ -172,6 +193,7 @@ std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& r
     require_possible(frames, row, records.back(), rig);
     earlier.add(row, records.back());
   }
+  require_possible_heights(frames, records, rig);
   set_stood(records);
   return records;
 }

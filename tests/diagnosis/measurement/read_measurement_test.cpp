@@ -275,6 +275,19 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
                  "line 2, column 'cloud': " + (folder / "clouds/bad.pcd").string() + ": is neither PCD nor PLY");
 }
 
+TEST_F(MeasurementFolder, AHeightMayBeNoiseWhereThoseOfItsFillingArePossible) {
+  const std::string header = kHeader + std::string(",height_mm");
+  const std::string noisy =
+      "0,0,0,0,0,0,empty,0,300,0,,-0.4\n1,0,0,0,1,1,empty,0,300,0,,6.9\n2,0,0,0,2,2,empty,0,300,0,,8.1\n";
+  EXPECT_NEAR(read(noisy, header).observations.front().value, 14.6 / 3.0, 1e-9);
+  expect_refused(noisy + "3,0,0,0,3,3,empty,0,300,0,,125\n",
+                 "line 5, column 'height_mm': must be in mm above the desk, from 1.75 to 92 in this cup, got '125'",
+                 header);
+  expect_refused(noisy + "3,0,1,1,0,3,water,20,300,0,,1.3\n4,0,1,1,1,4,water,20,300,0,,1.4\n",
+                 "line 5, column 'height_mm': must be in mm above the desk, from 1.75 to 92 in this cup, got '1.3'",
+                 header);
+}
+
 TEST_F(MeasurementFolder, RowsMustBePossible) {
   const std::pair<const char*, const char*> rows[] = {
       {"0,may,0,0,0,0,water,20,300,0,,15", "line 2, column 'session': must be a whole number from 0, got 'may'"},
