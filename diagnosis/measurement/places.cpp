@@ -37,16 +37,44 @@ void apply(const PlaceReading& reading, const LaboratoryRig& rig, FrameRecord& f
 }
 
 /// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
-bool shows_cup(const std::optional<FrameEstimates>& estimates) {
+bool shows_bottom(const std::optional<FrameEstimates>& estimates) {
   constexpr double kLeastBottom = 0.002, kFewestPixels = 10.0;
   return estimates && estimates->interior.weight >= kFewestPixels && estimates->interior.mean > kLeastBottom;
 }
 
-/// Whether the cup's walls are where they should be.
+/// Whether walls stand around where the cup should, of whatever cup they are.
 bool shows_walls(const std::optional<FrameEstimates>& estimates) {
-  constexpr double kNear = 0.006, kAsWide = 0.003;  // [m] a hand's error and another cup's; the fit reaches 12 mm
-  return estimates && estimates->outline && estimates->outline->off.norm() < kNear &&
-         std::abs(estimates->outline->wider) < kAsWide;
+  constexpr double kNear = 0.006;  // [m] a hand's error; the fit reaches 12 mm
+  return estimates && estimates->outline && estimates->outline->off.norm() < kNear;
+}
+
+/// Whether the desk is seen between the cup and the sensor: else its wall may be what stands in another cup.
+bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRig& rig, const Plane& desk,
+                         const Eigen::Vector2d& cup) {
+  constexpr double kFrom = 0.012, kTo = 0.024, kAside = 0.020;  // [m] clear of the matcher's windows at the wall
+  constexpr int kFewest = 3;
+  const Eigen::Isometry3d to_desk = desk_from_camera(desk);
+  const Eigen::Vector2d axis = cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
+  const Eigen::Vector2d to_sensor = -axis.normalized();
+  double height = 0.0;
+  int seen = 0;
+  for (const SensedPoint& sensed : points) {
+    const Eigen::Vector3d point = to_desk * sensed.point.cast<double>();
+    const Eigen::Vector2d from_axis = point.head<2>() - axis;
+    const double ahead = from_axis.dot(to_sensor) - rig.outer_radius_m;
+    if (ahead < kFrom || ahead > kTo || (from_axis - from_axis.dot(to_sensor) * to_sensor).norm() > kAside) continue;
+    height += point.z();
+    ++seen;
+  }
+  return seen >= kFewest && std::abs(height / seen) < 0.5 * rig.bottom_m;
+}
+
+/// Whether the rig's cup is where it should be.
+bool shows_cup_of(const LaboratoryRig& rig, std::span<const SensedPoint> points,
+                  const std::optional<FrameEstimates>& estimates, const Eigen::Vector2d& cup) {
+  constexpr double kAsWide = 0.003;  // [m]
+  return shows_walls(estimates) && std::abs(estimates->outline->wider) < kAsWide &&
+         shows_desk_in_front(points, rig, estimates->desk, cup);
 }
 
 }  // namespace
@@ -59,9 +87,9 @@ StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const Labo
     if (!moves(kReadings[i], frame)) continue;
     FrameRecord other = frame;
     apply(kReadings[i], rig, other);
-    const std::optional<FrameEstimates> there =
-        estimate_frame(points, rig, {Eigen::Vector2d(other.lateral_m, other.distance_m), 0.0});
-    stands[i] = shows_walls(there) || (shows_cup(there) && !shows_cup(as_written));
+    const Eigen::Vector2d place(other.lateral_m, other.distance_m);
+    const std::optional<FrameEstimates> there = estimate_frame(points, rig, {place, 0.0});
+    stands[i] = shows_cup_of(rig, points, there, place) || (shows_bottom(there) && !shows_bottom(as_written));
   }
   return stands;
 }

@@ -25,8 +25,9 @@ std::optional<double> meets(const Eigen::Vector3d& from, const Eigen::Vector3d& 
   return (-b + (leaves ? 1.0 : -1.0) * std::sqrt(under)) / a;
 }
 
-/// An ideal sensor's cloud of a desk with an empty cup at (`lateral`, `distance`) of the rig's middle.
-Image<CloudPoint> cloud_of_cup(double lateral, double distance) {
+/// An ideal sensor's cloud of a desk with a cup at (`lateral`, `distance`) of the rig's middle, `size` times as large
+/// as the paper's, in which milk stands at `level`.
+Image<CloudPoint> cloud_of_cup(double lateral, double distance, double size = 1.0, double level = kBottom) {
   const double pitch = radians_from_deg(kPitchDeg);
   const Eigen::Vector3d camera(-kHalfBaseline - lateral, -distance, kHeight);  // from the cup's foot
   Image<CloudPoint> cloud(640, 480);
@@ -36,11 +37,11 @@ Image<CloudPoint> cloud_of_cup(double lateral, double distance) {
       const Eigen::Vector3d sight(u, std::cos(pitch) - v * std::sin(pitch), -std::sin(pitch) - v * std::cos(pitch));
       const auto height_at = [&](double z) { return camera.z() + z * sight.z(); };
       double z = kHeight / -sight.z();
-      const Eigen::Vector3d at_rim = camera + sight * ((kHeight - kRim) / -sight.z());
-      if (at_rim.head<2>().norm() < kInner) {
-        z = std::min((kHeight - kBottom) / -sight.z(), *meets(camera, sight, kInner, true));
-      } else if (const auto outside = meets(camera, sight, kOuter, false);
-                 outside && height_at(*outside) > 0.0 && height_at(*outside) < kRim) {
+      const Eigen::Vector3d at_rim = camera + sight * ((kHeight - size * kRim) / -sight.z());
+      if (at_rim.head<2>().norm() < size * kInner) {
+        z = std::min((kHeight - level) / -sight.z(), *meets(camera, sight, size * kInner, true));
+      } else if (const auto outside = meets(camera, sight, size * kOuter, false);
+                 outside && height_at(*outside) > 0.0 && height_at(*outside) < size * kRim) {
         z = *outside;
       }
       cloud(x, y) = {static_cast<float>(z * u), static_cast<float>(z * v), static_cast<float>(z), 100.0f};
@@ -107,6 +108,19 @@ TEST_F(Places, ASessionMayHaveItsOwnMistake) {
     add(lateral_mm, 300, -lateral_mm, 300, 2);
   }
   expect_mistake("flipped_axis", "The lateral axis is flipped in session 2: 4 of 4 cups beside it stand mirrored.");
+}
+
+TEST_F(Places, AnotherCupIsNoOtherPlace) {
+  for (const double size : {0.8, 1.2, 1.3}) {
+    for (const double level : {0.03, 0.04, 0.05})
+      for (const double distance_mm : {250.0, 400.0}) {
+        add(0, distance_mm, 0, distance_mm);
+        write_pcd(folder / fmt::format("clouds/{}.pcd", next - 1),
+                  cloud_of_cup(0.0, metres_from_mm(distance_mm), size, level));
+      }
+    EXPECT_TRUE(read().mistakes.empty()) << size;
+    rows.resize(rows.find('\n') + 1);
+  }
 }
 
 TEST_F(Places, WhatIsNoMistakeOfAllIsNotPutRight) {
