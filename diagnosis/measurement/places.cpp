@@ -1,6 +1,7 @@
 #include "diagnosis/measurement/places.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 
@@ -77,6 +78,23 @@ bool shows_cup_of(const LaboratoryRig& rig, std::span<const SensedPoint> points,
          shows_desk_in_front(points, rig, estimates->desk, cup);
 }
 
+/// Cups that a reading moves, and those that stand where it says.
+struct Count {
+  int moved = 0, elsewhere = 0;
+};
+
+std::string sentence_of(const PlaceReading& reading, const std::map<int, Count>& of_sessions, std::size_t sessions) {
+  Count all;
+  std::vector<int> numbers;
+  for (const auto& [session, count] : of_sessions) {
+    all.moved += count.moved, all.elsewhere += count.elsewhere;
+    numbers.push_back(session);
+  }
+  const std::string where =
+      numbers.size() < sessions ? fmt::format(" in session {}", fmt::join(numbers, " and ")) : std::string();
+  return fmt::format("{}{}: {} of {} {}.", reading.first_words, where, all.elsewhere, all.moved, reading.last_words);
+}
+
 }  // namespace
 
 StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const LaboratoryRig& rig,
@@ -96,9 +114,6 @@ StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const Labo
 
 bool put_places_right(std::span<const StandsElsewhere> frames, Measurement& measurement) {
   constexpr int kFewest = 4;
-  struct Count {
-    int moved = 0, elsewhere = 0;
-  };
   std::map<int, std::array<Count, kPlaceReadings>> sessions;
   for (std::size_t i = 0; i < frames.size(); ++i)
     for (std::size_t k = 0; k < kPlaceReadings; ++k) {
@@ -106,21 +121,20 @@ bool put_places_right(std::span<const StandsElsewhere> frames, Measurement& meas
       count.moved += moves(kReadings[k], measurement.frames[i]);
       count.elsewhere += frames[i][k];
     }
-  bool is_any = false;
+  std::map<std::size_t, std::map<int, Count>> wrong;  // by reading, then by session
   for (const auto& [session, counts] : sessions)
     for (std::size_t k = 0; k < kPlaceReadings; ++k) {
-      const auto& [moved, elsewhere] = counts[k];
-      if (elsewhere < kFewest || 2 * elsewhere < moved) continue;
-      for (FrameRecord& frame : measurement.frames)
-        if (frame.session == session && moves(kReadings[k], frame)) apply(kReadings[k], measurement.rig, frame);
-      measurement.mistakes.push_back(
-          {kReadings[k].mistake, fmt::format("{}{}: {} of {} {}.", kReadings[k].first_words,
-                                             sessions.size() > 1 ? fmt::format(" in session {}", session) : "",
-                                             elsewhere, moved, kReadings[k].last_words)});
-      is_any = true;
+      if (counts[k].elsewhere < kFewest || 2 * counts[k].elsewhere < counts[k].moved) continue;
+      wrong[k][session] = counts[k];
       break;
     }
-  return is_any;
+  for (const auto& [k, of_sessions] : wrong) {
+    for (FrameRecord& frame : measurement.frames)
+      if (of_sessions.contains(frame.session) && moves(kReadings[k], frame))
+        apply(kReadings[k], measurement.rig, frame);
+    measurement.mistakes.push_back({kReadings[k].mistake, sentence_of(kReadings[k], of_sessions, sessions.size())});
+  }
+  return !wrong.empty();
 }
 
 }  // namespace fathom
