@@ -18,6 +18,7 @@
 #include "diagnosis/measurement/frame_cloud.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/places.h"
+#include "diagnosis/measurement/sampling.h"
 
 namespace fathom {
 namespace {
@@ -85,7 +86,8 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
     return reading;
   }
   const Cloud cloud = read_frame_cloud(frame, folder);
-  const std::vector<SensedPoint> points = sensed_points(cloud);
+  std::vector<SensedPoint> points = sensed_points(cloud);
+  if (cloud.height <= 1) weigh_by_sampling(points, rig.focal_px);
   reading.print = print_of(points, rig.focal_px);
   FrameView view;
   if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
