@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "diagnosis/measurement/rig.h"
 
@@ -13,8 +14,8 @@ struct CupOutline {
   double wider;         ///< [m] radius less the rig's, of outer and inner wall alike
 };
 
-/// Takes points one by one, in the frame of the desk. Those count that lie within 12 mm of the wall that the sensor can
-/// see there: on its own side the outer one, clear of the desk, on the far side the inner one, below the rim.
+/// Takes points one by one, in the frame of the desk. Those count that lie near the wall that the sensor can see there:
+/// on its own side the outer one, clear of the desk, on the far side the inner one, below the rim.
 class OutlineFit {
  public:
   /// `axis` [m]: from the foot of the camera to where the cup should stand.
@@ -23,15 +24,21 @@ class OutlineFit {
   /// `from_axis`, `height` [m].
   void add(const Eigen::Vector2d& from_axis, double height, double weight);
 
-  /// By least squares of the points' distances from the circle, in one step from the rig's. Nothing with less than 60
-  /// pixels, or where they lie on too short an arc.
+  /// By least squares of the points' distances from the circle: first of those within 12 mm of where the rig has it,
+  /// then of those within 7 mm of where it was found, so that of a cup beside its place the liquid counts for no wall.
+  /// Nothing with less than 60 pixels, or where they lie on too short an arc.
   std::optional<CupOutline> solve() const;
 
  private:
+  struct Sensed {
+    Eigen::Vector2d from_axis;
+    double height, weight;
+  };
+  std::optional<CupOutline> step(const CupOutline& from, double gate) const;
+
   double inner_radius_, outer_radius_, rim_;  // [m]
   Eigen::Vector2d to_sensor_;                 // unit
-  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+  std::vector<Sensed> sensed_;
 };
 
 }  // namespace fathom

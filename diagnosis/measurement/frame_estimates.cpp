@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 #include "core/units.h"
 
@@ -73,6 +74,40 @@ std::optional<Plane> fit_desk(std::span<const SensedPoint> points, const Laborat
   return desk;
 }
 
+/// A point of the cup or next to it.
+struct CupPoint {
+  Eigen::Vector2d from_axis;  ///< [m] of where the cup should stand
+  float height, intensity, weight;
+};
+
+/// About which regions of the cup lie: where it should stand or, if its walls are farther beside that than regions keep
+/// clear of walls and windows, so much nearer to where they are. What noise makes of the walls thus moves no region.
+Eigen::Vector2d middle_of_regions(const std::optional<CupOutline>& outline) {
+  constexpr double kFree = 0.002;  // [m]
+  if (!outline || outline->off.norm() <= kFree) return Eigen::Vector2d::Zero();
+  return (1.0 - kFree / outline->off.norm()) * outline->off;
+}
+
+void set_inside(std::span<const CupPoint> points, double radius, double soft, FrameEstimates& estimates) {
+  const Eigen::Vector2d axis = middle_of_regions(estimates.outline);
+  const double reach = radius + soft;
+  std::array<Sums, 5> height;
+  Sums interior, intensity;
+  for (const CupPoint& p : points) {
+    const Eigen::Vector2d from_axis = p.from_axis - axis;
+    if (from_axis.squaredNorm() > reach * reach || p.height < kLeastHeight || p.height > kMostHeight) continue;
+    const std::array<double, 5> shares = shares_of_regions(from_axis, radius, soft);
+    double whole = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      if (shares[i] > 0.0) height[i].add(p.height, p.weight * shares[i]), whole += shares[i];
+    interior.add(p.height, p.weight * whole);
+    intensity.add(p.intensity, p.weight * whole);
+  }
+  for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = height[i].estimate();
+  estimates.interior = interior.estimate();
+  estimates.interior_intensity = intensity.estimate();
+}
+
 std::size_t third_of_image(const SensedPoint& sensed, double focal_px) {
   const double column = focal_px * sensed.point.x() / sensed.point.z() / kImageWidth_px + 0.5,
                row = focal_px * sensed.point.y() / sensed.point.z() / kImageHeight_px + 0.5;
@@ -90,12 +125,11 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   const Eigen::Isometry3d to_desk = desk_from_camera(*desk);
   const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
   const Eigen::Vector3f shift = to_desk.translation().cast<float>();
-  const double radius = rig.inner_radius_m - kInteriorMargin, reach = radius + view.soft_m;
   const double steps_per_inverse = 8.0 * rig.focal_px * rig.baseline_m, two_pi = 2.0 * std::numbers::pi;
   constexpr float kOnDesk = 0.005f;
   std::array<Sums, 9> residual;
-  std::array<Sums, 5> height;
-  Sums interior, interior_intensity, desk_intensity;
+  Sums desk_intensity;
+  std::vector<CupPoint> around;
   std::optional<OutlineFit> outline;
   if (cup) outline.emplace(rig, cup->centre);
   std::complex<double> comb;
@@ -109,13 +143,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     const double squared = from_axis.squaredNorm(), w = sensed.weight;
     if (cup && squared < cup->clear_of_cup * cup->clear_of_cup) {
       outline->add(from_axis, p.z(), w);
-      if (squared > reach * reach || p.z() < kLeastHeight || p.z() > kMostHeight) continue;
-      const std::array<double, 5> shares = shares_of_regions(from_axis, radius, view.soft_m);
-      double whole = 0.0;
-      for (std::size_t i = 0; i < shares.size(); ++i)
-        if (shares[i] > 0.0) height[i].add(p.z(), w * shares[i]), whole += shares[i];
-      interior.add(p.z(), w * whole);
-      interior_intensity.add(sensed.intensity, w * whole);
+      around.push_back({from_axis, p.z(), sensed.intensity, sensed.weight});
       continue;
     }
     if (std::abs(p.z()) > kOnDesk) continue;
@@ -135,11 +163,9 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   FrameEstimates estimates;
   estimates.desk = *desk;
   for (std::size_t i = 0; i < residual.size(); ++i) estimates.desk_residual[i] = residual[i].estimate();
-  for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = height[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();
-  estimates.interior = interior.estimate();
-  estimates.interior_intensity = interior_intensity.estimate();
   if (outline) estimates.outline = outline->solve();
+  set_inside(around, rig.inner_radius_m - kInteriorMargin, view.soft_m, estimates);
   if (codes.weight > 0.0) {
     estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
     for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = std::abs(coarse[i]) / codes.weight;

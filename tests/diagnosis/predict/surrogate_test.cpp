@@ -70,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "focal_length", "focal_px": 3}])")},
                     Case{"water", 30, 300, 120, Json::parse(R"([{"name": "principal_point", "x_px": 3}])")},
                     Case{"milk", 30, 300, -120, Json::parse(R"([{"name": "cup_placement", "x_mm": 3, "y_mm": -4}])")},
+                    Case{"milk", 30, 200, 0, Json::parse(R"([{"name": "cup_placement", "y_mm": -8}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "radial_distortion", "k1": 0.01}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "surface_tilt", "slope_x_deg": 1}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "meniscus", "contact_angle_deg": 30}])")},
@@ -97,11 +98,14 @@ Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral
 }
 
 TEST(CupsOutline, GoesWithTheCup) {
-  // The fit is one step from the rig's circle: 3 mm beside it, curvature leaves 3² / (2 · 40) mm of the radius.
-  const Eigen::Vector3d moved = moved_by(Json::parse(R"([{"name": "cup_placement", "x_mm": 2, "y_mm": -2}])"), 300, 0);
-  EXPECT_NEAR(moved.x(), 2.0, 0.1);
-  EXPECT_NEAR(moved.y(), -2.0, 0.1);
-  EXPECT_NEAR(moved.z(), 0.0, 0.1);
+  for (const double mm : {2.0, 8.0}) {
+    const Json beside = {{{"name", "cup_placement"}, {"x_mm", mm}, {"y_mm", -mm}}};
+    const Eigen::Vector3d moved = moved_by(beside, 300, 0);
+    constexpr double kWalls = 0.1;  // mm: as against whole frames
+    EXPECT_NEAR(moved.x(), mm, kWalls);
+    EXPECT_NEAR(moved.y(), -mm, kWalls);
+    EXPECT_NEAR(moved.z(), 0.0, kWalls);
+  }
 }
 
 TEST(CupsOutline, WidensWithTheCup) {
