@@ -1,6 +1,7 @@
 #include "diagnosis/statistics/refit.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/statistics/box_least_squares.h"
@@ -13,6 +14,13 @@ constexpr int kSteps = 6;
 constexpr double kEnough = 1e-3;      // of the squared norm, in units of its error: nothing that a test would see
 constexpr double kDifference = 0.02;  // of a typical departure
 constexpr double kNoAnswer = 1e-6;    // errors per typical departure: rounding
+
+/// Of parameters in prior scales, none larger than the prior's.
+Eigen::VectorXd standard_errors(const Eigen::MatrixXd& jacobian) {
+  Eigen::MatrixXd precision = jacobian.transpose() * jacobian;
+  precision.diagonal().array() += 1.0;
+  return precision.inverse().diagonal().cwiseSqrt();
+}
 
 /// The model with some effects on, in whitened units.
 class Model {
@@ -33,21 +41,32 @@ class Model {
     return covariance_.whiten(predict_(values) - evidence_.predicted);
   }
 
-  /// One-sided towards the inside of the bounds. What is on or off, or goes in steps, answers to no small difference:
-  /// its slope is the chord from where it is absent.
+  /// Over one standard error to either side, as `jacobian` has it: within that a gate that some pixel just passes is
+  /// chance, not a slope. Neither beyond the bounds nor across where the parameter is absent: some effects change more
+  /// by being there than by how much there is of them. What goes in steps answers to no small difference: its slope is
+  /// the chord from where it is absent.
   Eigen::MatrixXd differences(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
+                              const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& lower,
                               const Eigen::VectorXd& upper) {
-    Eigen::MatrixXd jacobian(change_at.size(), at.size());
+    const Eigen::VectorXd errors = standard_errors(jacobian);
+    Eigen::MatrixXd slopes(change_at.size(), at.size());
     for (Eigen::Index k = 0; k < at.size(); ++k) {
+      const double step = std::max(errors[k], kDifference);
+      double low = std::max(at[k] - step, lower[k]), high = std::min(at[k] + step, upper[k]);
+      if (low <= 0.0 && at[k] > 0.0) low = at[k];
+      if (high >= 0.0 && at[k] < 0.0) high = at[k];
+      if (low == high) (low > lower[k] ? low -= kDifference : high += kDifference);  // at a bound or next to absence
       Eigen::VectorXd moved = at;
-      const double step = at[k] + kDifference <= upper[k] ? kDifference : -kDifference;
-      moved[k] += step;
-      jacobian.col(k) = (change(moved) - change_at) / step;
-      if (jacobian.col(k).norm() > kNoAnswer || at[k] == 0.0) continue;
+      moved[k] = high;
+      slopes.col(k) = high == at[k] ? change_at : change(moved);
+      moved[k] = low;
+      slopes.col(k) -= low == at[k] ? change_at : change(moved);
+      slopes.col(k) /= high - low;
+      if (slopes.col(k).norm() > kNoAnswer || at[k] == 0.0) continue;
       moved[k] = 0.0;
-      jacobian.col(k) = (change_at - change(moved)) / at[k];
+      slopes.col(k) = (change_at - change(moved)) / at[k];
     }
-    return jacobian;
+    return slopes;
   }
 
   /// Of each parameter the chord from where it is absent: what a test asks of an effect is whether it is there, and
@@ -106,7 +125,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
     } else if (next_value - value < kEnough) {
       break;
     } else if (!is_differenced) {
-      jacobian = model.differences(x, change, upper);
+      jacobian = model.differences(x, change, jacobian, lower, upper);
       is_differenced = true;
     } else {
       damping = std::max(4.0 * damping, 1e-2);
@@ -121,28 +140,23 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   return result;
 }
 
-namespace {
-
-template <class Slopes>
-Refit with_jacobian(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
-                    const Problem& problem, Refit fit, Slopes slopes) {
+Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
+                       const Problem& problem, Refit fit) {
   Model model(evidence, predict, covariance, fit.hypothesis.effects);
-  const Eigen::VectorXd upper = problem.upper(columns_of(problem, fit.hypothesis.effects));
-  fit.jacobian = (model.*slopes)(fit.hypothesis.parameters, fit.prediction, upper);
+  const std::vector<Eigen::Index> columns = columns_of(problem, fit.hypothesis.effects);
+  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.prediction, fit.jacobian, problem.lower(columns),
+                                   problem.upper(columns));
   fit.predictions += model.predictions();
   return fit;
 }
 
-}  // namespace
-
-Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
-                       const Problem& problem, Refit fit) {
-  return with_jacobian(evidence, predict, covariance, problem, std::move(fit), &Model::differences);
-}
-
 Refit with_chords(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
                   const Problem& problem, Refit fit) {
-  return with_jacobian(evidence, predict, covariance, problem, std::move(fit), &Model::chords);
+  Model model(evidence, predict, covariance, fit.hypothesis.effects);
+  const Eigen::VectorXd upper = problem.upper(columns_of(problem, fit.hypothesis.effects));
+  fit.jacobian = model.chords(fit.hypothesis.parameters, fit.prediction, upper);
+  fit.predictions += model.predictions();
+  return fit;
 }
 
 }  // namespace fathom
