@@ -88,7 +88,7 @@ Candidate candidate_by_slopes(const Effect& effect, const std::string& name, con
   Candidate candidate{.effect = name, .parameters = {}, .signature = {}};
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
     const EffectParameter& p = effect.parameters[i];
-    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper});
+    candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper, p.step});
     const auto at = [&](double x) {
       EffectValue value{name, {}};
       for (const EffectParameter& parameter : effect.parameters) value.values.push_back(parameter.nominal);

@@ -46,6 +46,7 @@ struct Parameter {
   double nominal = 0.0;      ///< the value at which the effect is absent
   double prior_scale = 1.0;  ///< a typical departure from nominal
   double lower = 0.0, upper = 0.0;
+  double step = 0.0;  ///< the model knows only whole multiples of it; 0: all values
 };
 
 /// An effect that the model leaves out.

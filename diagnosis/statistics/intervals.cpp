@@ -16,6 +16,9 @@ Eigen::MatrixXd parameter_covariance(const Choice& choice) {
   return (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
 }
 
+/// All that rounds to one value fits alike: a fit ends anywhere among them.
+double whole(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
+
 }  // namespace
 
 std::vector<std::vector<double>> covariance_in_units(const Case& c, const Choice& choice) {
@@ -37,9 +40,11 @@ void add_parameters(const Case& c, Choice& choice) {
   Eigen::Index next = 0;
   for (std::size_t e = 0; e < choice.effects.size(); ++e)
     for (const Parameter& parameter : c.evidence.candidates[choice.fit.hypothesis.effects[e]].parameters) {
-      const double value = parameter.nominal + parameter.prior_scale * choice.fit.hypothesis.parameters[next];
+      const double fitted = parameter.nominal + parameter.prior_scale * choice.fit.hypothesis.parameters[next];
+      const double value = whole(fitted, parameter.step);
       const double half =
-          student_quantile(0.025, sizes[e].dof) * parameter.prior_scale * std::sqrt(covariance(next, next));
+          std::max(student_quantile(0.025, sizes[e].dof) * parameter.prior_scale * std::sqrt(covariance(next, next)),
+                   0.5 * parameter.step);
       ++next;
       NamedParameter named{parameter.name, value, value - half, value + half};
       if (parameter.lower < parameter.upper) {

@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-/// Fills in the values of the effects' parameters with their 95 % intervals, in the parameters' units.
+/// Fills in the values of the effects' parameters with their 95 % intervals, in the parameters' units. What comes in
+/// steps has a whole number of them, known to half a step at best.
 void add_parameters(const Case& c, Choice& choice);
 
 /// Of all effects' parameters in their order, in their units.

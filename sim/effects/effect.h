@@ -17,6 +17,7 @@ struct EffectParameter {
   double scale;    ///< a typical departure from that
   double lower, upper;
   std::string_view inverse = {};  ///< key of 1 / value, where that is what tables have: files may give either
+  double step = 0.0;              ///< it is rounded to whole multiples of this; 0: it is not
 };
 
 /// The values of an effect's parameters, in their order, and of which liquid.
