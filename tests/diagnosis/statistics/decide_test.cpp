@@ -78,6 +78,52 @@ TEST(Decide, RefitsWithTheModelItself) {
   EXPECT_NEAR(diagnosis.effects[0].parameters[0].value, 5.0, 0.3);
 }
 
+// A pixel that passes a gate makes a model jump. Where that happens next to the solution, the jump is no slope.
+TEST(Decide, AJumpOfTheModelIsNoPrecision) {
+  const World world(small_design());
+  const EffectValue truth = world.at_strength("radial_distortion", 15.0, 1.0);
+  const Evidence measured = world.measure({truth}, {}, 11);
+  const auto half_width = [&](const Predict& predict) {
+    const Diagnosis diagnosis = decide(measured, predict);
+    if (diagnosis.effects.size() != 1) return std::nan("");
+    const NamedParameter& k1 = diagnosis.effects[0].parameters[0];
+    return 0.5 * (k1.high95 - k1.low95);
+  };
+  const double smooth = half_width(world.predict());
+  const double found = decide(measured, world.predict()).effects.at(0).parameters[0].value;
+  const double scale = world.nominal().candidates[world.candidate("radial_distortion")].parameters[0].prior_scale;
+  const Predict jumping = [&, predict = world.predict()](const std::vector<EffectValue>& effects) {
+    Eigen::VectorXd values = predict(effects);
+    constexpr double kJump_mm = 0.05;  // a tenth of what the height of a region is uncertain by
+    for (const EffectValue& effect : effects)
+      if (effect.effect == "radial_distortion" && effect.values[0] > found + 0.01 * scale) values[0] += kJump_mm;
+    return values;
+  };
+  // Taken over a fiftieth of the scale, the jump leaves 0.6 of the interval; over a standard error it is one
+  // observation among 240.
+  EXPECT_NEAR(half_width(jumping) / smooth, 1.0, 0.1);
+}
+
+TEST(Decide, WhatComesInStepsIsToldInSteps) {
+  const World world(small_design());
+  const auto at = static_cast<std::size_t>(world.candidate("radial_distortion"));
+  EffectValue truth = world.at_strength("radial_distortion", 15.0, 1.0);
+  const double step = truth.values[0] / 3.0;
+  Evidence measured = world.measure({truth}, {}, 11);
+  measured.candidates[at].parameters[0].step = step;
+  const Predict whole = [&, predict = world.predict()](std::vector<EffectValue> effects) {
+    for (EffectValue& effect : effects)
+      if (effect.effect == "radial_distortion") effect.values[0] = step * std::round(effect.values[0] / step);
+    return predict(effects);
+  };
+  const Diagnosis diagnosis = decide(measured, whole);
+  ASSERT_EQ(diagnosis.effects.size(), 1u);
+  const NamedParameter& k1 = diagnosis.effects[0].parameters[0];
+  EXPECT_DOUBLE_EQ(k1.value, truth.values[0]);
+  EXPECT_LE(k1.low95, truth.values[0] - 0.5 * step);
+  EXPECT_GE(k1.high95, truth.values[0] + 0.5 * step);
+}
+
 TEST(Decide, AnEffectFarFromTypicalIsMeasuredAsWell) {
   const World world(small_design());
   int covered = 0;
