@@ -1,12 +1,19 @@
 // What few rays and direct light leave out of the observations, as errors that many of them share.
 #pragma once
 
+#include <string_view>
+
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
 
 /// By what is shared: region, liquid, place, condition.
 std::vector<SharedError> model_errors(const std::vector<Observation>& observations);
+
+/// Of an effect: what comes with it and no model foretells (observations × errors, 1 σ each), where light passes a
+/// liquid of the nominal model.
+Eigen::MatrixXd effect_errors(std::string_view id, const std::vector<Observation>& observations,
+                              const std::vector<bool>& sees_through);
 
 /// 1 σ of every prediction: what some hundred rays and the law's mean are off against a whole frame whose noise dithers
 /// the law.

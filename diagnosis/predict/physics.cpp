@@ -7,6 +7,7 @@
 #include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/predictable.h"
+#include "diagnosis/statistics/effect_name.h"
 
 namespace fathom {
 namespace {
@@ -18,6 +19,18 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
   for (std::size_t row = 0; row < are.size(); ++row)
     are[row] = !are[row] && std::isfinite(nominal[static_cast<Eigen::Index>(row)]);
   return are;
+}
+
+/// Which rows are of a liquid that the model sees through, only of one with that label where there is one.
+std::vector<bool> see_through(const Predictor& predictor, const std::string& liquid, std::size_t rows) {
+  std::vector<bool> see(rows, false);
+  for (const Condition& condition : predictor.conditions()) {
+    const std::optional<CupOptics>& cup = condition.nominal->view.cup;
+    if (!cup || cup->layers.empty() || cup->layers.back().opaque) continue;
+    if (!liquid.empty() && condition.factors.liquid != liquid) continue;
+    for (const std::size_t row : condition.rows) see[row] = true;
+  }
+  return see;
 }
 
 }  // namespace
@@ -41,6 +54,11 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.shared_errors = model_errors(evidence.observations);
   Candidates candidates = candidates_of(*predictor, only, quiet);
   evidence.candidates = std::move(candidates.all);
+  for (Candidate& candidate : evidence.candidates) {
+    const EffectName name = effect_name(candidate.effect);
+    candidate.leeway = effect_errors(name.id, evidence.observations,
+                                     see_through(*predictor, name.liquid, evidence.observations.size()));
+  }
   physics.unseen = std::move(candidates.unseen);
   physics.not_sought = std::move(candidates.not_sought);
   physics.predictor = predictor;

@@ -55,6 +55,7 @@ struct Candidate {
   std::vector<Parameter> parameters;
   Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
   double plausibility = 1.0;  ///< before anything is measured, beside that of other candidates
+  Eigen::MatrixXd leeway{};   ///< observations × errors, 1 σ each: what comes with it, none knows how (leeway.h)
 };
 
 /// A mistake in the laboratory's notes that its measurements show, and that was put right before anything else.

@@ -9,7 +9,10 @@ Evidence evidence_of_rows(const Evidence& evidence, const std::vector<Eigen::Ind
   part.predicted = evidence.predicted(rows).eval();
   if (evidence.numerical_sd.size() > 0) part.numerical_sd = evidence.numerical_sd(rows).eval();
   for (Nuisance& nuisance : part.nuisances) nuisance.signature = nuisance.signature(rows).eval();
-  for (Candidate& candidate : part.candidates) candidate.signature = candidate.signature(rows, Eigen::all).eval();
+  for (Candidate& candidate : part.candidates) {
+    candidate.signature = candidate.signature(rows, Eigen::all).eval();
+    if (candidate.leeway.cols() > 0) candidate.leeway = candidate.leeway(rows, Eigen::all).eval();
+  }
   for (std::size_t i = 0; i < evidence.shared_errors.size(); ++i) {
     std::vector<int>& group_of = part.shared_errors[i].group_of;
     group_of.clear();

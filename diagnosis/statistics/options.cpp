@@ -101,7 +101,7 @@ std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& 
   std::vector<Refit> result;
   const Eigen::Index n = c.problem.residual.size();
   Refit nothing;
-  nothing.prediction = Eigen::VectorXd::Zero(n);
+  nothing.prediction = nothing.change = Eigen::VectorXd::Zero(n);
   nothing.jacobian.resize(n, 0);
   result.push_back(std::move(nothing));
   const double best = hypotheses.empty() ? 0.0 : std::max(0.0, hypotheses.front().log_evidence);

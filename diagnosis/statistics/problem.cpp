@@ -45,6 +45,9 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
       problem.columns.back().push_back(column++);
     }
   }
+  for (const Candidate& candidate : evidence.candidates)
+    problem.leeways.push_back(leeway_of(candidate.leeway.cols() > 0 ? covariance.whiten(candidate.leeway)
+                                                                    : Eigen::MatrixXd(candidate.signature.rows(), 0)));
   problem.residual = covariance.whiten(measured_minus_predicted(evidence));
   problem.signatures = covariance.whiten(signatures);
   return problem;
@@ -55,6 +58,12 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
   for (const int effect : effects)
     result.insert(result.end(), problem.columns[effect].begin(), problem.columns[effect].end());
   return result;
+}
+
+int widest_leeway(const Problem& problem, const std::vector<int>& effects) {
+  return *std::max_element(effects.begin(), effects.end(), [&](int a, int b) {
+    return problem.leeways[a].log_det < problem.leeways[b].log_det;
+  });
 }
 
 Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions) {

@@ -6,6 +6,7 @@
 
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/leeway.h"
 
 namespace fathom {
 
@@ -16,6 +17,7 @@ struct Problem {
   Eigen::VectorXd lower, upper;
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each candidate
   std::vector<double> log_odds;                    ///< of each candidate, before anything is measured
+  std::vector<Leeway> leeways;                     ///< of each candidate
 };
 
 Eigen::VectorXd measured_minus_predicted(const Evidence& evidence);
@@ -25,11 +27,14 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
 /// The columns of several candidates, in their order.
 std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<int>& effects);
 
+/// Which of several candidates, at least one, has the widest leeway: that stands for all of theirs.
+int widest_leeway(const Problem& problem, const std::vector<int>& effects);
+
 /// A set of effects that may be what the model lacks.
 struct Hypothesis {
   std::vector<int> effects;    ///< ascending
   Eigen::VectorXd parameters;  ///< of them, one after the other
-  double gain = 0.0;           ///< decrease of the residual's squared norm
+  double gain = 0.0;           ///< decrease of −2 log likelihood: of the residual's squared norm, less its leeway's cost
   double log_evidence = 0.0;   ///< relative to no effect, with the prior of the set
 };
 

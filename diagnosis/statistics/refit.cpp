@@ -98,17 +98,22 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   Model model(evidence, predict, covariance, start.effects);
   const std::vector<Eigen::Index> columns = columns_of(problem, start.effects);
   const Eigen::VectorXd lower = problem.lower(columns), upper = problem.upper(columns);
+  const Leeway& leeway = problem.leeways[widest_leeway(problem, start.effects)];
+  const auto left = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
+    return leeway.whiten(problem.residual - change);
+  };
   const auto objective = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& change) {
-    return (problem.residual - change).squaredNorm() + prior_penalty(x);
+    return left(change).squaredNorm() + prior_penalty(x);
   };
   Eigen::MatrixXd jacobian = problem.signatures(Eigen::all, columns);
   Eigen::VectorXd x = start.parameters, change = model.change(x);
   double value = objective(x, change), damping = 0.0;
   bool is_differenced = false;
   for (int step = 0; step < kSteps; ++step) {
-    Eigen::MatrixXd G = jacobian.transpose() * jacobian;
+    const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
+    Eigen::MatrixXd G = slopes.transpose() * slopes;
     const Eigen::VectorXd prior = prior_precisions(x);
-    const Eigen::VectorXd b = jacobian.transpose() * (problem.residual - change) - prior.cwiseProduct(x);
+    const Eigen::VectorXd b = slopes.transpose() * left(change) - prior.cwiseProduct(x);
     G.diagonal() = G.diagonal() * (1.0 + damping) + prior;
     const Eigen::VectorXd move = box_least_squares(G, b, lower - x, upper - x);
     if (move.isZero(1e-9)) break;
@@ -131,20 +136,20 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
       damping = std::max(4.0 * damping, 1e-2);
     }
   }
-  Refit result{{start.effects, x, problem.residual.squaredNorm() - (problem.residual - change).squaredNorm(), 0.0},
-               change,
-               std::move(jacobian),
-               model.predictions()};
-  result.hypothesis.log_evidence =
-      log_evidence(problem, result.hypothesis.gain, start.effects, x, result.jacobian.transpose() * result.jacobian);
-  return result;
+  const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
+  const double gain = problem.residual.squaredNorm() - left(change).squaredNorm() - leeway.log_det;
+  return {{start.effects, x, gain, log_evidence(problem, gain, start.effects, x, slopes.transpose() * slopes)},
+          change + leeway.share_in(problem.residual - change),
+          change,
+          std::move(jacobian),
+          model.predictions()};
 }
 
 Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
                        const Problem& problem, Refit fit) {
   Model model(evidence, predict, covariance, fit.hypothesis.effects);
   const std::vector<Eigen::Index> columns = columns_of(problem, fit.hypothesis.effects);
-  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.prediction, fit.jacobian, problem.lower(columns),
+  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.change, fit.jacobian, problem.lower(columns),
                                    problem.upper(columns));
   fit.predictions += model.predictions();
   return fit;
@@ -154,7 +159,7 @@ Refit with_chords(const Evidence& evidence, const Predict& predict, const Covari
                   const Problem& problem, Refit fit) {
   Model model(evidence, predict, covariance, fit.hypothesis.effects);
   const Eigen::VectorXd upper = problem.upper(columns_of(problem, fit.hypothesis.effects));
-  fit.jacobian = model.chords(fit.hypothesis.parameters, fit.prediction, upper);
+  fit.jacobian = model.chords(fit.hypothesis.parameters, fit.change, upper);
   fit.predictions += model.predictions();
   return fit;
 }

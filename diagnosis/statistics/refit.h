@@ -9,7 +9,8 @@ namespace fathom {
 
 struct Refit {
   Hypothesis hypothesis;
-  Eigen::VectorXd prediction;  ///< change against the nominal model, whitened
+  Eigen::VectorXd prediction;  ///< change against the nominal model, whitened, with the likeliest of its leeway
+  Eigen::VectorXd change;      ///< the same without
   Eigen::MatrixXd jacobian;    ///< of it, whitened, n × parameters in prior scales
   int predictions = 0;         ///< asked for
 };

@@ -11,16 +11,31 @@ namespace {
 constexpr int kReweighted = 3;   // times that the prior's pull is found anew where parameters are large, …
 constexpr double kSmall = 0.05;  // … −2 log of their prior above this
 
+/// All that fits ask of signatures and residual, whitened beside a leeway.
+struct Products {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd projections;
+  double gain;  ///< of the leeway alone
+
+  Products(const Problem& problem, const Leeway& leeway) {
+    const Eigen::MatrixXd signatures = leeway.whiten(problem.signatures);
+    const Eigen::VectorXd residual = leeway.whiten(problem.residual);
+    gram = signatures.transpose() * signatures;
+    projections = signatures.transpose() * residual;
+    gain = problem.residual.squaredNorm() - residual.squaredNorm() - leeway.log_det;
+  }
+};
+
 class Screening {
  public:
-  Screening(const Problem& problem, int keep)
-      : problem_(problem),
-        keep_(keep),
-        gram_(problem.signatures.transpose() * problem.signatures),
-        projections_(problem.signatures.transpose() * problem.residual),
-        best_(kLargestSet) {
-    for (const auto& columns : problem.columns)
-      is_seen_.push_back(!problem.signatures(Eigen::all, columns).isZero(0.0));
+  Screening(const Problem& problem, int keep) : problem_(problem), keep_(keep), best_(kLargestSet) {
+    products_.emplace_back(problem, Leeway{});
+    for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {
+      is_seen_.push_back(!problem.signatures(Eigen::all, problem.columns[effect]).isZero(0.0));
+      const Leeway& leeway = problem.leeways[effect];
+      products_of_.push_back(leeway.log_det > 0.0 ? products_.size() : 0);
+      if (leeway.log_det > 0.0) products_.emplace_back(problem, leeway);
+    }
   }
 
   void extend(std::vector<int>& effects) {
@@ -43,8 +58,9 @@ class Screening {
  private:
   void consider(const std::vector<int>& effects) {
     const std::vector<Eigen::Index> columns = columns_of(problem_, effects);
-    const Eigen::MatrixXd G = gram_(columns, columns);
-    const Eigen::VectorXd b = projections_(columns);
+    const Products& products = products_[products_of_[widest_leeway(problem_, effects)]];
+    const Eigen::MatrixXd G = products.gram(columns, columns);
+    const Eigen::VectorXd b = products.projections(columns);
     Hypothesis found{effects, Eigen::VectorXd::Zero(b.size())};
     Eigen::VectorXd& x = found.parameters;
     for (int step = 0; step < kReweighted; ++step) {
@@ -59,7 +75,7 @@ class Screening {
       if (x.segment(first, count).isZero(0.0)) return;
       first += count;
     }
-    found.gain = x.dot(2.0 * b - G * x);
+    found.gain = products.gain + x.dot(2.0 * b - G * x);
     found.log_evidence = log_evidence(problem_, found.gain, effects, x, G);
     const auto better = [](const Hypothesis& a, const Hypothesis& other) {
       return a.log_evidence > other.log_evidence;
@@ -72,8 +88,8 @@ class Screening {
 
   const Problem& problem_;
   int keep_;
-  Eigen::MatrixXd gram_;
-  Eigen::VectorXd projections_;
+  std::vector<Products> products_;         // the first without leeway
+  std::vector<std::size_t> products_of_;  // of each candidate
   std::vector<bool> is_seen_;
   std::vector<std::vector<Hypothesis>> best_;
 };

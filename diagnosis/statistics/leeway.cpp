@@ -1,0 +1,32 @@
+#include "diagnosis/statistics/leeway.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace fathom {
+
+Eigen::MatrixXd Leeway::whiten(const Eigen::MatrixXd& x) const {
+  if (along.cols() == 0) return x;
+  const Eigen::VectorXd less = 1.0 - (1.0 + variance.array()).rsqrt();
+  return x - along * (less.asDiagonal() * (along.transpose() * x));
+}
+
+Eigen::VectorXd Leeway::share_in(const Eigen::VectorXd& residual) const {
+  if (along.cols() == 0) return Eigen::VectorXd::Zero(residual.size());
+  const Eigen::VectorXd share = variance.array() / (1.0 + variance.array());
+  return along * (share.asDiagonal() * (along.transpose() * residual));
+}
+
+Leeway leeway_of(const Eigen::MatrixXd& errors) {
+  constexpr double kNothing = 1e-9;  // of a residual's variance
+  Leeway leeway{Eigen::MatrixXd(errors.rows(), 0), {}};
+  if (errors.cols() == 0) return leeway;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(errors.transpose() * errors);
+  const Eigen::Index count = (eigen.eigenvalues().array() > kNothing).count();  // they ascend
+  leeway.variance = eigen.eigenvalues().tail(count);
+  leeway.along =
+      errors * eigen.eigenvectors().rightCols(count) * leeway.variance.cwiseSqrt().cwiseInverse().asDiagonal();
+  leeway.log_det = leeway.variance.array().log1p().sum();
+  return leeway;
+}
+
+}  // namespace fathom

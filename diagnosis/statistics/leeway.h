@@ -1,0 +1,25 @@
+// What comes with an effect and nobody can predict, such as where a foam has its holes: errors of an explanation's own.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fathom {
+
+/// Beside the unit variance of whitened residuals, which stays as it is across the columns of `along`.
+struct Leeway {
+  Eigen::MatrixXd along;     ///< n × k, orthonormal; no columns: none
+  Eigen::VectorXd variance;  ///< along each
+  double log_det = 0.0;      ///< log of the covariance's determinant
+
+  /// Whitened columns once more, so that what the leeway allows for counts less.
+  Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const;
+
+  /// The likeliest share that it has in a residual.
+  Eigen::VectorXd share_in(const Eigen::VectorXd& residual) const;
+};
+
+/// Of independent errors, whitened columns of 1 σ each.
+Leeway leeway_of(const Eigen::MatrixXd& errors);
+
+}  // namespace fathom
