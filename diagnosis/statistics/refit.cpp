@@ -91,6 +91,15 @@ class Model {
   int predictions_ = 0;
 };
 
+/// Slopes do not know that some effects, such as foam, are all there as soon as there is any of them: a step towards
+/// where an effect is absent ends shortly before, and only the next one may go there.
+Eigen::VectorXd without_switching_off(const Eigen::VectorXd& from, Eigen::VectorXd move) {
+  for (Eigen::Index k = 0; k < move.size(); ++k)
+    if (move[k] == -from[k] && std::abs(from[k]) > kDifference)
+      move[k] = std::copysign(kDifference, from[k]) - from[k];
+  return move;
+}
+
 }  // namespace
 
 Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
@@ -115,7 +124,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
     const Eigen::VectorXd prior = prior_precisions(x);
     const Eigen::VectorXd b = slopes.transpose() * left(change) - prior.cwiseProduct(x);
     G.diagonal() = G.diagonal() * (1.0 + damping) + prior;
-    const Eigen::VectorXd move = box_least_squares(G, b, lower - x, upper - x);
+    const Eigen::VectorXd move = without_switching_off(x, box_least_squares(G, b, lower - x, upper - x));
     if (move.isZero(1e-9)) break;
     const Eigen::VectorXd next_change = model.change(x + move);
     const double next_value = objective(x + move, next_change);
