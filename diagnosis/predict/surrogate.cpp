@@ -84,17 +84,39 @@ std::vector<SensedPoint> desk_points(const SurrogateView& view, const SampledPix
   });
 }
 
+/// The same cup at moments that stand for all: nobody knows where waves are in a shot, nor whence they come. Three
+/// phases leave of the first two orders of their slope its mean square alone; two directions across each other, 22.5°
+/// off the baseline's, are as the mean over all in what goes by twice or four times their angle with it.
+std::vector<CupOptics> moments_of(const CupOptics& cup) {
+  const LiquidTop* surface = cup.surface();
+  if (!surface || !surface->has_waves()) return {cup};
+  std::vector<CupOptics> moments;
+  for (const double azimuth : {0.125 * std::numbers::pi, 0.625 * std::numbers::pi})
+    for (const double phase : {0.0, 2.0 / 3.0 * std::numbers::pi, 4.0 / 3.0 * std::numbers::pi}) {
+      moments.push_back(cup);
+      for (LiquidLayer& layer : moments.back().layers) layer.top.turn_waves(azimuth, phase);
+    }
+  return moments;
+}
+
 std::vector<SensedPoint> inside_points(const SurrogateView& view, const SampledPixels& pixels) {
   const Eigen::Vector3d projector = view.reader.rig().projector_in_world();
   const std::vector<LiquidLayer>& layers = view.cup->layers;
   const bool reduced = view.bisector > 0.0 && layers.size() == 1 && !layers.front().opaque;
-  return points_at(view.reader, pixels.cup, pixels.cup_weight, [&](const Ray& sight) -> std::optional<SeenLight> {
-    const auto lit = look_into(*view.cup, sight, projector);
-    if (!lit) return std::nullopt;
-    return SeenLight{reduced ? by_closed_form(view.reader.rig(), layers.front(), sight, *lit, view.bisector)
-                             : lit->projector_direction,
-                     lit->reflected};
-  });
+  const std::vector<CupOptics> moments = moments_of(*view.cup);
+  const double weight = pixels.cup_weight / static_cast<double>(moments.size());
+  std::vector<SensedPoint> points;
+  for (const CupOptics& cup : moments) {
+    const auto seen = points_at(view.reader, pixels.cup, weight, [&](const Ray& sight) -> std::optional<SeenLight> {
+      const auto lit = look_into(cup, sight, projector);
+      if (!lit) return std::nullopt;
+      return SeenLight{reduced ? by_closed_form(view.reader.rig(), layers.front(), sight, *lit, view.bisector)
+                               : lit->projector_direction,
+                       lit->reflected};
+    });
+    points.insert(points.end(), seen.begin(), seen.end());
+  }
+  return points;
 }
 
 std::vector<SensedPoint> wall_points(const SurrogateView& view, const SampledPixels& pixels) {

@@ -27,8 +27,8 @@ std::vector<LeftOutLevel> left_out(const RayTracedEvidence& traced, const Diagno
   Refit found;
   found.hypothesis.parameters = parameters_of(traced.evidence, effects, values);
   found.change = covariance.whiten(traced.predict(values) - traced.evidence.predicted);
-  found.prediction = found.change +
-      problem.leeways[widest_leeway(problem, effects)].share_in(problem.residual - found.change);
+  found.prediction =
+      found.change + problem.leeways[widest_leeway(problem, effects)].share_in(problem.residual - found.change);
   found.hypothesis.effects = std::move(effects);
   const Refit fit = with_differences(traced.evidence, traced.predict, covariance, problem, std::move(found));
   return left_out_levels(traced.evidence, covariance, linear_fit(covariance, problem, fit));

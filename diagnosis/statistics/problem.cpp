@@ -61,9 +61,8 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
 }
 
 int widest_leeway(const Problem& problem, const std::vector<int>& effects) {
-  return *std::max_element(effects.begin(), effects.end(), [&](int a, int b) {
-    return problem.leeways[a].log_det < problem.leeways[b].log_det;
-  });
+  return *std::max_element(effects.begin(), effects.end(),
+                           [&](int a, int b) { return problem.leeways[a].log_det < problem.leeways[b].log_det; });
 }
 
 Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions) {

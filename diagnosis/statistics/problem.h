@@ -34,8 +34,8 @@ int widest_leeway(const Problem& problem, const std::vector<int>& effects);
 struct Hypothesis {
   std::vector<int> effects;    ///< ascending
   Eigen::VectorXd parameters;  ///< of them, one after the other
-  double gain = 0.0;           ///< decrease of −2 log likelihood: of the residual's squared norm, less its leeway's cost
-  double log_evidence = 0.0;   ///< relative to no effect, with the prior of the set
+  double gain = 0.0;  ///< decrease of −2 log likelihood: of the residual's squared norm, less its leeway's cost
+  double log_evidence = 0.0;  ///< relative to no effect, with the prior of the set
 };
 
 /// Some effects of a hypothesis, by their position in it (ascending), where they are: without gain or evidence.

@@ -95,8 +95,7 @@ class Model {
 /// where an effect is absent ends shortly before, and only the next one may go there.
 Eigen::VectorXd without_switching_off(const Eigen::VectorXd& from, Eigen::VectorXd move) {
   for (Eigen::Index k = 0; k < move.size(); ++k)
-    if (move[k] == -from[k] && std::abs(from[k]) > kDifference)
-      move[k] = std::copysign(kDifference, from[k]) - from[k];
+    if (move[k] == -from[k] && std::abs(from[k]) > kDifference) move[k] = std::copysign(kDifference, from[k]) - from[k];
   return move;
 }
 

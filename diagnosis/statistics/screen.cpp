@@ -88,7 +88,7 @@ class Screening {
 
   const Problem& problem_;
   int keep_;
-  std::vector<Products> products_;         // the first without leeway
+  std::vector<Products> products_;        // the first without leeway
   std::vector<std::size_t> products_of_;  // of each candidate
   std::vector<bool> is_seen_;
   std::vector<std::vector<Hypothesis>> best_;

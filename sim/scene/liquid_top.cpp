@@ -89,6 +89,13 @@ LiquidTop::Height LiquidTop::at(const Eigen::Vector2d& xy) const {
   return height;
 }
 
+void LiquidTop::turn_waves(double azimuth, double phase) {
+  for (Wave& wave : waves_) {
+    wave.k = wave.k.norm() * direction_of(azimuth);
+    wave.phase = phase;
+  }
+}
+
 std::vector<double> LiquidTop::rim(const CupShape& shape) const {
   constexpr double kDeepest = 0.25e-3;  // [m] along the surface into the wall, above its facets' sagitta
   std::vector<double> radii;

@@ -38,6 +38,10 @@ class LiquidTop {
 
   void move(const Eigen::Vector2d& shift) { axis_ += shift; }
 
+  bool has_waves() const { return !waves_.empty(); }
+  /// Every wave in this direction and phase (see Ripple).
+  void turn_waves(double azimuth, double phase);
+
   bool operator==(const LiquidTop&) const = default;
 
  private:

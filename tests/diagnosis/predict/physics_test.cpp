@@ -123,6 +123,20 @@ TEST(Physics, ErrorsOfTheModelAreSharedByRegionsPlacesAndConditions) {
   EXPECT_EQ(groups_of_residual.size(), 1u + 9u);  // none, and every third of the image
 }
 
+TEST(Physics, HolesInAFoamMoveHeightsWhereTheyShowWater) {
+  const Evidence evidence = physics_of(paper_measurement(false)).evidence;
+  const Eigen::MatrixXd &in_all = find(evidence, "foam")->leeway, &in_water = find(evidence, "foam@water")->leeway;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    const Observation& o = evidence.observations[i];
+    const bool is_of_holes = o.observable == "height_mm" && o.factors.liquid == "water";
+    const auto row = static_cast<Eigen::Index>(i);
+    EXPECT_EQ(in_all.row(row).isZero(0.0), !is_of_holes) << o.observable << " of " << o.factors.liquid;
+    EXPECT_EQ(in_all.row(row), in_water.row(row));
+  }
+  EXPECT_TRUE(find(evidence, "foam@milk")->leeway.isZero(0.0));
+  EXPECT_EQ(find(evidence, "surface_tilt")->leeway.cols(), 0);
+}
+
 TEST(Physics, PredictionsWithoutEffectsAreThePredicted) {
   const Physics physics = physics_of(paper_measurement(true));
   EXPECT_EQ(physics.predict({}), physics.evidence.predicted);
