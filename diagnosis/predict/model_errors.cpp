@@ -114,8 +114,12 @@ Eigen::MatrixXd effect_errors(std::string_view id, const std::vector<Observation
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, groups.count);
     for (Eigen::Index row = 0; row < n; ++row)
       if (groups.of[row] >= 0 && sees_through[row]) columns(row, groups.of[row]) = of_effect.error.sigma;
-    errors.conservativeResize(n, errors.cols() + groups.count);
-    errors.rightCols(groups.count) = columns;
+    std::vector<Eigen::Index> seen;
+    for (Eigen::Index k = 0; k < columns.cols(); ++k)
+      if (!columns.col(k).isZero(0.0)) seen.push_back(k);
+    const auto count = static_cast<Eigen::Index>(seen.size());
+    errors.conservativeResize(n, errors.cols() + count);
+    errors.rightCols(count) = columns(Eigen::all, seen);
   }
   return errors;
 }
