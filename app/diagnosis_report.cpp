@@ -77,26 +77,31 @@ std::string gap_html(const Diagnosis& diagnosis) {
   return html + html_table({"heights in the cup where", "before", "after", "held out", "errors"}, rows, true);
 }
 
-/// What its likeliest supersets add to an explanation.
-std::string beside_words(const Explanation& explanation) {
+/// "a; b; 5 more"
+std::string some_of(std::vector<std::string> words) {
   constexpr std::size_t kShown = 6;
+  const std::size_t more = words.size() > kShown ? words.size() - kShown : 0;
+  words.resize(words.size() - more);
+  return fmt::format("{}{}", fmt::join(words, "; "), more > 0 ? fmt::format("; {} more", more) : "");
+}
+
+/// What its supersets add to an explanation, likeliest first.
+std::string beside_words(const Explanation& explanation) {
   std::vector<std::string> added;
   for (const std::vector<std::string>& superset : explanation.supersets)
     for (const std::string& effect : superset)
       if (std::find(explanation.effects.begin(), explanation.effects.end(), effect) == explanation.effects.end())
         if (std::string words = effect_words(effect); std::find(added.begin(), added.end(), words) == added.end())
           added.push_back(std::move(words));
-  const std::size_t more = added.size() > kShown ? added.size() - kShown : 0;
-  added.resize(added.size() - more);
-  return fmt::format("{}{}", fmt::join(added, "; "), more > 0 ? fmt::format("; {} more", more) : "");
+  return some_of(std::move(added));
 }
 
 std::string rivals_html(const Diagnosis& diagnosis) {
   Rows rows;
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
-    std::string twins;
-    for (const auto& twin : explanation.alternatives) twins += (twins.empty() ? "" : "; ") + effects_words(twin);
-    rows.push_back({effects_words(explanation.effects), twins, beside_words(explanation),
+    std::vector<std::string> twins;
+    for (const auto& twin : explanation.alternatives) twins.push_back(effects_words(twin));
+    rows.push_back({effects_words(explanation.effects), some_of(std::move(twins)), beside_words(explanation),
                     fmt::format("{:.3f}", explanation.probability), fmt::format("{:.3f}", explanation.alone)});
   }
   return html_table({"explanation", "cannot be told from", "may be there as well", "probability", "alone"}, rows);

@@ -97,25 +97,37 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
   return text;
 }
 
+/// "foam, cup bottom height or fill offset (98 %)": an explanation and what cannot be told from it.
+std::string rival_words(const Explanation& explanation) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> alike{effects_words(explanation.effects)};
+  for (const std::vector<std::string>& other : explanation.alternatives)
+    if (alike.size() < kMost) alike.push_back(effects_words(other));
+  const std::size_t more = 1 + explanation.alternatives.size() - alike.size();
+  return fmt::format("{}{} ({:.0f} %)", joined(alike, "or"), more > 0 ? fmt::format(", or {} like these", more) : "",
+                     100 * explanation.probability);
+}
+
 std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   constexpr double kWorthNaming = 0.02;
+  constexpr std::size_t kMost = 4;
+  const std::vector<Explanation>& set = diagnosis.ambiguity_set;
+  if (set.size() == 1 && set.front().alternatives.empty())
+    return fmt::format("It may well be {}, but the tests do not confirm it: too little was measured anew. ",
+                       effects_words(set.front().effects)) +
+           next_sentences(diagnosis.next);
   std::vector<std::string> rivals;
   std::size_t others = 0;
   double probability_of_others = 0.0;
-  for (const Explanation& explanation : diagnosis.ambiguity_set) {
-    if (explanation.probability < kWorthNaming) {
-      others += 1 + explanation.alternatives.size();
-      probability_of_others += explanation.probability;
+  for (const Explanation& explanation : set) {
+    if (explanation.probability >= kWorthNaming && rivals.size() < kMost) {
+      rivals.push_back(rival_words(explanation));
       continue;
     }
-    rivals.push_back(fmt::format("{} ({:.0f} %)", effects_words(explanation.effects), 100 * explanation.probability));
-    for (const auto& twin : explanation.alternatives) rivals.push_back(effects_words(twin));
+    others += 1 + explanation.alternatives.size();
+    probability_of_others += explanation.probability;
   }
-  std::string text =
-      rivals.size() == 1
-          ? fmt::format("It may well be {}, but the tests do not confirm it: too little was measured anew. ",
-                        effects_words(diagnosis.ambiguity_set.front().effects))
-          : fmt::format("These would explain it, likeliest first: {}. ", joined(rivals, "or"));
+  std::string text = fmt::format("These would explain it, likeliest first: {}. ", fmt::join(rivals, "; "));
   if (others > 0)
     text += fmt::format("{} more {} {:.{}f} % together. ", others, others == 1 ? "has" : "have",
                         100 * probability_of_others, probability_of_others < 0.01 ? 1 : 0);
