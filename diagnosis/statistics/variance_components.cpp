@@ -151,7 +151,8 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     std::erase_if(components, [&](VarianceComponent& component) {
       Eigen::MatrixXd shape = shared(component.groups, rows, contrasts);
       const bool is_seen = shape.trace() > 1e-6 * static_cast<double>(rows.size());
-      if (!is_seen) unrepeated.push_back(std::move(component));
+      // Sessions have nuisances of their own, and what sets their means apart may be the effect itself.
+      if (!is_seen && component.level != ErrorLevel::session) unrepeated.push_back(std::move(component));
       if (!is_seen || (!shapes.empty() && are_alike(shapes.back(), shape))) return true;
       shapes.push_back(std::move(shape));
       return false;
