@@ -19,6 +19,7 @@ using namespace fathom::blind;
 
 struct Options {
   fs::path pack, reports, truth, output, ledger;
+  std::size_t first = 0;  // sets that are scored; 0: all
 };
 
 Json json_of(std::span<const Goal> goals) {
@@ -53,7 +54,8 @@ std::string hash_of_reports(const fs::path& pack, const fs::path& reports, std::
 }
 
 void score(const Options& options) {
-  const Pack pack = open_pack(options.pack, options.truth);
+  Pack pack = open_pack(options.pack, options.truth);
+  if (options.first > 0 && options.first < pack.sets.size()) pack.sets.resize(options.first);
   std::vector<Judged> judged;
   for (const SetTruth& truth : pack.sets)
     judged.push_back({truth, read_answer(options.reports / set_folder(options.pack, truth.number).filename())});
@@ -94,6 +96,9 @@ int main(int argc, char** argv) {
   app.add_option("reports", options.reports, "Folder with NNNN/report.json of each set")->required();
   app.add_option("--truth", options.truth, "The truth's file")->required();
   app.add_option("-o,--output", options.output, "Where to write goals.csv, power.csv, … and score.json")->required();
+  app.add_option("--first", options.first,
+                 "Scores only so many sets, of a pack that is still being diagnosed: their order is drawn")
+      ->check(CLI::PositiveNumber);
   app.add_option("--ledger", options.ledger, "Append-only list of packs, to which the opening is added");
   return run_program(app, argc, argv, [&] { score(options); });
 }
