@@ -22,7 +22,7 @@ struct Judged {
   bool is_true(const Names& effects) const;
   /// What is hidden is what it puts first, or what it says cannot be told from that or may be there as well.
   bool first_holds_truth() const;
-  /// It does not, and has a probability of at least 0.9.
+  /// Neither is it right nor does its first hold the truth, and that has a probability of at least 0.9.
   bool is_confidently_wrong() const;
   /// What is hidden is among its explanations.
   bool holds_truth() const;

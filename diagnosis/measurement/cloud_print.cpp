@@ -1,33 +1,19 @@
 #include "diagnosis/measurement/cloud_print.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "core/rng.h"
 
 namespace fathom {
-namespace {
-
-constexpr int kColumns = 4, kRows = 3;  // a cup with its shadow stands in few of them
-
-std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px) {
-  const double column = focal_px * point.x() / point.z() / kImageWidth_px + 0.5,
-               row = focal_px * point.y() / point.z() / kImageHeight_px + 0.5;
-  const auto part = [](double share, int parts) {
-    return static_cast<std::size_t>(std::clamp(share * parts, 0.0, parts - 1.0));
-  };
-  return kColumns * part(row, kRows) + part(column, kColumns);
-}
-
-}  // namespace
 
 CloudPrint print_of(std::span<const SensedPoint> points, double focal_px) {
-  constexpr int kFewest = 100;  // fewer noisy depths of whole steps may be alike by chance
+  constexpr int kColumns = 4, kRows = 3;  // a cup with its shadow stands in few of them
+  constexpr int kFewest = 100;            // fewer noisy depths of whole steps may be alike by chance
   CloudPrint print;
   std::array<int, std::tuple_size_v<decltype(print.parts)>> counts{};
   for (const SensedPoint& sensed : points) {
     const auto depth = std::bit_cast<std::uint32_t>(sensed.point.z());
-    const std::size_t part = part_of_image(sensed.point, focal_px);
+    const std::size_t part = part_of_image(sensed.point, focal_px, kColumns, kRows);
     print.whole = mix_bits(print.whole ^
                            (static_cast<std::uint64_t>(depth) << 32 | std::bit_cast<std::uint32_t>(sensed.intensity)));
     print.parts[part] = mix_bits(print.parts[part] ^ depth);

@@ -37,7 +37,7 @@ struct CupPlace {
 std::optional<CupPlace> place_of(const FrameView& view, const LaboratoryRig& rig) {
   if (!view.cup) return std::nullopt;
   constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
-  return CupPlace{*view.cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0), rig.outer_radius_m + kAround};
+  return CupPlace{axis_from_camera(rig, *view.cup), rig.outer_radius_m + kAround};
 }
 
 /// 1/z = q · (x/z, y/z, 1) for the points within `gate` of the plane; q = −n / offset.
@@ -108,14 +108,16 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
   estimates.interior_intensity = intensity.estimate();
 }
 
-std::size_t third_of_image(const SensedPoint& sensed, double focal_px) {
-  const double column = focal_px * sensed.point.x() / sensed.point.z() / kImageWidth_px + 0.5,
-               row = focal_px * sensed.point.y() / sensed.point.z() / kImageHeight_px + 0.5;
-  const auto third = [](double share) { return static_cast<std::size_t>(std::clamp(3.0 * share, 0.0, 2.0)); };
-  return 3 * third(row) + third(column);
-}
-
 }  // namespace
+
+std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows) {
+  const double column = focal_px * point.x() / point.z() / kImageWidth_px + 0.5,
+               row = focal_px * point.y() / point.z() / kImageHeight_px + 0.5;
+  const auto part = [](double share, int parts) {
+    return static_cast<std::size_t>(std::clamp(share * parts, 0.0, parts - 1.0));
+  };
+  return columns * part(row, rows) + part(column, columns);
+}
 
 std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
                                              const FrameView& view) {
@@ -147,7 +149,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
       continue;
     }
     if (std::abs(p.z()) > kOnDesk) continue;
-    residual[third_of_image(sensed, rig.focal_px)].add(p.z(), w);
+    residual[part_of_image(sensed.point, rig.focal_px, 3, 3)].add(p.z(), w);
     desk_intensity.add(sensed.intensity, w);
     if (number % kCombEvery != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.

@@ -53,4 +53,12 @@ struct FrameView {
 std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
                                              const FrameView& view);
 
+/// Number of the part that a point is seen in, row by row, of an image in so many `columns` and `rows`.
+std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows);
+
+/// [m] of a cup at a place of the rig's middle, from the foot of the camera, which is half a baseline beside it.
+inline Eigen::Vector2d axis_from_camera(const LaboratoryRig& rig, const Eigen::Vector2d& cup) {
+  return cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
+}
+
 }  // namespace fathom

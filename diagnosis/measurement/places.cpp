@@ -55,7 +55,7 @@ bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRi
   constexpr double kFrom = 0.012, kTo = 0.024, kAside = 0.020;  // [m] clear of the matcher's windows at the wall
   constexpr int kFewest = 3;
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
-  const Eigen::Vector2d axis = cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
+  const Eigen::Vector2d axis = axis_from_camera(rig, cup);
   const Eigen::Vector2d to_sensor = -axis.normalized();
   double height = 0.0;
   int seen = 0;

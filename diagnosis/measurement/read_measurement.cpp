@@ -45,7 +45,7 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   if (cloud.height <= 1) return std::nullopt;
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
   const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
-  const Eigen::Vector2f axis = (cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0)).cast<float>();
+  const Eigen::Vector2f axis = axis_from_camera(rig, cup).cast<float>();
   const float fall = static_cast<float>(desk.offset - rig.cup_height_m), focal = static_cast<float>(rig.focal_px);
   const float radius = static_cast<float>(rig.inner_radius_m - kInteriorMargin);
   int looked = 0, valid = 0;

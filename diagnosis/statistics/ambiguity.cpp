@@ -43,22 +43,19 @@ AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& 
     const auto alike = belongs([&](const Option& known) {
       return are_twins(known, option) || (known.has_unknown == option.has_unknown && kinds_of(known, kinds) == own);
     });
-    const auto part = belongs([&](const Option& known) {
+    const auto is_superset = [&](const Option& known) {
       const Kinds less = kinds_of(known, kinds);
       return (known.has_unknown || !less.empty()) && option.has_unknown >= known.has_unknown &&
              std::includes(own.begin(), own.end(), less.begin(), less.end());
-    });
+    };
+    const auto home = alike != set.classes.end() ? alike : belongs(is_superset);
+    AmbiguityClass& one = home != set.classes.end() ? *home : set.classes.emplace_back();
+    const bool adds = alike == set.classes.end() && home != set.classes.end();
     const double weight = std::exp(option.log_posterior - best);
     sum += weight;
-    if (alike == set.classes.end() && part != set.classes.end()) {
-      part->probability += weight;
-      part->supersets.push_back(std::move(option));
-      continue;
-    }
-    AmbiguityClass& home = alike != set.classes.end() ? *alike : set.classes.emplace_back();
-    home.probability += weight;
-    home.alone += weight;
-    home.options.push_back(std::move(option));
+    one.probability += weight;
+    if (!adds) one.alone += weight;
+    (adds ? one.supersets : one.options).push_back(std::move(option));
   }
   for (AmbiguityClass& one : set.classes) {
     one.probability /= sum;

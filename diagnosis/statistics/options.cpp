@@ -27,17 +27,12 @@ Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
       false,
       fit.hypothesis.log_evidence + log_evidence(c.problem, 0.0, {effect}, nothing, columns.transpose() * columns),
       fit.prediction};
-  option.effects.insert(std::upper_bound(option.effects.begin(), option.effects.end(), effect), effect);
-  option.parameters.setZero(static_cast<Eigen::Index>(columns_of(c.problem, option.effects).size()));
-  Eigen::Index to = 0, from = 0;
-  for (const int one : option.effects) {
-    const auto count = static_cast<Eigen::Index>(c.problem.columns[one].size());
-    if (one != effect) {
-      option.parameters.segment(to, count) = fit.hypothesis.parameters.segment(from, count);
-      from += count;
-    }
-    to += count;
-  }
+  const auto place = std::upper_bound(option.effects.begin(), option.effects.end(), effect);
+  const auto before = static_cast<Eigen::Index>(columns_of(c.problem, {option.effects.begin(), place}).size());
+  option.effects.insert(place, effect);
+  const Eigen::VectorXd& there = fit.hypothesis.parameters;
+  option.parameters.resize(there.size() + nothing.size());
+  option.parameters << there.head(before), nothing, there.tail(there.size() - before);
   return option;
 }
 
