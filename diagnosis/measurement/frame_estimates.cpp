@@ -129,7 +129,10 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   const Eigen::Vector3f shift = to_desk.translation().cast<float>();
   const double steps_per_inverse = 8.0 * rig.focal_px * rig.baseline_m, two_pi = 2.0 * std::numbers::pi;
   constexpr float kOnDesk = 0.005f;
+  const Eigen::Vector3d inverse_desk = -desk->normal / desk->offset;  // 1/z of the desk = that · (x/z, y/z, 1)
   std::array<Sums, 9> residual;
+  std::array<Sums, std::tuple_size_v<decltype(DeskBands::rows)>> rows;
+  std::array<Sums, std::tuple_size_v<decltype(DeskBands::columns)>> columns;
   Sums desk_intensity;
   std::vector<CupPoint> around;
   std::optional<OutlineFit> outline;
@@ -150,6 +153,10 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     }
     if (std::abs(p.z()) > kOnDesk) continue;
     residual[part_of_image(sensed.point, rig.focal_px, 3, 3)].add(p.z(), w);
+    const Eigen::Vector3d seen = sensed.point.cast<double>();
+    const double off_px = rig.focal_px * rig.baseline_m * (1.0 - inverse_desk.dot(seen)) / seen.z();
+    rows[part_of_image(sensed.point, rig.focal_px, 1, static_cast<int>(rows.size()))].add(off_px, w);
+    columns[part_of_image(sensed.point, rig.focal_px, static_cast<int>(columns.size()), 1)].add(off_px, w);
     desk_intensity.add(sensed.intensity, w);
     if (number % kCombEvery != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
@@ -165,6 +172,8 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   FrameEstimates estimates;
   estimates.desk = *desk;
   for (std::size_t i = 0; i < residual.size(); ++i) estimates.desk_residual[i] = residual[i].estimate();
+  for (std::size_t i = 0; i < rows.size(); ++i) estimates.desk_bands.rows[i] = rows[i].estimate();
+  for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();
   if (outline) estimates.outline = outline->solve();
   set_inside(around, rig.inner_radius_m - kInteriorMargin, view.soft_m, estimates);

@@ -24,16 +24,23 @@ struct RegionEstimate {
   double weight = 0.0;  ///< points
 };
 
+/// Mean disparity off the fitted desk's [px], of bands of 40 rows and of 40 columns of the image.
+struct DeskBands {
+  std::array<RegionEstimate, 12> rows;
+  std::array<RegionEstimate, 16> columns;
+};
+
 /// Codes of 1/8 px that the coarser combs have between their teeth.
 inline constexpr std::array<int, 2> kCoarseCombs{2, 4};
 
 struct FrameEstimates {
   Plane desk;
   std::array<RegionEstimate, 9> desk_residual;  ///< [m] heights above the fitted desk, by third of the image
-  RegionEstimate desk_intensity;                ///< [DN]
-  std::array<RegionEstimate, 5> height;         ///< [m] above the fitted desk, by region of the cup
-  RegionEstimate interior;                      ///< the same of all regions together
-  RegionEstimate interior_intensity;            ///< [DN]
+  DeskBands desk_bands;
+  RegionEstimate desk_intensity;         ///< [DN]
+  std::array<RegionEstimate, 5> height;  ///< [m] above the fitted desk, by region of the cup
+  RegionEstimate interior;               ///< the same of all regions together
+  RegionEstimate interior_intensity;     ///< [DN]
   std::optional<CupOutline> outline;
   Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
   std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px

@@ -14,7 +14,8 @@
 #include "core/units.h"
 #include "detector/quiet_pcl.h"
 #include "diagnosis/measurement/copies.h"
-#include "diagnosis/measurement/desk_wander.h"
+#include "diagnosis/measurement/desk_bands.h"
+#include "diagnosis/measurement/desk_motion.h"
 #include "diagnosis/measurement/frame_cloud.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/places.h"
@@ -28,6 +29,7 @@ struct FrameReading {
   bool is_bare = false;  ///< the desk is seen where the cup should stand
   StandsElsewhere stands_elsewhere{};
   CloudPrint print;
+  std::optional<DeskBands> bands;
 };
 
 std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
@@ -96,6 +98,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
+  reading.bands = estimates->desk_bands;
   const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
     if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
   };
@@ -158,10 +161,12 @@ Observation observation_of(const Trials& trials, const FrameRecord& frame, doubl
 void add_observations(const std::vector<std::size_t>& rows, const std::vector<FrameReading>& readings,
                       Measurement& measurement) {
   std::vector<Trials> all;
+  std::vector<DeskBands> bands;
   double time_s = 0.0, stood_s = 0.0;
   for (const std::size_t row : rows) {
     time_s += measurement.frames[row].time_s / static_cast<double>(rows.size());
     stood_s += measurement.frames[row].stood_s / static_cast<double>(rows.size());
+    if (readings[row].bands) bands.push_back(*readings[row].bands);
     for (const NamedValue& named : readings[row].values) {
       auto same = std::find_if(all.begin(), all.end(), [&](const Trials& trials) {
         return trials.observable == named.observable && trials.region == named.region;
@@ -169,6 +174,11 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
       if (same == all.end()) same = all.insert(all.end(), {named.observable, named.region, {}});
       same->values.push_back(named.value);
     }
+  }
+  const std::optional<BandScatter> scatter = scatter_of(bands);
+  if (scatter) {
+    all.push_back({"desk_rows_px", "desk", {scatter->rows_px}});
+    all.push_back({"desk_columns_px", "desk", {scatter->columns_px}});
   }
   for (const Trials& trials : all)
     measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s, stood_s));
@@ -230,8 +240,8 @@ Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
   for (std::size_t row = 0; row < measurement.frames.size(); ++row)
     if (!copies.left_out[row]) placements[placement_of(measurement.frames[row])].push_back(row);
   for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
-  for (Observation& wander : desk_wander(measurement.observations, measurement.rig))
-    measurement.observations.push_back(std::move(wander));
+  for (Observation& motion : desk_motion(measurement.observations, measurement.rig))
+    measurement.observations.push_back(std::move(motion));
   return measurement;
 }
 

@@ -9,8 +9,9 @@
 namespace fathom {
 namespace {
 
-constexpr std::array<std::string_view, 7> kOfPlacements{
-    "height_mm", "cup_x_mm", "cup_y_mm", "cup_radius_mm", "desk_height_mm", "log_brightness", "desk_wander_mm"};
+constexpr std::array<std::string_view, 8> kOfPlacements{"height_mm",      "cup_x_mm",       "cup_y_mm",
+                                                        "cup_radius_mm",  "desk_height_mm", "log_brightness",
+                                                        "desk_wander_mm", "desk_waves_px"};
 constexpr std::array<std::string_view, 7> kOfSessions{"desk_pitch_deg", "desk_roll_deg", "desk_residual_mm",
                                                       "comb_strength",  "comb_quarter",  "comb_half",
                                                       "millimetre_comb"};

@@ -169,6 +169,10 @@ void Predictor::set_rows(const Condition& condition, const std::optional<Foresee
       values[row] = foreseen->wander_mm;
       continue;
     }
+    if (observables_[row] == "desk_waves_px") {
+      values[row] = 0.0;
+      continue;
+    }
     for (const NamedValue& value : named)
       if (value.observable == observables_[row] && value.region == regions_[row]) values[row] = value.value;
   }

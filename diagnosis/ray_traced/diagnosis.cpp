@@ -28,7 +28,8 @@ std::vector<LeftOutLevel> left_out(const RayTracedEvidence& traced, const Diagno
   found.hypothesis.parameters = parameters_of(traced.evidence, effects, values);
   found.change = covariance.whiten(traced.predict(values) - traced.evidence.predicted);
   found.prediction =
-      found.change + problem.leeways[widest_leeway(problem, effects)].share_in(problem.residual - found.change);
+      found.change +
+      leeway_beside(problem, effects, found.hypothesis.parameters).share_in(problem.residual - found.change);
   found.jacobian = problem.signatures(Eigen::all, columns_of(problem, effects));
   found.hypothesis.effects = std::move(effects);
   const Refit fit = with_differences(traced.evidence, traced.predict, covariance, problem, std::move(found));

@@ -17,6 +17,21 @@ constexpr std::size_t kRefitted = 8;     // … and refitted, likeliest first
 constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
 const double kLogPriorUnknown = std::log(0.1);
 
+/// Effects with leeway of which a refit left nothing: by their signatures alone they pass for what their leeway is.
+std::set<int> vanished(const Problem& problem, const std::vector<Refit>& fits) {
+  std::set<int> result;
+  for (const Refit& fit : fits)
+    for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e)
+      if (const int effect = fit.hypothesis.effects[e];
+          problem.leeways[effect].log_det > 0.0 && part_of(problem, fit.hypothesis, {e}).parameters.isZero(0.0))
+        result.insert(effect);
+  return result;
+}
+
+bool holds_any(const std::vector<int>& effects, const std::set<int>& of) {
+  return std::any_of(effects.begin(), effects.end(), [&](int effect) { return of.contains(effect); });
+}
+
 /// A fit beside an effect of which there is next to nothing.
 Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
   const auto columns = c.problem.signatures(Eigen::all, c.problem.columns[effect]);
@@ -43,8 +58,9 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
   const double least = options.front().log_posterior - c.settings.delta;
   std::set<std::vector<int>> known;
   for (const Refit& fit : fits) known.insert(fit.hypothesis.effects);
+  const std::set<int> gone = vanished(c.problem, fits);
   for (const Hypothesis& h : hypotheses)
-    if (h.log_evidence > least && known.insert(h.effects).second)
+    if (h.log_evidence > least && !holds_any(h.effects, gone) && known.insert(h.effects).second)
       options.push_back({h.effects, h.parameters, false, h.log_evidence,
                          c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
   for (const Refit& fit : fits)
@@ -99,10 +115,15 @@ std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& 
   nothing.prediction = nothing.change = Eigen::VectorXd::Zero(n);
   nothing.jacobian.resize(n, 0);
   result.push_back(std::move(nothing));
-  const double best = hypotheses.empty() ? 0.0 : std::max(0.0, hypotheses.front().log_evidence);
-  for (const Hypothesis& hypothesis : hypotheses)
-    if (hypothesis.log_evidence > best - kHopeless && result.size() <= kRefitted)
+  for (const Hypothesis& hypothesis : hypotheses) {
+    const std::set<int> gone = vanished(c.problem, result);
+    if (holds_any(hypothesis.effects, gone)) continue;
+    const auto best = std::find_if(hypotheses.begin(), hypotheses.end(),
+                                   [&](const Hypothesis& h) { return !holds_any(h.effects, gone); });
+    if (hypothesis.log_evidence > std::max(0.0, best->log_evidence) - kHopeless &&
+        result.size() <= kRefitted + gone.size())
       result.push_back(refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
+  }
   sort_by_evidence(result);
   add_without_one(c, result);
   return result;

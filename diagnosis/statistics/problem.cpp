@@ -65,6 +65,19 @@ int widest_leeway(const Problem& problem, const std::vector<int>& effects) {
                            [&](int a, int b) { return problem.leeways[a].log_det < problem.leeways[b].log_det; });
 }
 
+const Leeway& leeway_beside(const Problem& problem, const std::vector<int>& effects,
+                            const Eigen::VectorXd& parameters) {
+  static const Leeway kNone;
+  std::vector<int> there;
+  Eigen::Index first = 0;
+  for (const int effect : effects) {
+    const auto count = static_cast<Eigen::Index>(problem.columns[effect].size());
+    if (!parameters.segment(first, count).isZero(0.0)) there.push_back(effect);
+    first += count;
+  }
+  return there.empty() ? kNone : problem.leeways[widest_leeway(problem, there)];
+}
+
 Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions) {
   Hypothesis part;
   std::vector<Eigen::Index> own;  // places in the whole's parameters

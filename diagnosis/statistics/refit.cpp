@@ -106,7 +106,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   Model model(evidence, predict, covariance, start.effects);
   const std::vector<Eigen::Index> columns = columns_of(problem, start.effects);
   const Eigen::VectorXd lower = problem.lower(columns), upper = problem.upper(columns);
-  const Leeway& leeway = problem.leeways[widest_leeway(problem, start.effects)];
+  const Leeway& leeway = leeway_beside(problem, start.effects, start.parameters);
   const auto left = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
     return leeway.whiten(problem.residual - change);
   };
@@ -144,10 +144,12 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
       damping = std::max(4.0 * damping, 1e-2);
     }
   }
-  const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
-  const double gain = problem.residual.squaredNorm() - left(change).squaredNorm() - leeway.log_det;
+  const Leeway& there = leeway_beside(problem, start.effects, x);
+  const Eigen::MatrixXd slopes = there.whiten(jacobian);
+  const Eigen::VectorXd rest = problem.residual - change;
+  const double gain = problem.residual.squaredNorm() - there.whiten(rest).squaredNorm() - there.log_det;
   return {{start.effects, x, gain, log_evidence(problem, gain, start.effects, x, slopes.transpose() * slopes)},
-          change + leeway.share_in(problem.residual - change),
+          change + there.share_in(rest),
           change,
           std::move(jacobian),
           model.predictions()};

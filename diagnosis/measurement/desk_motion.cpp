@@ -1,0 +1,138 @@
+#include "diagnosis/measurement/desk_motion.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/units.h"
+#include "diagnosis/measurement/frame_estimates.h"
+
+namespace fathom {
+namespace {
+
+constexpr std::size_t kParts = 3;      // of a campaign: one session is cut into as many
+constexpr std::size_t kFewest = 4;     // placements in each
+constexpr double kUnexplained = 0.25;  // of the variance that local noise makes: noise reaches across borders
+
+/// Variance of the height of a plane that is fitted to nine thirds of the image, over the mean variance that is left in
+/// them, when their errors are independent and equal.
+double height_over_residual(const LaboratoryRig& rig) {
+  constexpr double kThird_px = 640.0 / 3.0, kThirdRow_px = 160.0;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  for (int row = -1; row <= 1; ++row)
+    for (int column = -1; column <= 1; ++column) {
+      // Where that line of sight meets the desk, from the camera's foot [m].
+      const double u = column * kThird_px / rig.focal_px, v = row * kThirdRow_px / rig.focal_px;
+      const double down = std::sin(rig.pitch_rad) + v * std::cos(rig.pitch_rad);
+      const double ahead = std::cos(rig.pitch_rad) - v * std::sin(rig.pitch_rad);
+      const double z = rig.height_m / std::max(down, 0.1);
+      const Eigen::Vector3d at(1.0, z * u, z * ahead);
+      normal += at * at.transpose();
+    }
+  constexpr double kLeft = (9.0 - 3.0) / 9.0;  // of the variance, once the plane is taken off
+  return normal.ldlt().solve(Eigen::Vector3d::UnitX()).x() / kLeft;
+}
+
+/// The same [mm²] over the variance [px²] of bands of rows with independent errors: 1/z = q · (x/z, y/z, 1), of whose
+/// last two terms bands tell, and the height is 1/|q|.
+double height_over_rows(const LaboratoryRig& rig) {
+  constexpr double kRows = std::tuple_size_v<decltype(DeskBands::rows)>, kHeight_px = 480.0;
+  const Plane desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
+  const double mean_square = kHeight_px * kHeight_px / 12.0 / (rig.focal_px * rig.focal_px);
+  const double of_q = (desk.normal.y() * desk.normal.y() / mean_square + desk.normal.z() * desk.normal.z()) / kRows;
+  const double height_mm = mm_from_metres(desk.offset * desk.offset / (rig.focal_px * rig.baseline_m));
+  return height_mm * height_mm * of_q;
+}
+
+/// Variances between the trials of one placement.
+struct Scatter {
+  double time_s = 0.0;
+  double height = 0.0, residuals = 0.0;  ///< [mm²]
+  int thirds = 0;
+  double rows = 0.0, columns = 0.0;  ///< [px²]
+};
+using Placements = std::vector<Scatter>;
+
+std::map<int, Placements> scatter_by_session(const std::vector<Observation>& observations) {
+  std::map<int, std::map<std::pair<int, double>, Scatter>> sessions;
+  for (const Observation& o : observations) {
+    Scatter& scatter = sessions[o.factors.session][{o.factors.placement, o.factors.time_s}];
+    scatter.time_s = o.factors.time_s;
+    if (o.observable == "desk_height_mm") scatter.height = o.repeat_sd * o.repeat_sd;
+    if (o.observable == "desk_rows_px") scatter.rows = o.value * o.value;
+    if (o.observable == "desk_columns_px") scatter.columns = o.value * o.value;
+    if (o.observable != "desk_residual_mm") continue;
+    scatter.residuals += o.repeat_sd * o.repeat_sd;
+    ++scatter.thirds;
+  }
+  std::map<int, Placements> in_time;
+  for (const auto& [session, placements] : sessions)
+    for (const auto& [key, scatter] : placements)
+      if (scatter.residuals > 0.0 && scatter.columns > 0.0) in_time[session].push_back(scatter);
+  for (auto& [session, placements] : in_time)
+    std::stable_sort(placements.begin(), placements.end(),
+                     [](const Scatter& a, const Scatter& b) { return a.time_s < b.time_s; });
+  return in_time;
+}
+
+/// A variance beyond what is known to make one.
+struct Excess {
+  double value, error;  ///< error: 1 σ, of the mean over placements
+};
+
+template <class Of>
+Excess mean_excess(std::span<const Scatter> placements, const Of& of) {
+  const auto n = static_cast<double>(placements.size());
+  double sum = 0.0, squares = 0.0;
+  for (const Scatter& scatter : placements) sum += of(scatter);
+  for (const Scatter& scatter : placements) squares += std::pow(of(scatter) - sum / n, 2);
+  return {sum / n, std::sqrt(squares / (n * (n - 1.0)))};
+}
+
+/// The root of a variance; as significant as that is, and never less uncertain than the root of its error.
+Observation root_of(const Excess& excess, const char* observable, int session, std::size_t repeats) {
+  Observation root;
+  root.observable = observable;
+  root.factors.session = session;
+  root.factors.liquid = "none";
+  root.factors.region = "desk";
+  root.value = std::copysign(std::sqrt(std::abs(excess.value)), excess.value);
+  root.repeats = static_cast<int>(repeats);
+  const double error = std::min(std::sqrt(excess.error), excess.error / std::max(std::abs(root.value), 1e-12));
+  root.repeat_sd = error * std::sqrt(static_cast<double>(repeats));
+  return root;
+}
+
+void add_motion(int session, std::span<const Scatter> placements, const LaboratoryRig& rig,
+                std::vector<Observation>& result) {
+  constexpr double kSteps_px = 0.005;  // a row of a level desk lies in one step of 1/8 px, and some rows make a band
+  constexpr double kTogether = 4.0;    // bands of one crest
+  Excess waves = mean_excess(placements, [](const Scatter& s) { return s.rows - s.columns; });
+  const Excess noise = mean_excess(placements, [](const Scatter& s) { return s.columns; });
+  waves.error = std::hypot(waves.error, kUnexplained * noise.value, kSteps_px * kSteps_px);
+  const auto local = [ratio = height_over_residual(rig)](const Scatter& s) { return ratio * s.residuals / s.thirds; };
+  Excess wander = mean_excess(placements, [&](const Scatter& s) { return s.height - local(s); });
+  const double of_waves = kTogether * height_over_rows(rig) * std::max(waves.value, 0.0);
+  wander.error = std::hypot(wander.error, kUnexplained * mean_excess(placements, local).value, of_waves);
+  result.push_back(root_of(wander, "desk_wander_mm", session, placements.size()));
+  result.push_back(root_of(waves, "desk_waves_px", session, placements.size()));
+}
+
+}  // namespace
+
+std::vector<Observation> desk_motion(const std::vector<Observation>& observations, const LaboratoryRig& rig) {
+  const std::map<int, Placements> sessions = scatter_by_session(observations);
+  const std::size_t parts = sessions.size() < kParts ? kParts / std::max<std::size_t>(sessions.size(), 1) : 1;
+  std::vector<Observation> result;
+  for (const auto& [session, placements] : sessions) {
+    if (placements.size() < parts * kFewest) continue;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t begin = placements.size() * part / parts, end = placements.size() * (part + 1) / parts;
+      add_motion(session, std::span(placements).subspan(begin, end - begin), rig, result);
+    }
+  }
+  return result;
+}
+
+}  // namespace fathom
