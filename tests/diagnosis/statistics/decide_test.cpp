@@ -217,6 +217,16 @@ TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
   }
 }
 
+TEST(Decide, DoesNotNameWhatIsSmallBesideSomethingUnknown) {
+  const World world(small_design());
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const EffectValue truth = world.at_strength("radial_distortion", 12.0, 1.0);
+    const Diagnosis diagnosis = decide(world.measure({truth}, {}, seed, world.escaping(60.0, seed)), world.predict());
+    EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
+    EXPECT_TRUE(diagnosis.effects.empty());
+  }
+}
+
 TEST(Decide, DoesNotNameWhatOneNumberAloneShows) {
   const World world(small_design());
   Evidence evidence = world.measure({}, {}, 3);

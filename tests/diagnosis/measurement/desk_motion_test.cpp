@@ -1,0 +1,139 @@
+// What frames of a bare desk tell of how it moves between them.
+#include "diagnosis/measurement/desk_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/rng.h"
+#include "core/units.h"
+#include "diagnosis/measurement/desk_bands.h"
+#include "diagnosis/measurement/named_values.h"
+
+namespace fathom {
+namespace {
+
+LaboratoryRig rig() {
+  LaboratoryRig rig;
+  rig.height_m = 0.65;
+  rig.pitch_rad = radians_from_deg(58.4);
+  return rig;
+}
+
+/// Amplitudes of what changes from frame to frame, in disparity [px]; waves of 180 rows or columns, of any phase.
+struct Motion {
+  double noise = 0.0, all = 0.0, along_rows = 0.0, along_columns = 0.0;
+};
+
+/// Every fourth pixel of a desk whose disparities differ by that from the true ones.
+std::vector<SensedPoint> desk_frame(const Motion& motion, Rng& rng) {
+  const Plane desk = plane_from(DeskPrior{rig().height_m, rig().pitch_rad, rig().roll_rad});
+  const double all = motion.all * rng.normal(), phase = 2.0 * std::numbers::pi * rng.uniform();
+  const auto wave = [&](double at) { return std::sin(2.0 * std::numbers::pi * at / 180.0 + phase); };
+  std::vector<SensedPoint> points;
+  for (double row = 2.0; row < kImageHeight_px; row += 4.0)
+    for (double column = 2.0; column < kImageWidth_px; column += 4.0) {
+      const Eigen::Vector3d sight((column - 0.5 * kImageWidth_px) / rig().focal_px,
+                                  (row - 0.5 * kImageHeight_px) / rig().focal_px, 1.0);
+      const double error =
+          motion.noise * rng.normal() + all + motion.along_rows * wave(row) + motion.along_columns * wave(column);
+      const double inverse = -desk.normal.dot(sight) / desk.offset + error / (rig().focal_px * rig().baseline_m);
+      points.push_back({(sight / inverse).cast<float>(), 100.0f, 16.0f});
+    }
+  return points;
+}
+
+double deviation(const std::vector<double>& values) {
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values) sum += value, squares += value * value;
+  const auto n = static_cast<double>(values.size());
+  return std::sqrt(std::max(0.0, (squares - sum * sum / n) / (n - 1.0)));
+}
+
+/// Twelve placements of five frames each, as read_measurement() has them.
+std::vector<Observation> observations_of(const Motion& motion, std::uint64_t seed) {
+  std::vector<Observation> result;
+  Rng rng(seed);
+  for (int placement = 0; placement < 12; ++placement) {
+    std::vector<DeskBands> bands;
+    std::vector<std::vector<NamedValue>> frames;
+    for (int trial = 0; trial < 5; ++trial) {
+      const auto frame = estimate_frame(desk_frame(motion, rng), rig(), {});
+      bands.push_back(frame->desk_bands);
+      frames.push_back(named_values(*frame));
+    }
+    const auto add = [&](std::string_view observable, std::string_view region, double value, double sd) {
+      Observation o{
+          .observable = std::string(observable), .factors = {}, .value = value, .repeat_sd = sd, .repeats = 5};
+      o.factors.placement = placement;
+      o.factors.region = region;
+      result.push_back(std::move(o));
+    };
+    for (std::size_t k = 0; k < frames[0].size(); ++k) {
+      std::vector<double> values;
+      for (const auto& frame : frames) values.push_back(frame[k].value);
+      add(frames[0][k].observable, frames[0][k].region, values[0], deviation(values));
+    }
+    const auto scatter = scatter_of(bands);
+    add("desk_rows_px", "desk", scatter->rows_px, 0.0);
+    add("desk_columns_px", "desk", scatter->columns_px, 0.0);
+  }
+  return result;
+}
+
+/// Of the three parts of the session their mean, in its own standard errors.
+struct Found {
+  double value = 0.0, z = 0.0;
+};
+Found found(const char* observable, const Motion& motion) {
+  Found mean;
+  for (const Observation& o : desk_motion(observations_of(motion, 7), rig()))
+    if (o.observable == observable) {
+      mean.value += o.value / 3.0;
+      mean.z += o.value / (o.repeat_sd / std::sqrt(o.repeats)) / std::sqrt(3.0);
+    }
+  return mean;
+}
+
+constexpr double kSure = 5.0, kChance = 3.0;  // σ
+
+TEST(DeskMotion, NoiseAloneIsNone) {
+  EXPECT_LT(std::abs(found("desk_wander_mm", {.noise = 0.1}).z), kChance);
+  EXPECT_LT(std::abs(found("desk_waves_px", {.noise = 0.1}).z), kChance);
+}
+
+TEST(DeskMotion, DeskThatMovesAsAWholeWandersAndMakesNoWaves) {
+  const Motion motion{.noise = 0.1, .all = 0.1};
+  const Found wander = found("desk_wander_mm", motion);
+  const Plane desk = plane_from(DeskPrior{rig().height_m, rig().pitch_rad, rig().roll_rad});
+  const double expected =
+      mm_from_metres(desk.offset * desk.offset * std::abs(desk.normal.z()) * 0.1 / (rig().focal_px * rig().baseline_m));
+  EXPECT_GT(wander.z, kSure);
+  EXPECT_NEAR(wander.value, expected, 0.35 * expected);  // 48 degrees of freedom: 3 σ and a little
+  EXPECT_LT(std::abs(found("desk_waves_px", motion).z), kChance);
+}
+
+TEST(DeskMotion, RowsThatShakeMakeWavesAndNoCertainWander) {
+  const Motion motion{.noise = 0.1, .along_rows = 0.1};
+  const Found waves = found("desk_waves_px", motion);
+  EXPECT_GT(waves.z, kSure);
+  EXPECT_GT(waves.value, 0.05);  // 0.07 px are a sine's root mean square, of which bands and the plane take some
+  EXPECT_LT(waves.value, 0.08);
+  EXPECT_LT(std::abs(found("desk_wander_mm", motion).z), kChance);
+}
+
+TEST(DeskMotion, ColumnsThatShakeAreToldFromRows) {
+  EXPECT_LT(found("desk_waves_px", {.noise = 0.1, .along_columns = 0.1}).z, -kSure + 2.0);
+}
+
+TEST(DeskBands, OneFrameTellsNothing) {
+  Rng rng(1);
+  const auto frame = estimate_frame(desk_frame({.noise = 0.1}, rng), rig(), {});
+  const std::vector<DeskBands> one{frame->desk_bands};
+  EXPECT_FALSE(scatter_of(one).has_value());
+}
+
+}  // namespace
+}  // namespace fathom
