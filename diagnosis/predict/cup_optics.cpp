@@ -117,7 +117,8 @@ std::optional<Eigen::Vector3d> meet_bottom(const CupBody& cup, const Way& way) {
 }
 
 /// The projector's light aimed at the height of `target`, refracted on its way there: by Newton's method with the
-/// derivative of where it lands, whose determinant is the spreading of the light.
+/// derivative of where it lands, whose determinant is the spreading of the light. Below level tops that derivative
+/// hardly changes; waves and menisci bend it, so that it is taken anew at each step, and some places are not lit.
 std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d& target,
                                      const Eigen::Vector3d& projector, const Way& seen, double to_surface) {
   const auto land = [&](const Eigen::Vector2d& aim, auto& light) -> std::optional<Way> {
@@ -130,29 +131,38 @@ std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d
     return way;
   };
   NoLight none;
-  constexpr double kStep = 1e-5;  // [m]
+  const auto slope_at = [&](const Eigen::Vector2d& aim, const Way& way) -> std::optional<Eigen::Matrix2d> {
+    constexpr double kStep = 1e-5;  // [m]
+    Eigen::Matrix2d slope;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto beside = land(aim + kStep * Eigen::Vector2d::Unit(axis), none);
+      if (!beside) return std::nullopt;
+      slope.col(axis) = (beside->end - way.end).head<2>() / kStep;
+    }
+    return slope;
+  };
+  constexpr int kSteps = 20;
+  constexpr double kEnough = 1e-10;  // [m]
   Eigen::Vector2d aim = target.head<2>();
   auto way = land(aim, none);
-  Eigen::Matrix2d slope;
-  for (int axis = 0; axis < 2; ++axis) {
-    const auto beside = land(aim + kStep * Eigen::Vector2d::Unit(axis), none);
-    if (!way || !beside) return std::nullopt;
-    slope.col(axis) = (beside->end - way->end).head<2>() / kStep;
-  }
-  const Eigen::Matrix2d step = slope.inverse();
-  constexpr double kEnough = 1e-10;  // [m]
-  for (int i = 0; i < 20; ++i) {
+  if (!way) return std::nullopt;
+  auto slope = slope_at(aim, *way);
+  const bool is_level = std::all_of(cup.layers.begin(), cup.layers.end(), [](const auto& l) { return l.level; });
+  for (int i = 0; slope; ++i) {
     const Eigen::Vector2d off = (way->end - target).head<2>();
     if (off.squaredNorm() < kEnough * kEnough) break;
-    aim -= step * off;
+    if (i == kSteps) return std::nullopt;
+    aim -= slope->inverse() * off;
     way = land(aim, none);
     if (!way) return std::nullopt;
+    if (!is_level) slope = slope_at(aim, *way);
   }
+  if (!slope) return std::nullopt;
   const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
   const double distance = straight.norm();
   const Eigen::Vector3d direction = straight / distance;
   if (!passes_opening(cup.body, projector, direction)) return std::nullopt;
-  const double irradiance = -direction.z() / (distance * distance * std::abs(slope.determinant()));
+  const double irradiance = -direction.z() / (distance * distance * std::abs(slope->determinant()));
   LightLeft down;
   land(aim, down);
   const double to_camera = to_surface * transmittance(last_absorption(cup), (target - seen.end).norm());

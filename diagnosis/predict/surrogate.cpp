@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "diagnosis/predict/cup_walls.h"
 #include "theory/raised_bottom.h"
@@ -99,21 +100,39 @@ std::vector<CupOptics> moments_of(const CupOptics& cup) {
   return moments;
 }
 
-std::vector<SensedPoint> inside_points(const SurrogateView& view, const SampledPixels& pixels) {
-  const Eigen::Vector3d projector = view.reader.rig().projector_in_world();
+/// What light says of a sight in the mean over some moments, those in which there is any.
+std::optional<SeenLight> mean_light(const SurrogateView& view, std::span<const CupOptics> moments, const Ray& sight) {
+  const Rig& rig = view.reader.rig();
   const std::vector<LiquidLayer>& layers = view.cup->layers;
   const bool reduced = view.bisector > 0.0 && layers.size() == 1 && !layers.front().opaque;
-  const std::vector<CupOptics> moments = moments_of(*view.cup);
-  const double weight = pixels.cup_weight / static_cast<double>(moments.size());
-  std::vector<SensedPoint> points;
+  SeenLight sum{Eigen::Vector3d::Zero(), 0.0};
+  int seen = 0;
   for (const CupOptics& cup : moments) {
-    const auto seen = points_at(view.reader, pixels.cup, weight, [&](const Ray& sight) -> std::optional<SeenLight> {
-      const auto lit = look_into(cup, sight, projector);
-      if (!lit) return std::nullopt;
-      return SeenLight{reduced ? by_closed_form(view.reader.rig(), layers.front(), sight, *lit, view.bisector)
-                               : lit->projector_direction,
-                       lit->reflected};
-    });
+    const auto lit = look_into(cup, sight, rig.projector_in_world());
+    if (!lit) continue;
+    sum.projector_direction +=
+        reduced ? by_closed_form(rig, layers.front(), sight, *lit, view.bisector) : lit->projector_direction;
+    sum.reflected += lit->reflected;
+    ++seen;
+  }
+  if (seen == 0) return std::nullopt;
+  if (seen == 1) return sum;
+  return SeenLight{sum.projector_direction.normalized(), sum.reflected / seen};
+}
+
+/// Through waves each point is the mean over all moments: a matcher's window spans most of a wave, so that no height
+/// that it reads is as far off as the steepest part has it, beyond what counts as the cup's. On an opaque liquid each
+/// moment has its points: none is far off, and their spread is the waves'.
+std::vector<SensedPoint> inside_points(const SurrogateView& view, const SampledPixels& pixels) {
+  const std::vector<LiquidLayer>& layers = view.cup->layers;
+  const std::vector<CupOptics> moments = moments_of(*view.cup);
+  const std::size_t together = !layers.empty() && layers.back().opaque ? 1 : moments.size();
+  const double weight = pixels.cup_weight * static_cast<double>(together) / static_cast<double>(moments.size());
+  std::vector<SensedPoint> points;
+  for (std::size_t first = 0; first < moments.size(); first += together) {
+    const std::span<const CupOptics> some = std::span(moments).subspan(first, together);
+    const auto seen =
+        points_at(view.reader, pixels.cup, weight, [&](const Ray& sight) { return mean_light(view, some, sight); });
     points.insert(points.end(), seen.begin(), seen.end());
   }
   return points;
