@@ -137,6 +137,30 @@ TEST(Physics, HolesInAFoamMoveHeightsWhereTheyShowWater) {
   EXPECT_EQ(find(evidence, "surface_tilt")->leeway.cols(), 0);
 }
 
+// What one shot of waves shows is its own, in height; how much darker it is goes by the condition.
+TEST(Physics, WavesMoveEachPlacementsRegionsOtherwise) {
+  Measurement measurement = paper_measurement(false);
+  const std::size_t once = measurement.observations.size();
+  for (std::size_t i = 0; i < once; ++i) {  // the same again in another session
+    Observation again = measurement.observations[i];
+    again.factors.session = 1;
+    measurement.observations.push_back(std::move(again));
+  }
+  const Evidence evidence = physics_of(measurement).evidence;
+  const Eigen::MatrixXd& leeway = find(evidence, "ripples")->leeway;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    const Observation& o = evidence.observations[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    const bool is_of_waves = o.observable == "height_mm" && o.factors.liquid == "water";
+    EXPECT_EQ(leeway.row(row).isZero(0.0), !is_of_waves) << o.observable << " of " << o.factors.liquid;
+    if (!is_of_waves) continue;
+    ++seen;
+    EXPECT_EQ((leeway * leeway.row(row).transpose()).cwiseAbs().sum(), leeway.row(row).squaredNorm());
+  }
+  EXPECT_GT(seen, 0u);
+}
+
 TEST(Physics, PredictionsWithoutEffectsAreThePredicted) {
   const Physics physics = physics_of(paper_measurement(true));
   EXPECT_EQ(physics.predict({}), physics.evidence.predicted);
