@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "diagnosis/predict/seen_depth.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/snell.h"
 #include "sim/scene/cup.h"
@@ -169,35 +170,46 @@ std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d
   return LitPoint{target, direction, cup.body.albedo * irradiance * down.transmittance * to_camera / (seen.n * seen.n)};
 }
 
-/// An opaque liquid's light leaves, in the mean, beyond where it entered (sim/optics/far_centroid.h).
+/// An opaque liquid's light seems to be sent back from a depth (seen_depth.h): it enters where the projector's ray to
+/// there does. Its top is taken for level, so that sines are as in air over n.
 std::optional<LitPoint> light_surface(const CupOptics& cup, const Way& seen, const Eigen::Vector3d& projector,
                                       double to_camera) {
   const LiquidLayer& layer = cup.layers.back();
   const Eigen::Vector3d there = seen.end - projector;
-  const double distance = there.norm();
-  const Eigen::Vector3d entry =
-      seen.end - layer.centroid_per_sin / distance * Eigen::Vector3d(there.x(), there.y(), 0.0);
+  const double distance = there.norm();  // nearly the camera's
+  const double length = layer.transport_length * seen_depth(layer.core_rad * distance / layer.transport_length);
+  const Eigen::Vector3d apart = seen.n * seen.direction - there / distance;
+  const Eigen::Vector3d entry = seen.end + length / layer.n * Eigen::Vector3d(apart.x(), apart.y(), 0.0);
   const Eigen::Vector3d direction = (entry - projector).normalized();
   if (!passes_opening(cup.body, projector, direction)) return std::nullopt;
   return LitPoint{seen.end, direction, layer.albedo * -there.z() / (distance * distance * distance) * to_camera};
 }
 
-LiquidLayer layer_of(const Cup& cup, double wavelength_nm) {
+/// Two images of a dot correlate as wide as both together, each with the depth pixel that it is summed over [rad].
+double correlation_core(const SensorModel& sensor) {
+  const double dot_px = sensor.pattern.dot_sigma_ir_px / sensor.ir_scale();
+  constexpr double kPixelVariance = 1.0 / 12.0;  // of an even square
+  return std::sqrt(2.0 * (dot_px * dot_px + kPixelVariance)) / sensor.focal_px;
+}
+
+LiquidLayer layer_of(const Cup& cup, const SensorModel& sensor) {
   const CupShape& shape = std::get<CupShape>(cup.shape);
   const Filling& filling = *cup.filling;
   const Medium& medium = filling.medium;
-  const double level = liquid_level(cup), n = medium.n(wavelength_nm);
+  const double level = liquid_level(cup), n = medium.n(sensor.wavelength_nm);
   LiquidLayer layer{.top = LiquidTop(shape, level, filling.form),
                     .level = filling.form.level(),
                     .at = level,
                     .n = n,
                     .absorption = medium.absorption,
                     .opaque = medium.scatters(),
-                    .centroid_per_sin = 0.0,
+                    .transport_length = 0.0,
+                    .core_rad = 0.0,
                     .albedo = 0.0};
   layer.top.move(cup.position);
   if (medium.scatters()) {
-    layer.centroid_per_sin = 1.0 / (n * (medium.reduced_scattering() + 0.35 * medium.absorption));
+    layer.transport_length = 1.0 / medium.reduced_scattering();
+    layer.core_rad = correlation_core(sensor);
     layer.albedo = diffuse_reflectance(medium, n);
   }
   return layer;
@@ -227,7 +239,7 @@ std::optional<CupOptics> cup_optics(const Setup& setup) {
   }
   CupOptics optics{std::move(body), {}};
   for (const Cup& layered : setup.scene.cups)
-    if (layered.filling) optics.layers.push_back(layer_of(layered, setup.rig.sensor.wavelength_nm));
+    if (layered.filling) optics.layers.push_back(layer_of(layered, setup.rig.sensor));
   return optics;
 }
 

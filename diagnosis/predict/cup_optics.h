@@ -17,7 +17,8 @@ struct LiquidLayer {
   double at;   ///< [m]
   double n, absorption;
   bool opaque;              ///< scatters: nothing below its surface is seen
-  double centroid_per_sin;  ///< [m] of what scatters: how far from its entry light seems to leave, over sin θ
+  double transport_length;  ///< [m] 1/μs′ of what scatters
+  double core_rad;          ///< standard deviation of two dots' correlation
   double albedo;            ///< of what scatters, as a surface
 
   bool operator==(const LiquidLayer&) const = default;
