@@ -25,7 +25,7 @@ Effect subsurface_scattering() {
                           "scattering_per_mm"}},
           .citation = "Wang & Jacques 1995, Applied Optics 34, 2362: oblique-incidence reflectometry",
           .twins = {"fill_offset"},
-          .discriminated_by = "several laterals: the shift follows the distance from below the projector",
+          .discriminated_by = "several distances: the shift goes with the cosine of the line of sight",
           .apply = apply,
           .of_liquids = true};
 }

@@ -87,9 +87,9 @@ const Row kRows[] = {
      "w n cos A / (n² − sin² A)^1.5 with A 26°: 0.18 mm"},
     {R"({"name": "absorption", "absorption_per_mm": 0.005})", kWater, "log_brightness", "interior", 0.715, 0.74,
      "exp(−0.005 · 2 · 30 / 0.945)"},
-    {R"({"name": "subsurface_scattering", "transport_length_mm": 1})", kMilk, "height_mm", "centre", -0.28, -0.24,
-     "entry and exit lie 1 / n · sin θ apart: (37.5 mm / 692 mm) (1 − 300 mm cos p / 688 mm) 623 mm / (75 mm n) = "
-     "0.26"},
+    {R"({"name": "subsurface_scattering", "transport_length_mm": 1})", kMilk, "height_mm", "centre", -0.40, -0.37,
+     "from either side 0.57 of a path aside, along the baseline: 2 · 0.57 (37.5 mm / 692 mm) 623 mm / (75 mm n) = "
+     "0.38"},
     {R"({"name": "subsurface_scattering", "transport_length_mm": 1})", kWater, "height_mm", "centre", 0.0, 0.0,
      "water does not scatter"},
     {R"({"name": "stratification", "index_step": 0.05})", kWater, "height_mm", "centre", 0.40, 0.50,
