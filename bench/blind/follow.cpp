@@ -181,10 +181,10 @@ struct Follower {
     const double cosine = -beam.along.dot(normal), mirrored = fresnel(cosine, liquid.index);
     if (world.ghost_gain > 0.0) mirror_on_wall(surface, beam.along, normal, world.ghost_gain * mirrored);
     if (liquid.reduced_scattering > 0.0) {
-      const Vector3 tangential = beam.along - beam.along.dot(normal) * normal;
-      const double sine = tangential.norm();
-      const Vector3 shift =
-          turbid_shift(sine, liquid.index, liquid.reduced_scattering, kCoreMetres) * tangential / sine;
+      // Its last way, towards the camera, shifts light as its first one does.
+      const Vector3 ways = beam.along + (eyes.camera - surface).normalized();
+      const Vector3 tangential = ways - ways.dot(normal) * normal;
+      const Vector3 shift = turbid_shift(1.0, liquid.index, liquid.reduced_scattering, kCoreMetres) * tangential;
       const double contrast = turbid_contrast(liquid.reduced_scattering, kCoreMetres);
       // What is absorbed on the way: some 3 free paths.
       const double kept = std::exp(-3.0 * liquid.absorption / liquid.reduced_scattering);

@@ -24,23 +24,22 @@ struct Table {
 Table walk() {
   std::array<double, kCores> weight{}, moment{};
   double left = 0.0;
+  const double cosine = std::sqrt(1.0 - kSineInside * kSineInside);
   for (int photon = 0; photon < kPhotons; ++photon) {
     Rng rng(0x7b1d, photon);
-    double x = 0, y = 0, z = 0, dx = kSineInside, dy = 0, dz = std::sqrt(1.0 - kSineInside * kSineInside);
+    double x = 0, y = 0, z = 0, dx = kSineInside, dy = 0, dz = cosine;
     for (int i = 0; i < kMostScatterings; ++i) {
       const double path = -std::log(1.0 - rng.uniform());
-      if (z + path * dz < 0.0) {  // up, through the surface; what it mirrors back is spread far from the core
-        x += dx * (-z / dz);
-        y += dy * (-z / dz);
-        left += 1.0;
-        for (int k = 0; k < kCores; ++k) {
-          const double w = std::exp(-0.5 * (x * x + y * y) / (core_of(k) * core_of(k)));
-          weight[k] += w;
-          moment[k] += w * x;
-        }
-        break;
-      }
+      if (z + path * dz < 0.0) break;  // what the surface mirrors back is spread far from the core
       x += path * dx, y += path * dy, z += path * dz;
+      // Towards the camera, on the side away from where the light came: what is not scattered again on its last way.
+      const double last = z / cosine, light = std::exp(-last), out = x + last * kSineInside;
+      left += light;
+      for (int k = 0; k < kCores; ++k) {
+        const double w = light * std::exp(-0.5 * (out * out + y * y) / (core_of(k) * core_of(k)));
+        weight[k] += w;
+        moment[k] += w * out;
+      }
       dz = 2.0 * rng.uniform() - 1.0;
       const double azimuth = 2.0 * std::numbers::pi * rng.uniform(), r = std::sqrt(1.0 - dz * dz);
       dx = r * std::cos(azimuth), dy = r * std::sin(azimuth);
@@ -48,7 +47,7 @@ Table walk() {
   }
   Table table;
   for (int k = 0; k < kCores; ++k) {
-    table.shift[k] = moment[k] / weight[k] / kSineInside;
+    table.shift[k] = moment[k] / weight[k] / (2.0 * kSineInside);
     table.contrast[k] = weight[k] / left;
   }
   return table;

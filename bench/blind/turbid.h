@@ -3,10 +3,10 @@
 
 namespace fathom::blind {
 
-/// How far behind the point of entry, along the beam's way, the light is that a matcher takes for the dot [m]. The
-/// centroid of all of it is sin θ / (n μs′) (Wang & Jacques 1995); a matcher weighs what is near the dot's core, here
-/// by a Gaussian of `core` [m], and that share of the centroid's shift comes from a Monte Carlo of isotropic
-/// scattering.
+/// How far a dot is displaced by its light's first way in the liquid, along the beam, and by its last one, along the
+/// line to the sensor, each [m] per sine in air. Of all light that returns in one direction that is sin θ / (n μs′) or
+/// a little less (of what returns in any: Wang & Jacques 1995); a matcher weighs what is near the dot's core, here by a
+/// Gaussian of `core` [m], and that share comes from a Monte Carlo of isotropic scattering.
 double turbid_shift(double sine_in_air, double index, double reduced_scattering, double core);
 
 /// Share of the light that leaves within the core: what is left of a dot's contrast.
