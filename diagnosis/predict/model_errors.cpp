@@ -63,18 +63,19 @@ constexpr std::array kModelErrors{
 struct EffectError {
   std::string_view effect;
   ModelError error;
+  bool grows = false;
 };
 /// Foam has holes where nothing is seen. Of a window of 11 mm, 0.7 m away, cells of 6 mm that lack a tenth shift the
 /// middle of its light by half a pixel; across it heights differ by 0.7 mm a pixel. A region holds few such windows.
 /// Waves tilt a region's surface in each shot otherwise. Whole frames of water 20 mm and 40 mm deep in waves of a mean
-/// square slope of 0.005 are off their mean by 0.15 to 0.3 mm and 0.4 to 1.3 mm; a matcher that loses smeared dots
-/// makes the deeper ones a sixth darker than direct light has them.
+/// square slope of 0.005, a typical departure, are off their mean by 0.15 to 0.3 mm and 0.4 to 1.3 mm; a matcher that
+/// loses smeared dots makes the deeper ones a sixth darker than direct light has them.
 constexpr std::array kEffectErrors{
     EffectError{"foam", {"height_mm", 0.3, SharedBy::liquid_region}},     // the same holes at each pour, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::place_region}},      // … seen from elsewhere, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::condition_region}},  // … by other dots
-    EffectError{"ripples", {"height_mm", 0.3, SharedBy::placement_region}},
-    EffectError{"ripples", {"log_brightness", 0.15, SharedBy::condition}}};
+    EffectError{"ripples", {"height_mm", 0.3, SharedBy::placement_region}, true},
+    EffectError{"ripples", {"log_brightness", 0.15, SharedBy::condition}, true}};
 
 std::string shared_key(const Observation& observation, SharedBy shared_by) {
   const Factors& f = observation.factors;
@@ -123,12 +124,14 @@ std::vector<SharedError> model_errors(const std::vector<Observation>& observatio
   return errors;
 }
 
-Eigen::MatrixXd effect_errors(std::string_view id, const std::vector<Observation>& observations,
-                              const std::vector<bool>& sees_through) {
+OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& observations,
+                        const std::vector<bool>& sees_through) {
   const auto n = static_cast<Eigen::Index>(observations.size());
-  Eigen::MatrixXd errors(n, 0);
+  OwnErrors own{Eigen::MatrixXd(n, 0)};
+  Eigen::MatrixXd& errors = own.columns;
   for (const EffectError& of_effect : kEffectErrors) {
     if (of_effect.effect != id) continue;
+    own.grow = of_effect.grows;
     const Groups groups = groups_of(of_effect.error, observations);
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, groups.count);
     for (Eigen::Index row = 0; row < n; ++row)
@@ -140,7 +143,7 @@ Eigen::MatrixXd effect_errors(std::string_view id, const std::vector<Observation
     errors.conservativeResize(n, errors.cols() + count);
     errors.rightCols(count) = columns(Eigen::all, seen);
   }
-  return errors;
+  return own;
 }
 
 Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations) {

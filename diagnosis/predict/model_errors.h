@@ -10,10 +10,9 @@ namespace fathom {
 /// By what is shared: region, liquid, place, condition.
 std::vector<SharedError> model_errors(const std::vector<Observation>& observations);
 
-/// Of an effect: what comes with it and no model foretells (observations × errors, 1 σ each), where light passes a
-/// liquid of the nominal model.
-Eigen::MatrixXd effect_errors(std::string_view id, const std::vector<Observation>& observations,
-                              const std::vector<bool>& sees_through);
+/// Of an effect: what comes with it and no model foretells, where light passes a liquid of the nominal model.
+OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& observations,
+                        const std::vector<bool>& sees_through);
 
 /// 1 σ of every prediction: what some hundred rays and the law's mean are off against a whole frame whose noise dithers
 /// the law.

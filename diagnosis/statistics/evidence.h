@@ -49,13 +49,19 @@ struct Parameter {
   double step = 0.0;  ///< the model knows only whole multiples of it; 0: all values
 };
 
+/// What comes with an effect and nobody can predict (leeway.h).
+struct OwnErrors {
+  Eigen::MatrixXd columns{};  ///< observations × errors, 1 σ each
+  bool grow = false;          ///< variances go with the first parameter, and are these at a typical departure
+};
+
 /// An effect that the model leaves out.
 struct Candidate {
   std::string effect;  ///< as in effect_name.h: "id" or "id@liquid"
   std::vector<Parameter> parameters;
   Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
   double plausibility = 1.0;  ///< before anything is measured, beside that of other candidates
-  Eigen::MatrixXd leeway{};   ///< observations × errors, 1 σ each: what comes with it, none knows how (leeway.h)
+  OwnErrors leeway{};
 };
 
 /// A mistake in the laboratory's notes that its measurements show, and that was put right before anything else.

@@ -11,7 +11,8 @@ Evidence evidence_of_rows(const Evidence& evidence, const std::vector<Eigen::Ind
   for (Nuisance& nuisance : part.nuisances) nuisance.signature = nuisance.signature(rows).eval();
   for (Candidate& candidate : part.candidates) {
     candidate.signature = candidate.signature(rows, Eigen::all).eval();
-    if (candidate.leeway.cols() > 0) candidate.leeway = candidate.leeway(rows, Eigen::all).eval();
+    Eigen::MatrixXd& errors = candidate.leeway.columns;
+    if (errors.cols() > 0) errors = errors(rows, Eigen::all).eval();
   }
   for (std::size_t i = 0; i < evidence.shared_errors.size(); ++i) {
     std::vector<int>& group_of = part.shared_errors[i].group_of;

@@ -1,6 +1,7 @@
 #include "diagnosis/statistics/leeway.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 namespace fathom {
 
@@ -16,9 +17,17 @@ Eigen::VectorXd Leeway::share_in(const Eigen::VectorXd& residual) const {
   return along * (share.asDiagonal() * (along.transpose() * residual));
 }
 
-Leeway leeway_of(const Eigen::MatrixXd& errors) {
+Leeway Leeway::at(double amount) const {
+  Leeway there = *this;
+  if (!grows) return there;
+  there.variance *= std::abs(amount);
+  there.log_det = there.variance.array().log1p().sum();
+  return there;
+}
+
+Leeway leeway_of(const Eigen::MatrixXd& errors, bool grows) {
   constexpr double kNothing = 1e-9;  // of a residual's variance
-  Leeway leeway{Eigen::MatrixXd(errors.rows(), 0), {}};
+  Leeway leeway{Eigen::MatrixXd(errors.rows(), 0), {}, grows};
   if (errors.cols() == 0) return leeway;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(errors.transpose() * errors);
   const Eigen::Index count = (eigen.eigenvalues().array() > kNothing).count();  // they ascend

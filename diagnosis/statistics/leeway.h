@@ -10,7 +10,11 @@ namespace fathom {
 struct Leeway {
   Eigen::MatrixXd along;     ///< n × k, orthonormal; no columns: none
   Eigen::VectorXd variance;  ///< along each
+  bool grows = false;        ///< with the amount of what brings it; as it is at a typical departure
   double log_det = 0.0;      ///< log of the covariance's determinant
+
+  /// Where there is `amount` of what brings it, in typical departures, and some at all.
+  Leeway at(double amount) const;
 
   /// Whitened columns once more, so that what the leeway allows for counts less.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const;
@@ -20,6 +24,6 @@ struct Leeway {
 };
 
 /// Of independent errors, whitened columns of 1 σ each.
-Leeway leeway_of(const Eigen::MatrixXd& errors);
+Leeway leeway_of(const Eigen::MatrixXd& errors, bool grows = false);
 
 }  // namespace fathom

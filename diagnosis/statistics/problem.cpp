@@ -46,8 +46,10 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
     }
   }
   for (const Candidate& candidate : evidence.candidates)
-    problem.leeways.push_back(leeway_of(candidate.leeway.cols() > 0 ? covariance.whiten(candidate.leeway)
-                                                                    : Eigen::MatrixXd(candidate.signature.rows(), 0)));
+    problem.leeways.push_back(leeway_of(candidate.leeway.columns.cols() > 0
+                                            ? covariance.whiten(candidate.leeway.columns)
+                                            : Eigen::MatrixXd(candidate.signature.rows(), 0),
+                                        candidate.leeway.grow));
   problem.residual = covariance.whiten(measured_minus_predicted(evidence));
   problem.signatures = covariance.whiten(signatures);
   return problem;
@@ -65,17 +67,17 @@ int widest_leeway(const Problem& problem, const std::vector<int>& effects) {
                            [&](int a, int b) { return problem.leeways[a].log_det < problem.leeways[b].log_det; });
 }
 
-const Leeway& leeway_beside(const Problem& problem, const std::vector<int>& effects,
-                            const Eigen::VectorXd& parameters) {
-  static const Leeway kNone;
-  std::vector<int> there;
+Leeway leeway_beside(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters) {
+  Leeway widest;
   Eigen::Index first = 0;
   for (const int effect : effects) {
     const auto count = static_cast<Eigen::Index>(problem.columns[effect].size());
-    if (!parameters.segment(first, count).isZero(0.0)) there.push_back(effect);
+    if (!parameters.segment(first, count).isZero(0.0))
+      if (Leeway own = problem.leeways[effect].at(parameters[first]); own.log_det > widest.log_det)
+        widest = std::move(own);
     first += count;
   }
-  return there.empty() ? kNone : problem.leeways[widest_leeway(problem, there)];
+  return widest;
 }
 
 Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions) {

@@ -31,7 +31,7 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
 int widest_leeway(const Problem& problem, const std::vector<int>& effects);
 
 /// The same of those of which there is any: what is not there brings nothing with it.
-const Leeway& leeway_beside(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters);
+Leeway leeway_beside(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters);
 
 /// A set of effects that may be what the model lacks.
 struct Hypothesis {

@@ -106,22 +106,20 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   Model model(evidence, predict, covariance, start.effects);
   const std::vector<Eigen::Index> columns = columns_of(problem, start.effects);
   const Eigen::VectorXd lower = problem.lower(columns), upper = problem.upper(columns);
-  const Leeway& leeway = leeway_beside(problem, start.effects, start.parameters);
-  const auto left = [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
-    return leeway.whiten(problem.residual - change);
-  };
   const auto objective = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& change) {
-    return left(change).squaredNorm() + prior_penalty(x);
+    const Leeway leeway = leeway_beside(problem, start.effects, x);
+    return leeway.whiten(problem.residual - change).squaredNorm() + leeway.log_det + prior_penalty(x);
   };
   Eigen::MatrixXd jacobian = problem.signatures(Eigen::all, columns);
   Eigen::VectorXd x = start.parameters, change = model.change(x);
   double value = objective(x, change), damping = 0.0;
   bool is_differenced = false;
   for (int step = 0; step < kSteps; ++step) {
+    const Leeway leeway = leeway_beside(problem, start.effects, x);
     const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
     Eigen::MatrixXd G = slopes.transpose() * slopes;
     const Eigen::VectorXd prior = prior_precisions(x);
-    const Eigen::VectorXd b = slopes.transpose() * left(change) - prior.cwiseProduct(x);
+    const Eigen::VectorXd b = slopes.transpose() * leeway.whiten(problem.residual - change) - prior.cwiseProduct(x);
     G.diagonal() = G.diagonal() * (1.0 + damping) + prior;
     const Eigen::VectorXd move = without_switching_off(x, box_least_squares(G, b, lower - x, upper - x));
     if (move.isZero(1e-9)) break;
@@ -144,7 +142,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
       damping = std::max(4.0 * damping, 1e-2);
     }
   }
-  const Leeway& there = leeway_beside(problem, start.effects, x);
+  const Leeway there = leeway_beside(problem, start.effects, x);
   const Eigen::MatrixXd slopes = there.whiten(jacobian);
   const Eigen::VectorXd rest = problem.residual - change;
   const double gain = problem.residual.squaredNorm() - there.whiten(rest).squaredNorm() - there.log_det;

@@ -125,7 +125,8 @@ TEST(Physics, ErrorsOfTheModelAreSharedByRegionsPlacesAndConditions) {
 
 TEST(Physics, HolesInAFoamMoveHeightsWhereTheyShowWater) {
   const Evidence evidence = physics_of(paper_measurement(false)).evidence;
-  const Eigen::MatrixXd &in_all = find(evidence, "foam")->leeway, &in_water = find(evidence, "foam@water")->leeway;
+  const Eigen::MatrixXd &in_all = find(evidence, "foam")->leeway.columns,
+                        &in_water = find(evidence, "foam@water")->leeway.columns;
   for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
     const Observation& o = evidence.observations[i];
     const bool is_of_holes = o.observable == "height_mm" && o.factors.liquid == "water";
@@ -133,8 +134,8 @@ TEST(Physics, HolesInAFoamMoveHeightsWhereTheyShowWater) {
     EXPECT_EQ(in_all.row(row).isZero(0.0), !is_of_holes) << o.observable << " of " << o.factors.liquid;
     EXPECT_EQ(in_all.row(row), in_water.row(row));
   }
-  EXPECT_TRUE(find(evidence, "foam@milk")->leeway.isZero(0.0));
-  EXPECT_EQ(find(evidence, "surface_tilt")->leeway.cols(), 0);
+  EXPECT_TRUE(find(evidence, "foam@milk")->leeway.columns.isZero(0.0));
+  EXPECT_EQ(find(evidence, "surface_tilt")->leeway.columns.cols(), 0);
 }
 
 // What one shot of waves shows is its own, in height; how much darker it is goes by the condition.
@@ -147,7 +148,7 @@ TEST(Physics, WavesMoveEachPlacementsRegionsOtherwise) {
     measurement.observations.push_back(std::move(again));
   }
   const Evidence evidence = physics_of(measurement).evidence;
-  const Eigen::MatrixXd& leeway = find(evidence, "ripples")->leeway;
+  const Eigen::MatrixXd& leeway = find(evidence, "ripples")->leeway.columns;
   std::size_t seen = 0;
   for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
     const Observation& o = evidence.observations[i];

@@ -75,7 +75,7 @@ TEST(Leeway, KeepsATiltFromBeingCalledInForAFoamsHoles) {
   Evidence evidence = world.measure(truth, {}, 11);
   EXPECT_EQ(named(world, evidence), (std::vector<std::string>{"surface_tilt", "foam"}));
   // Holes that move each region by half a millimetre, four of its errors, may look like that as well.
-  evidence.candidates[world.candidate("foam")].leeway = holes(world, 0.5);
+  evidence.candidates[world.candidate("foam")].leeway.columns = holes(world, 0.5);
   EXPECT_EQ(named(world, evidence), std::vector<std::string>{"foam"});
 }
 
@@ -85,7 +85,7 @@ TEST(Leeway, HidesNothingThatShowsElsewhere) {
   const Eigen::VectorXd pattern = errors * normals(errors.cols(), 1, 5);
   Evidence evidence = world.measure(
       {world.at_strength("sensor_height", 15.0, 1.0), world.at_strength("foam", 60.0, 1.0)}, {}, 11, pattern);
-  evidence.candidates[world.candidate("foam")].leeway = errors;
+  evidence.candidates[world.candidate("foam")].leeway.columns = errors;
   EXPECT_EQ(named(world, evidence), (std::vector<std::string>{"sensor_height", "foam"}));
 }
 
