@@ -217,7 +217,10 @@ void leave_out_misplaced(const Table& table, std::vector<FrameReading>& readings
               "must be in metres in the camera's frame: x right, y down, z forward", measurement);
   note_clouds(bare, clouds, table, "distance_mm", "show the bare desk where distance_mm and lateral_mm say the cup is",
               "must be the places of the cup's axis in mm", measurement);
-  for (const std::size_t row : bare) readings[row].values.clear();
+  for (const std::size_t row : bare) {
+    readings[row].values.clear();
+    readings[row].bands.reset();
+  }
 }
 
 }  // namespace

@@ -106,6 +106,9 @@ std::string shared_key(const Observation& observation, SharedBy shared_by) {
   return {};
 }
 
+/// Told from how trials scatter, not from rays.
+bool is_motion(std::string_view observable) { return observable == "desk_wander_mm" || observable == "desk_waves_px"; }
+
 Groups groups_of(const ModelError& error, const std::vector<Observation>& observations) {
   return group_by(observations, [&](const Observation& o) {
     return o.observable == error.observable ? shared_key(o, error.shared_by) : std::string();
@@ -151,10 +154,10 @@ Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations) {
   Eigen::VectorXd errors(static_cast<Eigen::Index>(observations.size()));
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const std::string& name = observations[i].observable;
-    errors[static_cast<Eigen::Index>(i)] = name == "desk_wander_mm" || name == "desk_waves_px" ? 0.0
-                                           : name.ends_with("_mm")                             ? kLength_mm
-                                           : name.ends_with("_deg")                            ? kAngle_deg
-                                                                                               : kShare;
+    errors[static_cast<Eigen::Index>(i)] = is_motion(name)          ? 0.0
+                                           : name.ends_with("_mm")  ? kLength_mm
+                                           : name.ends_with("_deg") ? kAngle_deg
+                                                                    : kShare;
   }
   return errors;
 }
