@@ -95,6 +95,17 @@ bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
   });
 }
 
+/// Squared z of the stratum in which most is left.
+double most_left(const Case& c, const Rest& rest) {
+  const Eigen::MatrixXd& columns = c.shapes.stratum_columns;
+  double most = 0.0;
+  for (const GapLocation& location :
+       locate(c.shapes.strata, columns - rest.explained * (rest.explained.transpose() * columns), c.shapes.stratum_dof,
+              rest.residual, c.gap.scan_tail, c.settings.p_gap))
+    most = std::max(most, std::pow(location.mean / location.sigma, 2));
+  return most;
+}
+
 }  // namespace
 
 std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
@@ -143,6 +154,40 @@ std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fit
     return choice;
   }
   return std::nullopt;
+}
+
+std::vector<int> parts_of_rest(const Case& c, const Choice& choice, const Rest& rest) {
+  constexpr double kShare = 1.0 / 3.0;  // of its square: hardly ever more, if it is any of some ten directions
+  const Hypothesis& h = choice.fit.hypothesis;
+  const double left = most_left(c, rest);
+  std::vector<int> parts;
+  Eigen::Index first = 0;
+  for (const int effect : h.effects) {
+    const auto count = static_cast<Eigen::Index>(c.problem.columns[effect].size());
+    Eigen::MatrixXd others = choice.fit.jacobian;
+    others.middleCols(first, count).setZero();
+    const Eigen::MatrixXd span = orthonormal(others);
+    const Eigen::VectorXd change = choice.fit.jacobian.middleCols(first, count) * h.parameters.segment(first, count);
+    const double own = (change - span * (span.transpose() * change)).squaredNorm();
+    if (own < kShare * (own + left)) parts.push_back(effect);
+    first += count;
+  }
+  return parts;
+}
+
+std::optional<Choice> without(const Case& c, const Choice& choice, const std::vector<int>& left_out) {
+  std::vector<std::size_t> positions;
+  Choice rest;
+  for (std::size_t e = 0; e < choice.effects.size(); ++e)
+    if (std::find(left_out.begin(), left_out.end(), choice.fit.hypothesis.effects[e]) == left_out.end()) {
+      positions.push_back(e);
+      rest.effects.push_back(choice.effects[e]);
+    }
+  if (positions.empty()) return std::nullopt;
+  const Refit fit =
+      refit(c.evidence, c.predict, c.covariance, c.problem, part_of(c.problem, choice.fit.hypothesis, positions));
+  rest.fit = with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
+  return rest;
 }
 
 }  // namespace fathom

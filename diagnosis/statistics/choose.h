@@ -26,4 +26,11 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits);
 std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fits, const std::vector<Option>& options,
                                     bool is_open);
 
+/// The effects of a choice that may be a part of something unknown: what each changes, and no other can, is no more
+/// than what something of the size that is left in a stratum has along a signature by chance.
+std::vector<int> parts_of_rest(const Case& c, const Choice& choice, const Rest& rest);
+
+/// A choice refitted without some of its effects; nothing when none is left.
+std::optional<Choice> without(const Case& c, const Choice& choice, const std::vector<int>& left_out);
+
 }  // namespace fathom

@@ -44,35 +44,6 @@ double log_bayes_factor(double p) {
   return log_p < -1.0 ? 1.0 + log_p + std::log(-log_p) : 0.0;
 }
 
-/// Sum of squared z of the strata in which something is left.
-double located_squares(const Case& c, const Rest& rest) {
-  const Eigen::MatrixXd& columns = c.shapes.stratum_columns;
-  double sum = 0.0;
-  for (const GapLocation& location :
-       locate(c.shapes.strata, columns - rest.explained * (rest.explained.transpose() * columns), c.shapes.stratum_dof,
-              rest.residual, c.gap.scan_tail, c.settings.p_gap))
-    sum += std::pow(location.mean / location.sigma, 2);
-  return sum;
-}
-
-/// Whether every effect changes more, in what no other can, than is left beside them: what changes less may be a part
-/// of that.
-bool stands_out(const Case& c, const Choice& choice, const Rest& rest) {
-  const Hypothesis& h = choice.fit.hypothesis;
-  const double left = located_squares(c, rest);
-  Eigen::Index first = 0;
-  for (const int effect : h.effects) {
-    const auto count = static_cast<Eigen::Index>(c.problem.columns[effect].size());
-    Eigen::MatrixXd others = choice.fit.jacobian;
-    others.middleCols(first, count).setZero();
-    const Eigen::VectorXd change = choice.fit.jacobian.middleCols(first, count) * h.parameters.segment(first, count);
-    const Eigen::MatrixXd span = orthonormal(others);
-    if ((change - span * (span.transpose() * change)).squaredNorm() < left) return false;
-    first += count;
-  }
-  return true;
-}
-
 /// Of what passed all tests.
 Verdict verdict_of_named(const Case& c, const Choice& choice, bool is_rest, const std::vector<Option>& options,
                          const AmbiguitySet& set) {
@@ -125,16 +96,22 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
       choice = std::move(common);
       rest = rest_of(c, choice->fit);
     }
-  const Refit& fit = choice ? choice->fit : nothing;
   // What no test confirms may yet explain the gap: unknown is what the likeliest effects leave, too.
   const double p_rest = std::max(rest.p, p_rest_of_likeliest);
   const bool is_rest = p_rest < settings.p_gap;
+  if (choice && is_rest) {
+    const std::vector<int> parts = parts_of_rest(c, *choice, rest);
+    std::erase_if(options, [&](const Option& o) { return o.has_unknown && holds_any(o.effects, parts); });
+    if (!parts.empty()) {
+      choice = without(c, *choice, parts);
+      rest = rest_of(c, choice ? choice->fit : nothing);
+    }
+  }
+  const Refit& fit = choice ? choice->fit : nothing;
 
   // Nothing at all is rejected, and so is what moves nothing.
   if (choice) std::erase_if(options, [](const Option& o) { return o.prediction.isZero(0.0) && !o.has_unknown; });
   if (rest.p >= settings.p_gap) std::erase_if(options, [](const Option& o) { return o.has_unknown; });
-  const bool is_part_of_rest = choice && is_rest && !stands_out(c, *choice, rest);
-  if (is_part_of_rest) std::erase_if(options, [](const Option& o) { return o.has_unknown && !o.effects.empty(); });
   if (is_rest)
     for (Option& o : options)
       if (!o.has_unknown) o.log_posterior += log_bayes_factor(p_rest);

@@ -18,18 +18,15 @@ constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also conside
 const double kLogPriorUnknown = std::log(0.1);
 
 /// Effects with leeway of which a refit left nothing: by their signatures alone they pass for what their leeway is.
-std::set<int> vanished(const Problem& problem, const std::vector<Refit>& fits) {
-  std::set<int> result;
+std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits) {
+  std::vector<int> result;
   for (const Refit& fit : fits)
     for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e)
-      if (const int effect = fit.hypothesis.effects[e];
-          problem.leeways[effect].log_det > 0.0 && part_of(problem, fit.hypothesis, {e}).parameters.isZero(0.0))
-        result.insert(effect);
+      if (const int effect = fit.hypothesis.effects[e]; problem.leeways[effect].log_det > 0.0 &&
+                                                        part_of(problem, fit.hypothesis, {e}).parameters.isZero(0.0) &&
+                                                        !holds_any({effect}, result))
+        result.push_back(effect);
   return result;
-}
-
-bool holds_any(const std::vector<int>& effects, const std::set<int>& of) {
-  return std::any_of(effects.begin(), effects.end(), [&](int effect) { return of.contains(effect); });
 }
 
 /// A fit beside an effect of which there is next to nothing.
@@ -58,7 +55,7 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
   const double least = options.front().log_posterior - c.settings.delta;
   std::set<std::vector<int>> known;
   for (const Refit& fit : fits) known.insert(fit.hypothesis.effects);
-  const std::set<int> gone = vanished(c.problem, fits);
+  const std::vector<int> gone = vanished(c.problem, fits);
   for (const Hypothesis& h : hypotheses)
     if (h.log_evidence > least && !holds_any(h.effects, gone) && known.insert(h.effects).second)
       options.push_back({h.effects, h.parameters, false, h.log_evidence,
@@ -116,7 +113,7 @@ std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& 
   nothing.jacobian.resize(n, 0);
   result.push_back(std::move(nothing));
   for (const Hypothesis& hypothesis : hypotheses) {
-    const std::set<int> gone = vanished(c.problem, result);
+    const std::vector<int> gone = vanished(c.problem, result);
     if (holds_any(hypothesis.effects, gone)) continue;
     const auto best = std::find_if(hypotheses.begin(), hypotheses.end(),
                                    [&](const Hypothesis& h) { return !holds_any(h.effects, gone); });

@@ -62,6 +62,10 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
   return result;
 }
 
+bool holds_any(const std::vector<int>& effects, const std::vector<int>& others) {
+  return std::find_first_of(effects.begin(), effects.end(), others.begin(), others.end()) != effects.end();
+}
+
 int widest_leeway(const Problem& problem, const std::vector<int>& effects) {
   return *std::max_element(effects.begin(), effects.end(),
                            [&](int a, int b) { return problem.leeways[a].log_det < problem.leeways[b].log_det; });

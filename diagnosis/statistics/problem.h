@@ -27,6 +27,9 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
 /// The columns of several candidates, in their order.
 std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<int>& effects);
 
+/// Whether any of some effects is one of others.
+bool holds_any(const std::vector<int>& effects, const std::vector<int>& others);
+
 /// Which of several candidates, at least one, has the widest leeway: that stands for all of theirs.
 int widest_leeway(const Problem& problem, const std::vector<int>& effects);
 
