@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "core/rng.h"
 #include "diagnosis/statistics/decide.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/problem.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {
@@ -50,6 +52,14 @@ TEST(Leeway, IsNothingWithoutErrors) {
   EXPECT_EQ(none.log_det, 0.0);
 }
 
+TEST(Leeway, GrowsWithWhatBringsItWhereItIsSaidTo) {
+  const Eigen::MatrixXd errors = normals(12, 4, 5);
+  const Leeway quarter = leeway_of(errors, true).at(0.25), half_the_errors = leeway_of(0.5 * errors);
+  EXPECT_LT((quarter.whiten(errors) - half_the_errors.whiten(errors)).norm(), kRounding);
+  EXPECT_NEAR(quarter.log_det, half_the_errors.log_det, kRounding);
+  EXPECT_EQ(leeway_of(errors).at(0.25).log_det, leeway_of(errors).log_det);
+}
+
 /// Of each region of a liquid's surface at each place, 1 σ.
 Eigen::MatrixXd holes(const World& world, double sigma_mm) {
   const std::vector<Observation>& observations = world.nominal().observations;
@@ -66,6 +76,22 @@ std::vector<std::string> named(const World& world, const Evidence& evidence) {
   std::vector<std::string> names;
   for (const NamedEffect& effect : decide(evidence, world.predict()).effects) names.push_back(effect.name);
   return names;
+}
+
+TEST(Leeway, IsBroughtByWhatIsThereAlone) {
+  const World world(small_design());
+  Evidence evidence = world.measure({}, {}, 11);
+  const int foam = world.candidate("foam"), tilt = world.candidate("surface_tilt");
+  evidence.candidates[foam].leeway.columns = holes(world, 0.5);
+  const Covariance covariance = estimate_covariance(evidence, measured_minus_predicted(evidence));
+  const Problem problem = whitened_problem(evidence, covariance);
+  std::vector<int> both{tilt, foam};
+  std::sort(both.begin(), both.end());
+  Eigen::VectorXd amounts = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(columns_of(problem, both).size()));
+  EXPECT_GT(leeway_beside(problem, both, amounts).log_det, 0.0);
+  const auto before = static_cast<Eigen::Index>(both[0] == foam ? 0 : problem.columns[tilt].size());
+  amounts.segment(before, static_cast<Eigen::Index>(problem.columns[foam].size())).setZero();
+  EXPECT_EQ(leeway_beside(problem, both, amounts).log_det, 0.0);
 }
 
 TEST(Leeway, KeepsATiltFromBeingCalledInForAFoamsHoles) {
