@@ -3,7 +3,10 @@
 namespace fathom {
 
 LinearFit linear_fit(const Covariance& covariance, const Problem& problem, const Refit& fit) {
-  const auto unwhitened = [&](const Eigen::MatrixXd& x) { return Eigen::MatrixXd(covariance.factor.matrixL() * x); };
+  const auto unwhitened = [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd {
+    if (x.cols() == 0) return x;  // Eigen's product would look at its first number
+    return covariance.factor.matrixL() * x;
+  };
   LinearFit linear;
   linear.jacobian = unwhitened(fit.jacobian);
   linear.residual = unwhitened(problem.residual - fit.prediction + fit.jacobian * fit.hypothesis.parameters);
