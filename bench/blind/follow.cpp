@@ -184,7 +184,7 @@ struct Follower {
       // Its last way, towards the camera, shifts light as its first one does.
       const Vector3 ways = beam.along + (eyes.camera - surface).normalized();
       const Vector3 tangential = ways - ways.dot(normal) * normal;
-      const Vector3 shift = turbid_shift(1.0, liquid.index, liquid.reduced_scattering, kCoreMetres) * tangential;
+      const Vector3 shift = turbid_shift(liquid.index, liquid.reduced_scattering, kCoreMetres) * tangential;
       const double contrast = turbid_contrast(liquid.reduced_scattering, kCoreMetres);
       // What is absorbed on the way: some 3 free paths.
       const double kept = std::exp(-3.0 * liquid.absorption / liquid.reduced_scattering);

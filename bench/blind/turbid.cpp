@@ -66,8 +66,8 @@ double interpolated(const std::array<double, kCores>& values, double core_in_pat
 
 }  // namespace
 
-double turbid_shift(double sine_in_air, double index, double reduced_scattering, double core) {
-  return sine_in_air / (index * reduced_scattering) * interpolated(walked().shift, core * reduced_scattering);
+double turbid_shift(double index, double reduced_scattering, double core) {
+  return 1.0 / (index * reduced_scattering) * interpolated(walked().shift, core * reduced_scattering);
 }
 
 double turbid_contrast(double reduced_scattering, double core) {

@@ -1,7 +1,6 @@
 #include "diagnosis/measurement/desk_bands.h"
 
 #include <cmath>
-#include <vector>
 
 namespace fathom {
 namespace {

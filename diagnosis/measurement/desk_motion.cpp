@@ -18,7 +18,7 @@ constexpr double kUnexplained = 0.25;  // of the variance that local noise makes
 /// Variance of the height of a plane that is fitted to nine thirds of the image, over the mean variance that is left in
 /// them, when their errors are independent and equal.
 double height_over_residual(const LaboratoryRig& rig) {
-  constexpr double kThird_px = 640.0 / 3.0, kThirdRow_px = 160.0;
+  constexpr double kThird_px = kImageWidth_px / 3.0, kThirdRow_px = kImageHeight_px / 3.0;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   for (int row = -1; row <= 1; ++row)
     for (int column = -1; column <= 1; ++column) {
@@ -37,9 +37,9 @@ double height_over_residual(const LaboratoryRig& rig) {
 /// The same [mm²] over the variance [px²] of bands of rows with independent errors: 1/z = q · (x/z, y/z, 1), of whose
 /// last two terms bands tell, and the height is 1/|q|.
 double height_over_rows(const LaboratoryRig& rig) {
-  constexpr double kRows = std::tuple_size_v<decltype(DeskBands::rows)>, kHeight_px = 480.0;
+  constexpr double kRows = std::tuple_size_v<decltype(DeskBands::rows)>;
   const Plane desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
-  const double mean_square = kHeight_px * kHeight_px / 12.0 / (rig.focal_px * rig.focal_px);
+  const double mean_square = kImageHeight_px * kImageHeight_px / 12.0 / (rig.focal_px * rig.focal_px);
   const double of_q = (desk.normal.y() * desk.normal.y() / mean_square + desk.normal.z() * desk.normal.z()) / kRows;
   const double height_mm = mm_from_metres(desk.offset * desk.offset / (rig.focal_px * rig.baseline_m));
   return height_mm * height_mm * of_q;

@@ -175,8 +175,7 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
       same->values.push_back(named.value);
     }
   }
-  const std::optional<BandScatter> scatter = scatter_of(bands);
-  if (scatter) {
+  if (const std::optional<BandScatter> scatter = scatter_of(bands)) {
     all.push_back({"desk_rows_px", "desk", {scatter->rows_px}});
     all.push_back({"desk_columns_px", "desk", {scatter->columns_px}});
   }

@@ -27,10 +27,7 @@ struct Scenery {
 std::optional<double> value_of(const Scenery& scenery, const Json& effect, std::string_view observable,
                                std::string_view region) {
   const LaboratoryRig rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = scenery.liquid;
-  factors.fill_mm = scenery.fill_mm;
-  factors.distance_mm = scenery.distance_mm;
+  Factors factors = paper_shot(scenery.liquid, scenery.fill_mm, scenery.distance_mm);
   factors.time_s = scenery.time_s;
   factors.stood_s = scenery.stood_s;
   Json effects = Json::parse(scenery.effects);

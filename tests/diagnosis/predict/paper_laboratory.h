@@ -17,6 +17,16 @@ inline LaboratoryRig paper_laboratory() {
   return rig;
 }
 
+/// Of a cup there with a liquid of the laboratory, or "empty".
+inline Factors paper_shot(std::string liquid, double fill_mm, double distance_mm, double lateral_mm = 0.0) {
+  Factors factors;
+  factors.liquid = std::move(liquid);
+  factors.fill_mm = fill_mm;
+  factors.distance_mm = distance_mm;
+  factors.lateral_mm = lateral_mm;
+  return factors;
+}
+
 /// One shot in it; depths are not quantised, because without noise steps are no steps in the mean.
 inline Setup paper_setup(const Factors& factors, Json effects) {
   NominalModel model = nominal_model(paper_laboratory(), "rig.json");

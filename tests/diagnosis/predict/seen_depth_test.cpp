@@ -29,10 +29,7 @@ TEST(SeenDepth, RisesTowardsAPathWithTheDots) {
 
 // Light takes the same ways back: where camera and projector change places, it enters where it left.
 TEST(SeenDepth, IsTheSameFromEitherSide) {
-  Factors factors;
-  factors.liquid = "milk";
-  factors.fill_mm = 30.0;
-  factors.distance_mm = 300.0;
+  const Factors factors = paper_shot("milk", 30.0, 300.0);
   const fathom::Setup setup =
       paper_setup(factors, Json::parse(R"([{"name": "subsurface_scattering", "transport_length_mm": 2}])"));
   const CupOptics optics = cup_optics(setup).value();
@@ -63,10 +60,7 @@ Height height_of_milk(double transport_length_mm) {
   rig.liquids["milk"] = {{"index", 1.336}, {"scattering_per_mm", 1000.0}, {"absorption_per_mm", 0.0032}};
   NominalModel model = nominal_model(rig, "rig.json");
   model.rig.sensor.quantized = false;
-  Factors factors;
-  factors.liquid = "milk";
-  factors.fill_mm = 30.0;
-  factors.distance_mm = 300.0;
+  const Factors factors = paper_shot("milk", 30.0, 300.0);
   Setup setup = setup_of(model, factors);
   CupShape& shape = std::get<CupShape>(setup.scene.cups[0].shape);
   constexpr double kWider = 2.5;  // a cup holds too few windows

@@ -31,11 +31,7 @@ class SurrogateAgainstFrames : public testing::TestWithParam<Case> {};
 TEST_P(SurrogateAgainstFrames, SaysWhatTheFrameSays) {
   const Case& c = GetParam();
   const LaboratoryRig rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = c.liquid;
-  factors.fill_mm = c.fill_mm;
-  factors.distance_mm = c.distance_mm;
-  factors.lateral_mm = c.lateral_mm;
+  const Factors factors = paper_shot(c.liquid, c.fill_mm, c.distance_mm, c.lateral_mm);
   const fathom::Setup setup = paper_setup(factors, c.effects);
   const Eigen::Vector2d place(metres_from_mm(c.lateral_mm), metres_from_mm(c.distance_mm));
   Camera camera(setup, CaptureMode::geometric, 1, 1);
@@ -86,10 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
 // points of single rays would lie 0.05 mm higher. Each shot is off by some tenths of a millimetre.
 TEST(Surrogate, SaysOfWavesWhatFramesSayInTheMean) {
   const LaboratoryRig rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = "water";
-  factors.fill_mm = 20.0;
-  factors.distance_mm = 300.0;
+  const Factors factors = paper_shot("water", 20.0, 300.0);
   const Eigen::Vector2d place(0.0, 0.3);
   const SampledPixels pixels = sample_pixels(rig, place);
   const fathom::Setup still = paper_setup(factors, Json::parse(R"([{"name": "window_averaging", "window_px": 9}])"));
@@ -122,10 +115,7 @@ TEST(Surrogate, SaysOfWavesWhatFramesSayInTheMean) {
 // Of their slope's second order, whatever its size: rays that steep waves throw aside neither stick nor turn the sign.
 TEST(Surrogate, DeepensWhatWavesShowByTheirMeanSquareSlope) {
   const LaboratoryRig rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = "water";
-  factors.fill_mm = 30.0;
-  factors.distance_mm = 200.0;
+  const Factors factors = paper_shot("water", 30.0, 200.0);
   const Eigen::Vector2d place(0.0, 0.2);
   const SampledPixels pixels = sample_pixels(rig, place);
   const auto height_mm = [&](double mean_square_slope) {
@@ -143,9 +133,7 @@ TEST(Surrogate, DeepensWhatWavesShowByTheirMeanSquareSlope) {
 /// What the walls say of a cup with an effect, less what they say without one [mm].
 Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral_mm) {
   const LaboratoryRig rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = "empty";
-  factors.distance_mm = distance_mm, factors.lateral_mm = lateral_mm;
+  const Factors factors = paper_shot("empty", 0.0, distance_mm, lateral_mm);
   const Eigen::Vector2d place(metres_from_mm(lateral_mm), metres_from_mm(distance_mm));
   const auto seen = [&](const Json& those) -> Eigen::Vector3d {
     const FrameEstimates frame =

@@ -16,10 +16,7 @@ namespace {
 Physics one_condition(const char* liquid, double fill_mm) {
   Measurement measurement;
   measurement.rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = liquid;
-  factors.fill_mm = fill_mm;
-  factors.distance_mm = 300.0;
+  Factors factors = paper_shot(liquid, fill_mm, 300.0);
   const auto add = [&](const char* observable, std::string_view region) {
     Observation& observation = measurement.observations.emplace_back();
     observation.observable = observable;
@@ -96,10 +93,7 @@ TEST(RayTraced, ThreadsDoNotMatter) {
 // not.
 TEST(RayTraced, LightThatEntersALiquidReadsTooLow) {
   const LaboratoryRig rig = paper_laboratory();
-  Factors factors;
-  factors.liquid = "milk";
-  factors.fill_mm = 30.0;
-  factors.distance_mm = 300.0;
+  const Factors factors = paper_shot("milk", 30.0, 300.0);
   const Eigen::Vector2d place(0.0, 0.3);
   const auto height_mm = [&](const Json& effects) {
     const auto frame = ray_traced_frame(paper_setup(factors, effects), rig, place, 1);
