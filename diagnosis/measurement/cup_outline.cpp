@@ -1,6 +1,7 @@
 #include "diagnosis/measurement/cup_outline.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -18,13 +19,15 @@ void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double wei
 
 /// One step of Gauss and Newton.
 std::optional<CupOutline> OutlineFit::step(const CupOutline& from, double gate) const {
-  constexpr double kInnerBelow = 0.035;  // [m] the rim: what stands in a cup is deeper
-  constexpr double kFacing = 0.25;       // least cosine between the wall's normal and the sensor's direction
-  constexpr double kFewestPixels = 60.0;
-  constexpr double kShortArc =
-      0.02;  // least eigenvalue per pixel: 0.37 of two arcs of 75° to either side, 0.025 of one of 70°
+  constexpr double kInnerBelow = 0.035;   // [m] the rim: what stands in a cup is deeper
+  constexpr double kFacing = 0.25;        // least cosine between the wall's normal and the sensor's direction
+  constexpr double kFewestPixels = 60.0;  // on either side
+  // Least eigenvalue per pixel: 0.37 of two arcs of 75° to either side, at most 0.033 of what one side shows. There a
+  // radius and a place that belong to each other fit alike, and a window's pull on the wall counts six times.
+  constexpr double kBothSides = 0.05;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double inner_pixels = 0.0;
   for (const Sensed& sensed : sensed_) {
     const Eigen::Vector2d off = sensed.from_axis - from.off;
     const double distance = off.norm();
@@ -39,11 +42,12 @@ std::optional<CupOutline> OutlineFit::step(const CupOutline& from, double gate) 
     const Eigen::Vector3d moves(outward.x(), outward.y(), 1.0);
     normal += sensed.weight * moves * moves.transpose();
     right += sensed.weight * excess * moves;
+    if (is_inside) inner_pixels += sensed.weight;
   }
   const double pixels = normal(2, 2);
-  if (pixels < kFewestPixels) return std::nullopt;
+  if (std::min(inner_pixels, pixels - inner_pixels) < kFewestPixels) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal);
-  if (eigen.eigenvalues()[0] < kShortArc * pixels) return std::nullopt;
+  if (eigen.eigenvalues()[0] < kBothSides * pixels) return std::nullopt;
   const Eigen::Vector3d x =
       eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose() * right;
   return CupOutline{from.off + x.head<2>(), from.wider + x.z()};

@@ -26,7 +26,7 @@ class OutlineFit {
 
   /// By least squares of the points' distances from the circle: first of those within 12 mm of where the rig has it,
   /// then of those within 7 mm of where it was found, so that of a cup beside its place the liquid counts for no wall.
-  /// Nothing with less than 60 pixels, or where they lie on too short an arc.
+  /// Nothing with less than 60 pixels on either side, or where they lie on too short an arc.
   std::optional<CupOutline> solve() const;
 
  private:

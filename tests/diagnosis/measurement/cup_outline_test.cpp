@@ -1,0 +1,54 @@
+// The circle that a cup's walls lie on, from where the sensor sees them.
+#include "diagnosis/measurement/cup_outline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace fathom {
+namespace {
+
+constexpr double kNear = -0.5 * std::numbers::pi, kFar = 0.5 * std::numbers::pi;  // directions from the axis
+
+/// The paper's cup, 200 mm in front of a sensor.
+struct Outline : testing::Test {
+  const LaboratoryRig rig;
+  OutlineFit fit{rig, {0.0, 0.200}};
+
+  /// Points 3° apart, 70° to either side of `towards`, on a circle of `radius` about `axis`, from `low` to `high`.
+  void add_wall(double towards, double radius, const Eigen::Vector2d& axis, double low, double high) {
+    for (int degrees = -69; degrees <= 69; degrees += 3)
+      for (double height = low; height < high; height += 0.005) {
+        const double angle = towards + degrees * std::numbers::pi / 180.0;
+        fit.add(axis + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)), height, 1.0);
+      }
+  }
+};
+
+TEST_F(Outline, OfACupThatIsWiderAndBesideItsPlace) {
+  const Eigen::Vector2d off(0.003, -0.002);
+  add_wall(kNear, rig.outer_radius_m + 0.001, off, 0.015, 0.075);
+  add_wall(kFar, rig.inner_radius_m + 0.001, off, 0.055, 0.075);
+  const auto outline = fit.solve();
+  ASSERT_TRUE(outline);
+  EXPECT_NEAR(outline->off.x(), off.x(), 1e-5);  // of the third step of Gauss and Newton
+  EXPECT_NEAR(outline->off.y(), off.y(), 1e-5);
+  EXPECT_NEAR(outline->wider, 0.001, 1e-5);
+}
+
+/// A radius and a place that belong to each other fit one side alike.
+TEST_F(Outline, OfOneSideIsNone) {
+  add_wall(kFar, rig.inner_radius_m, {0.0, 0.0}, 0.055, 0.075);
+  EXPECT_FALSE(fit.solve());
+}
+
+/// Nor do some points of a liquid make the other side, which windows put where the wall of a smaller cup might be.
+TEST_F(Outline, IsNotThatOfALiquid) {
+  add_wall(kFar, rig.inner_radius_m, {0.0, 0.0}, 0.055, 0.075);
+  add_wall(kNear, 0.034, {0.0, 0.0}, 0.024, 0.025);
+  EXPECT_FALSE(fit.solve());
+}
+
+}  // namespace
+}  // namespace fathom
