@@ -64,19 +64,25 @@ Eigen::MatrixXd polynomials(const std::vector<Observation>& observations) {
   return result;
 }
 
-/// What goes on as sessions do, whether a candidate says so or not: a parabola over their time. Pours follow time as
-/// well: it is left to them where too few would be left to say how they scatter.
+/// A parabola over time.
+void add_parabola(const std::vector<Observation>& observations, double Factors::*time, Span& means) {
+  Eigen::VectorXd shares(static_cast<Eigen::Index>(observations.size()));
+  for (Eigen::Index i = 0; i < shares.size(); ++i) shares[i] = observations[i].factors.*time;
+  shares /= std::max(shares.maxCoeff(), 1e-12);
+  means.add(shares);
+  means.add(shares.cwiseAbs2());
+}
+
+/// What goes on while a pour stands and as sessions do, whether a candidate says so or not. Pours follow a session's
+/// time as well: it is left to them where too few would be left to say how they scatter.
 void add_drift(const std::vector<Observation>& observations, Span& means) {
   constexpr int kFewestFreePours = 8;
+  add_parabola(observations, &Factors::stood_s, means);
   const Groups fillings = group_by(observations, [](const Observation& o) {
     return o.factors.liquid == "none" ? "" : fmt::format("{}, {} mm", o.factors.liquid, o.factors.fill_mm);
   });
-  if (group_by(observations, pour_key).count - fillings.count < kFewestFreePours) return;
-  Eigen::VectorXd time(static_cast<Eigen::Index>(observations.size()));
-  for (Eigen::Index i = 0; i < time.size(); ++i) time[i] = observations[i].factors.time_s;
-  time /= std::max(time.maxCoeff(), 1e-12);
-  means.add(time);
-  means.add(time.cwiseAbs2());
+  if (group_by(observations, pour_key).count - fillings.count >= kFewestFreePours)
+    add_parabola(observations, &Factors::time_s, means);
 }
 
 /// Of all candidates, one after the other.
@@ -96,8 +102,20 @@ Eigen::MatrixXd common_directions(const Eigen::MatrixXd& columns) {
   return svd.matrixU().leftCols((svd.singularValues().array() > kLeft).count());
 }
 
-/// Contrasts of some observations that neither signatures (observations × any number, those that matter most first)
-/// nor polynomials of each liquid and region make.
+/// What all fillings show at a place is no error of pours or placements: those differ from one to the next.
+Groups places_of_fillings(const std::vector<Observation>& observations) {
+  constexpr int kFewestFillings = 3;  // at a place
+  Groups places = group_by(observations, [](const Observation& o) {
+    return fmt::format("{}/({:g}, {:g})", o.factors.region, o.factors.lateral_mm, o.factors.distance_mm);
+  });
+  const std::vector<std::vector<Eigen::Index>> members = places.members();
+  for (int& place : places.of)
+    if (place >= 0 && members[place].size() < kFewestFillings) place = -1;
+  return places;
+}
+
+/// Contrasts of some observations that neither places nor signatures (observations × any number, those that matter most
+/// first) nor polynomials of each liquid and region make.
 Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, const Eigen::MatrixXd& signatures) {
   const auto n = static_cast<Eigen::Index>(observations.size());
   Span means(n, n / 2);
@@ -108,6 +126,7 @@ Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, c
   const Eigen::MatrixXd shapes = polynomials(observations);
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
                shapes.leftCols(1));
+  add_products(indicators(places_of_fillings(observations)), shapes.leftCols(1));
   for (Eigen::Index k = 0; k < signatures.cols(); ++k) means.add(signatures.col(k));
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
   add_products(indicators(group_by(observations,

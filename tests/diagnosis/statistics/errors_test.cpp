@@ -1,4 +1,5 @@
 // The errors that the data show: components found again, tails as thick as they are known.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,6 +83,25 @@ TEST(VarianceComponents, AreBlindToEffects) {
   const Covariance a = estimate_covariance(with, residual_of(with)),
                    b = estimate_covariance(without, residual_of(without));
   // Equal conditions change equally: nothing but rounding may differ.
+  EXPECT_LT((a.total - b.total).norm(), 1e-6 * b.total.norm());
+}
+
+/// Poured and put down once, all fillings read alike at a place: a smear on the lens is no scatter of placements.
+TEST(VarianceComponents, AreBlindToWhatAllFillingsShowAtAPlace) {
+  CampaignDesign design;
+  design.pours = design.sessions = 1;
+  const World world(design);
+  const Evidence clean = world.measure({}, {}, 5);
+  Evidence smeared = clean;
+  const Groups places = group_by(clean.observations, [](const Observation& o) {
+    return fmt::format("{} {} {}", o.factors.distance_mm, o.factors.lateral_mm, o.factors.region);
+  });
+  for (std::size_t i = 0; i < smeared.observations.size(); ++i)
+    if (smeared.observations[i].observable == "height_mm")
+      smeared.observations[i].value += 0.5 * Rng(11, places.of[i]).normal();
+  const Covariance a = estimate_covariance(smeared, residual_of(smeared)),
+                   b = estimate_covariance(clean, residual_of(clean));
+  ASSERT_FALSE(a.errors.from_replicates);
   EXPECT_LT((a.total - b.total).norm(), 1e-6 * b.total.norm());
 }
 
