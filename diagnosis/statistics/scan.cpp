@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -39,24 +40,24 @@ std::vector<Stratum> strata_by(const std::vector<Observation>& observations, con
   return result;
 }
 
-/// The thirds of their sessions in which the rows of one observable were measured: what drifts, or evaporates.
-std::vector<Stratum> strata_by_time(const std::vector<Observation>& observations,
-                                    const std::vector<Eigen::Index>& rows) {
-  static constexpr std::array kThirds{"time=early", "time=middle", "time=late"};
-  std::map<int, std::pair<double, double>> spans;  // of sessions
+/// The rows of one observable that were measured in the first, second and last third of a span of time.
+std::vector<Stratum> strata_by_time(const std::vector<Observation>& observations, const std::vector<Eigen::Index>& rows,
+                                    const std::string& name, const std::function<std::string(const Observation&)>& span,
+                                    double Factors::*time) {
+  static constexpr std::array kThirds{"early", "middle", "late"};
+  std::map<std::string, std::pair<double, double>> spans;
   for (const auto row : rows) {
-    const Factors& f = observations[row].factors;
-    auto& [first, last] = spans.try_emplace(f.session, f.time_s, f.time_s).first->second;
-    first = std::min(first, f.time_s);
-    last = std::max(last, f.time_s);
+    const double t = observations[row].factors.*time;
+    auto& [first, last] = spans.try_emplace(span(observations[row]), t, t).first->second;
+    first = std::min(first, t);
+    last = std::max(last, t);
   }
   std::vector<Stratum> result;
-  for (const char* third : kThirds) result.push_back({observations[rows[0]].observable, third, true, {}});
+  for (const char* third : kThirds) result.push_back({observations[rows[0]].observable, name + "=" + third, true, {}});
   for (const auto row : rows) {
-    const Factors& f = observations[row].factors;
-    const auto [first, last] = spans.at(f.session);
+    const auto [first, last] = spans.at(span(observations[row]));
     if (last <= first) continue;
-    const double share = (f.time_s - first) / (last - first);
+    const double share = (observations[row].factors.*time - first) / (last - first);
     result[static_cast<std::size_t>(std::clamp(3.0 * share, 0.0, 2.0))].rows.push_back(row);
   }
   return result;
@@ -80,7 +81,9 @@ std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
     for (std::size_t i = 0; i < factors.size(); ++i)
       for (std::size_t j = i + 1; j < factors.size(); ++j)
         add(strata_by(observations, observable, {factors[i], factors[j]}), kFewestInPair);
-    add(strata_by_time(observations, rows), kFewestInPair);
+    // What drifts, and what evaporates.
+    add(strata_by_time(observations, rows, "time", session_key, &Factors::time_s), kFewestInPair);
+    add(strata_by_time(observations, rows, "time_since_pour", pour_key, &Factors::stood_s), kFewestInPair);
   }
   return result;
 }

@@ -9,6 +9,7 @@
 
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/diagnosis_json.h"
+#include "diagnosis/statistics/groups.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {
@@ -204,6 +205,27 @@ TEST(Decide, TakesADriftForNoScatterOfPours) {
   // Nor where nobody knows of it.
   std::erase_if(evidence.candidates, [](const Candidate& c) { return c.effect == "thermal_drift"; });
   EXPECT_LT(decide(evidence, world.predict()).p_gap, 1e-4);
+}
+
+TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
+  CampaignDesign design = small_design();
+  design.pours = design.sessions = 4;
+  const World world(design);
+  const Evidence evidence = world.measure({}, {}, 3);
+  const Groups placements = group_by(evidence.observations, placement_key);
+  const auto sunken = [&](double mm) {
+    Evidence result = evidence;
+    for (std::size_t i = 0; i < result.observations.size(); ++i) {
+      Observation& o = result.observations[i];
+      o.factors.stood_s = 300.0 * Rng(17, placements.of[i]).uniform();
+      if (o.observable == "height_mm") o.value -= mm / 300.0 * o.factors.stood_s;
+    }
+    return decide(result, world.predict());
+  };
+  EXPECT_EQ(sunken(0.0).verdict, Verdict::none);
+  const Diagnosis diagnosis = sunken(0.8);
+  EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
+  EXPECT_EQ(diagnosis.where.at(0).stratum, "time_since_pour=early");
 }
 
 TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
