@@ -59,17 +59,30 @@ struct Twins {
 constexpr std::array kTwins{Twins{"opaque_only", {"cup_bottom_height", "fill_offset"}},
                             Twins{"water_one_distance", {"refractive_index", "fill_scale"}}};
 
-std::vector<Shown> hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& truth) {
-  const bool never_registered = rng.uniform() < 0.6;
-  const auto hidden = draw_effect(strengths, !never_registered, {}, 2.0 * draw_strength(rng), rng);
-  if (!hidden) return {};
-  if (!never_registered) truth.left_out = hidden->active.effect->name;
-  std::vector<const Hidden*> registry;
+/// From all others that are registered. What shows in the spread of repeats alone escapes every signature of a mean.
+double escape(const Strengths& strengths, const Shown& hidden) {
+  if (hidden.signature.norm() == 0.0) return hidden.s;
+  std::vector<const Hidden*> others;
   for (const Hidden& effect : hidden_effects())
-    if (effect.registered && effect.name != truth.left_out) registry.push_back(&effect);
-  // What shows in the spread of repeats alone escapes every signature of a mean.
-  truth.escape = hidden->signature.norm() > 0.0 ? strengths.escape(hidden->signature, registry) : hidden->s;
-  return {*hidden};
+    if (effect.registered && &effect != hidden.active.effect) others.push_back(&effect);
+  return strengths.escape(hidden.signature, others);
+}
+
+/// What the registry's effects imitate, nobody can call unknown: something else is hidden instead.
+std::vector<Shown> hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& truth) {
+  constexpr double kLeastEscape = 4.0;
+  constexpr int kTries = 8;
+  const bool never_registered = rng.uniform() < 0.6;
+  for (int i = 0; i < kTries; ++i) {
+    const auto hidden = draw_effect(strengths, !never_registered, {}, 2.0 * draw_strength(rng), rng);
+    if (!hidden) continue;
+    truth.escape = escape(strengths, *hidden);
+    if (truth.escape < kLeastEscape) continue;
+    if (!never_registered) truth.left_out = hidden->active.effect->name;
+    return {*hidden};
+  }
+  truth.escape = 0.0;
+  return {};
 }
 
 std::vector<Shown> hide_twin(const Strengths& strengths, const Twins& twins, Rng& rng, SetTruth& truth) {
@@ -134,6 +147,7 @@ SetTruth draw_set(const Views& views, std::uint64_t pack_seed, int number, int s
                                         ? hide_twin(strengths, twins, rng, truth)
                                         : hide_registered(strengths, registered_in(truth.kind), rng);
   for (const Shown& effect : hidden) truth.effects.push_back({effect.active, effect.s});
+  if (truth.kind == "single" && !hidden.empty()) truth.escape = escape(strengths, hidden.front());
   truth.strength_by_liquid = strengths.by_liquid(joint_signature(strengths, hidden));
   return truth;
 }

@@ -83,7 +83,7 @@ const std::array kHidden{
     // Light that goes other ways.
     Hidden{"wall_multipath", "share", 0, 0.3, 0.01, 1.0, true,
            [](World& w, P, double share) { w.cup.wall_gloss = share; }},
-    Hidden{"specular_ghost", "share", 0, 10, 0.2, 60, true, [](World& w, P, double gain) { w.ghost_gain = gain; }},
+    Hidden{"specular_ghost", "share", 0, 1, 0.2, 1, true, [](World& w, P, double gain) { w.ghost_gain = gain; }},
     // Filling.
     Hidden{"fill_offset", "fill_mm", 0, 1, -5, 5, true,
            [](World& w, P, double mm) {

@@ -63,8 +63,10 @@ bool Judged::is_confidently_wrong() const {
 }
 
 bool Judged::first_holds_truth() const {
-  return !answer.ambiguity_set.empty() &&
-         answer.ambiguity_set.front().leaves_open([&](const Names& names) { return is_true(names); });
+  if (answer.ambiguity_set.empty()) return false;
+  const Answer::Explanation& first = answer.ambiguity_set.front();
+  return first.leaves_open([&](const Names& names) { return is_true(names); }) ||
+         (!nameable().empty() && first.leaves_open_together(nameable()));
 }
 
 bool Judged::holds_truth() const {

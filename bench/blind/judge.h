@@ -20,7 +20,8 @@ struct Judged {
   bool is_right() const;
   /// The same of a set of effects.
   bool is_true(const Names& effects) const;
-  /// What is hidden is what it puts first, or what it says cannot be told from that or may be there as well.
+  /// What is hidden is what it puts first, or what it says cannot be told from that or may be there as well, each for
+  /// itself or together.
   bool first_holds_truth() const;
   /// Neither is it right nor does its first hold the truth, and that has a probability of at least 0.9.
   bool is_confidently_wrong() const;

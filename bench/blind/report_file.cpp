@@ -53,6 +53,17 @@ void read_ambiguity(const JsonReader& report, Answer& answer) {
 
 }  // namespace
 
+bool Answer::Explanation::leaves_open_together(const Names& effects) const {
+  return std::any_of(sets.begin(), sets.end(), [&](const Names& set) {
+    if (!std::includes(effects.begin(), effects.end(), set.begin(), set.end())) return false;
+    Names open = set;
+    for (const Names& superset : supersets)
+      if (superset.size() == set.size() + 1 && std::includes(superset.begin(), superset.end(), set.begin(), set.end()))
+        open.insert(superset.begin(), superset.end());
+    return std::includes(open.begin(), open.end(), effects.begin(), effects.end());
+  });
+}
+
 double Answer::probability_of(const Names& effects) const {
   for (const Explanation& explanation : ambiguity_set)
     if (std::find(explanation.sets.begin(), explanation.sets.end(), effects) != explanation.sets.end())

@@ -30,6 +30,8 @@ struct Answer {
     bool leaves_open(const std::function<bool(const Names&)>& is) const {
       return std::any_of(sets.begin(), sets.end(), is) || std::any_of(supersets.begin(), supersets.end(), is);
     }
+    /// Whether they are a set and, together, some of what its supersets add to it by one.
+    bool leaves_open_together(const Names& effects) const;
   };
   std::vector<Explanation> ambiguity_set;  ///< most probable first
   Names liquids_in_gap;                    ///< of its strata …

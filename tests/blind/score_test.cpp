@@ -118,6 +118,22 @@ TEST(BlindScore, WhatIsLeftOpenBesideTheFirstIsNoError) {
   EXPECT_EQ(wrong(R"([["fill_offset", "meniscus"]])"), 2.0);
 }
 
+/// Two that are each left open beside the first may be there together.
+TEST(BlindScore, WhatIsLeftOpenTwiceIsLeftOpenTogether) {
+  SetTruth truth = single("fill_offset", 1.0, 9.0);
+  truth.kind = "triple";
+  truth.effects.push_back({{&hidden_effect("absorption"), 0.001}, 2.0});
+  truth.effects.push_back({{&hidden_effect("meniscus"), 5.0}, 2.0});
+  const auto wrong = [&](const std::string& second) {
+    const Answer answer = answer_of(R"({"verdict": "named", "effects": [{"name": "fill_offset"}], "ambiguity_set": [
+      {"effects": ["fill_offset"], "probability": 0.99, "supersets": [["absorption", "fill_offset"], ["fill_offset", ")" +
+                                    second + R"("]]}]})");
+    return goal(goals_of(std::vector<Judged>{{truth, answer}}), "confidently wrong").value;
+  };
+  EXPECT_EQ(wrong("meniscus"), 0.0);
+  EXPECT_EQ(wrong("ripples"), 1.0);
+}
+
 TEST(BlindScore, UnknownIsFlaggedByItsVerdict) {
   SetTruth truth = single("wall_caustic", 0.5, 12.0);
   truth.kind = "unknown";
