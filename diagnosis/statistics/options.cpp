@@ -62,8 +62,7 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
                          c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters});
   for (const Refit& fit : fits)
     for (int effect = 0; effect < static_cast<int>(c.problem.columns.size()); ++effect) {
-      const std::vector<int>& there = fit.hypothesis.effects;
-      if (fit.hypothesis.log_evidence < least || std::binary_search(there.begin(), there.end(), effect)) continue;
+      if (fit.hypothesis.log_evidence < least || is_said(c.problem, fit.hypothesis.effects, effect)) continue;
       if (Option more = with_nothing_of(c, effect, fit);
           more.log_posterior > least && known.insert(more.effects).second)
         options.push_back(std::move(more));

@@ -7,11 +7,26 @@
 #include <limits>
 #include <numbers>
 
+#include "diagnosis/statistics/effect_name.h"
+
 namespace fathom {
 
 namespace {
 constexpr double kExpectedEffects = 1.0;
 constexpr double kPriorWidth = 3.0;  // typical departures
+
+std::vector<std::vector<int>> same_elsewhere(const std::vector<Candidate>& candidates) {
+  std::vector<std::vector<int>> result(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const EffectName own = effect_name(candidates[i].effect);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const EffectName other = effect_name(candidates[k].effect);
+      if (own.id == other.id && own.liquid.empty() != other.liquid.empty()) result[i].push_back(static_cast<int>(k));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Eigen::VectorXd measured_minus_predicted(const Evidence& evidence) {
@@ -50,6 +65,7 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
                                             ? covariance.whiten(candidate.leeway.columns)
                                             : Eigen::MatrixXd(candidate.signature.rows(), 0),
                                         candidate.leeway.grow));
+  problem.said_by = same_elsewhere(evidence.candidates);
   problem.residual = covariance.whiten(measured_minus_predicted(evidence));
   problem.signatures = covariance.whiten(signatures);
   return problem;
@@ -64,6 +80,11 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
 
 bool holds_any(const std::vector<int>& effects, const std::vector<int>& others) {
   return std::find_first_of(effects.begin(), effects.end(), others.begin(), others.end()) != effects.end();
+}
+
+bool is_said(const Problem& problem, const std::vector<int>& effects, int effect) {
+  return std::find(effects.begin(), effects.end(), effect) != effects.end() ||
+         holds_any(effects, problem.said_by[effect]);
 }
 
 int widest_leeway(const Problem& problem, const std::vector<int>& effects) {

@@ -18,6 +18,9 @@ struct Problem {
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each candidate
   std::vector<double> log_odds;                    ///< of each candidate, before anything is measured
   std::vector<Leeway> leeways;                     ///< of each candidate
+  /// Of each candidate those that are the same effect, in one liquid instead of all or in all instead of one: both
+  /// together say no more than that it differs from liquid to liquid, which those of one liquid do.
+  std::vector<std::vector<int>> said_by;
 };
 
 Eigen::VectorXd measured_minus_predicted(const Evidence& evidence);
@@ -29,6 +32,9 @@ std::vector<Eigen::Index> columns_of(const Problem& problem, const std::vector<i
 
 /// Whether any of some effects is one of others.
 bool holds_any(const std::vector<int>& effects, const std::vector<int>& others);
+
+/// Whether an effect beside others is one of them, or the same in fewer liquids or more.
+bool is_said(const Problem& problem, const std::vector<int>& effects, int effect);
 
 /// Which of several candidates, at least one, has the widest leeway: that stands for all of theirs.
 int widest_leeway(const Problem& problem, const std::vector<int>& effects);

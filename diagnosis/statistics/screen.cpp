@@ -42,6 +42,7 @@ class Screening {
     const int next = effects.empty() ? 0 : effects.back() + 1;
     for (int effect = next; effect < static_cast<int>(problem_.columns.size()); ++effect) {
       if (!is_seen_[effect]) continue;  // its best value is none in every set
+      if (is_said(problem_, effects, effect)) continue;
       effects.push_back(effect);
       consider(effects);
       if (effects.size() < kLargestSet) extend(effects);

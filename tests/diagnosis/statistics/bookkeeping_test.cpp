@@ -84,6 +84,28 @@ TEST(Screen, FindsAPlantedTripleAmongAllSets) {
   EXPECT_EQ(best->effects, planted);
 }
 
+/// An effect in all liquids and in one of them: the two in each liquid say the same.
+TEST(Screen, HoldsNoEffectTwice) {
+  const World world(small_design());
+  Evidence evidence = world.measure({world.at_strength("fill_offset", 20.0, 1.0)}, {}, 6);
+  const int everywhere = world.candidate("fill_offset");
+  for (const char* liquid : {"water", "milk_tea"}) {
+    Candidate one = evidence.candidates[everywhere];
+    one.effect += std::string("@") + liquid;
+    for (std::size_t i = 0; i < evidence.observations.size(); ++i)
+      if (evidence.observations[i].factors.liquid != liquid) one.signature.row(static_cast<Eigen::Index>(i)).setZero();
+    evidence.candidates.push_back(one);
+  }
+  const int in_water = static_cast<int>(evidence.candidates.size()) - 2, in_tea = in_water + 1;
+  const Problem problem = whitened_problem(evidence, estimate_covariance(evidence, residual_of(evidence)));
+  bool has_both_liquids = false;
+  for (const Hypothesis& set : screen(problem, 60)) {
+    EXPECT_FALSE(holds_any(set.effects, {everywhere}) && holds_any(set.effects, {in_water, in_tea}));
+    has_both_liquids |= set.effects == std::vector{in_water, in_tea};
+  }
+  EXPECT_TRUE(has_both_liquids);
+}
+
 TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   const World world(small_design());
   const Evidence evidence = world.measure({}, {}, 1);
