@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/statistics/decision_settings.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
 
@@ -134,10 +135,25 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   return text + next_sentences(diagnosis.next);
 }
 
+/// Several effects of the list that would leave nothing unexplained, if there are such.
+const Explanation* crowd_that_explains(const Diagnosis& diagnosis) {
+  constexpr std::size_t kCrowd = 3;
+  if (diagnosis.unknown.p < DecisionSettings{}.p_gap) return nullptr;
+  for (const Explanation& explanation : diagnosis.ambiguity_set)
+    if (explanation.effects.size() >= kCrowd && explanation.effects.back() != "unknown") return &explanation;
+  return nullptr;
+}
+
 std::string unknown_sentence(const Diagnosis& diagnosis) {
   const UnknownShape& unknown = diagnosis.unknown;
-  std::string text = fmt::format("{} is there that no effect in the list explains (p = {:.1g})",
-                                 diagnosis.effects.empty() ? "Something" : "Something else", unknown.p);
+  const Explanation* crowd = crowd_that_explains(diagnosis);
+  std::string text =
+      crowd ? fmt::format(
+                  "Only {} together would explain it, and so many are likelier to imitate something that the "
+                  "list lacks",
+                  effects_words(crowd->effects))
+            : fmt::format("{} is there that no effect in the list explains (p = {:.1g})",
+                          diagnosis.effects.empty() ? "Something" : "Something else", unknown.p);
   if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
   if (!unknown.most_similar.empty())
     text +=

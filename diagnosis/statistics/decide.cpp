@@ -46,9 +46,9 @@ double log_bayes_factor(double p) {
 
 /// Of what passed all tests.
 Verdict verdict_of_named(const Case& c, const Choice& choice, bool is_rest, const std::vector<Option>& options,
-                         const AmbiguitySet& set) {
+                         const AmbiguitySet& listed, bool is_imitated) {
   const std::vector<int>& effects = choice.fit.hypothesis.effects;
-  if (!is_rest) return all_name(c.evidence, effects, set) ? Verdict::named : Verdict::ambiguous;
+  if (!is_rest) return all_name(c.evidence, effects, listed) && !is_imitated ? Verdict::named : Verdict::ambiguous;
   const bool is_sure =
       log_posterior_with(options, effects) > log_posterior_of_unknown_alone(options) + std::log(kSureOdds);
   return is_sure ? Verdict::named_and_unknown : Verdict::unknown;
@@ -115,10 +115,13 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   if (is_rest)
     for (Option& o : options)
       if (!o.has_unknown) o.log_posterior += log_bayes_factor(p_rest);
-  const AmbiguitySet set = ambiguity_set(options, kinds_of_candidates(evidence), settings.delta);
+  const std::vector<int> kinds = kinds_of_candidates(evidence);
+  const AmbiguitySet listed = ambiguity_set(options, kinds, settings.delta),
+                     set = ambiguity_set(with_imitated(options), kinds, settings.delta);
+  const bool is_imitated = set.classes.front().options.front().has_unknown;
   diagnosis.ambiguity_set = explanations(evidence, set);
-  diagnosis.verdict =
-      choice ? verdict_of_named(c, *choice, is_rest, options, set) : verdict_of_unnamed(c, is_rest, set);
+  diagnosis.verdict = choice ? verdict_of_named(c, *choice, is_rest, options, listed, is_imitated)
+                             : verdict_of_unnamed(c, is_rest, set);
   if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
     diagnosis.unknown = describe_unknown(evidence, c.covariance, c.problem, c.shapes, rest.residual, rest.explained);
   diagnosis.unknown.p = p_rest;

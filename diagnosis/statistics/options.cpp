@@ -149,4 +149,23 @@ std::vector<Option> options_of(const Case& c, const std::vector<Hypothesis>& hyp
   return options;
 }
 
+std::vector<Option> with_imitated(std::vector<Option> options) {
+  constexpr double kByOne = 1.0 / 48.0, kByEachMore = 8.0;
+  const Option& best = *std::max_element(options.begin(), options.end(), [](const Option& a, const Option& b) {
+    return a.log_posterior < b.log_posterior;
+  });
+  const auto count = static_cast<int>(best.effects.size());
+  if (count == 0 || (count == 1 && !best.has_unknown)) return options;
+  Option imitated{{}, {}, true, best.log_posterior + (count - 1) * std::log(kByEachMore), best.prediction};
+  if (!best.has_unknown) imitated.log_posterior += std::log(kByOne);
+  imitated.prediction.setZero();
+  const auto known =
+      std::find_if(options.begin(), options.end(), [](const Option& o) { return o.effects.empty() && o.has_unknown; });
+  if (known == options.end())
+    options.push_back(std::move(imitated));
+  else
+    known->log_posterior = std::max(known->log_posterior, imitated.log_posterior);
+  return options;
+}
+
 }  // namespace fathom

@@ -18,4 +18,9 @@ std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& 
 std::vector<Option> options_of(const Case& c, const std::vector<Hypothesis>& hypotheses,
                                const std::vector<Refit>& fits);
 
+/// The same beside what no list holds: several effects together may imitate it, the better the more they are. Of
+/// what bench/blind hides, what the list lacks looks like some two effects a sixth as often as two are hidden, and
+/// with each more eight times as often; effects beside something unknown are always open to be a part of it.
+std::vector<Option> with_imitated(std::vector<Option> options);
+
 }  // namespace fathom

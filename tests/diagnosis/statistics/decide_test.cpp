@@ -10,6 +10,7 @@
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/diagnosis_json.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/options.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {
@@ -267,6 +268,22 @@ TEST(Decide, DoesNotNameWhatOneNumberAloneShows) {
   EXPECT_TRUE(diagnosis.effects.empty());
   ASSERT_FALSE(diagnosis.ambiguity_set.empty());
   EXPECT_EQ(diagnosis.ambiguity_set[0].effects, std::vector<std::string>{"of_one_number"});
+}
+
+/// Several effects may together look like something that the list lacks, the better the more they are.
+TEST(AmbiguitySet, HoldsWhatACrowdMayImitate) {
+  const auto unknown_of = [](const std::vector<int>& effects, bool has_unknown) {
+    const Eigen::VectorXd parameters = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(effects.size()));
+    const Option option{effects, parameters, has_unknown, 30.0, Eigen::VectorXd::Constant(1, 9.0)};
+    for (const AmbiguityClass& one : ambiguity_set(with_imitated({option}), {0, 1, 2, 3}, 7.0).classes)
+      if (one.options.front().has_unknown && one.options.front().effects.empty()) return one.probability;
+    return 0.0;
+  };
+  EXPECT_EQ(unknown_of({}, false), 0.0);
+  EXPECT_EQ(unknown_of({1}, false), 0.0);
+  EXPECT_NEAR(unknown_of({1, 2}, false), 1.0 / 7.0, 1e-9);
+  EXPECT_NEAR(unknown_of({1, 2, 3}, false), 4.0 / 7.0, 1e-9);
+  EXPECT_EQ(unknown_of({1, 2}, true), 1.0) << "of which these may be a part";
 }
 
 TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationGoesWithIt) {
