@@ -13,8 +13,10 @@ namespace {
 constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
 constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
 constexpr double kFewestPixels = 100.0;
-constexpr double kManyCodes = 8.0;     // deviation: a plane of few codes has teeth of its own
-constexpr std::size_t kCombEvery = 7;  ///< points of which combs are taken: ten thousands are enough, cosines are dear
+// A plane of few codes, or of pixels at distances that are whole steps apart, has teeth of its own.
+constexpr double kManyCodes = 8.0;      // deviation
+constexpr double kTeethOfPlane = 0.25;  // a desk seen by all pixels has up to 0.15
+constexpr std::size_t kCombEvery = 7;   ///< points of which combs are taken: ten thousands are enough, cosines are dear
 
 /// Sums for mean and standard deviation.
 struct Sums {
@@ -138,7 +140,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   std::optional<OutlineFit> outline;
   if (cup) outline.emplace(rig, cup->centre);
   std::complex<double> comb;
-  std::array<std::complex<double>, 2> coarse;
+  std::array<std::complex<double>, 2> coarse, coarse_of_plane;
   double millimetres = 0.0;
   Sums codes;
   for (std::size_t number = 0; number < points.size(); ++number) {
@@ -166,6 +168,10 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     const std::complex<double> of_half = std::polar(1.0, 0.25 * two_pi * steps), of_quarter = of_half * of_half;
     coarse[0] += w * of_quarter;
     coarse[1] += w * of_half;
+    const double steps_of_plane = steps_per_inverse * (1.0 / kReference - inverse_desk.dot(seen) / seen.z()) - 0.5;
+    const std::complex<double> half_of_plane = std::polar(1.0, 0.25 * two_pi * steps_of_plane);
+    coarse_of_plane[0] += w * half_of_plane * half_of_plane;
+    coarse_of_plane[1] += w * half_of_plane;
     comb += w * of_quarter * of_quarter;
     millimetres += w * std::cos(two_pi * mm_from_metres(z));
   }
@@ -179,8 +185,10 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   set_inside(around, rig.inner_radius_m - kInteriorMargin, view.soft_m, estimates);
   if (codes.weight > 0.0) {
     estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
-    for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = std::abs(coarse[i]) / codes.weight;
-    estimates.spans_codes = codes.estimate().sd > kManyCodes;
+    const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };
+    for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = length(coarse[i]);
+    estimates.spans_codes = codes.estimate().sd > kManyCodes &&
+                            std::max(length(coarse_of_plane[0]), length(coarse_of_plane[1])) < kTeethOfPlane;
     estimates.millimetre_comb = millimetres / codes.weight;
   }
   return estimates;

@@ -7,6 +7,7 @@
 #include "core/units.h"
 #include "diagnosis/predict/slope.h"
 #include "diagnosis/predict/uncertain_rig.h"
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {
@@ -62,14 +63,12 @@ void add_fills(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   if (sigma_mm <= 0.0) return;
   const auto at = [](double x) { return switch_on({{"fill_offset", {x}}}); };
   const Eigen::VectorXd all = slope(predictor, at, -sigma_mm, sigma_mm, conditions_where(predictor, has_liquid));
-  std::set<std::pair<int, int>> pours;
+  std::set<std::string> pours;
   for (const Condition& condition : predictor.conditions())
-    if (has_liquid(condition.factors)) pours.emplace(condition.factors.session, condition.factors.pour);
-  for (const auto& [session, pour] : pours)
-    nuisances.push_back({fmt::format("fill of pour {}/{}", session, pour), sigma_mm,
-                         part_of(predictor, all, [session = session, pour = pour](const Factors& f) {
-                           return has_liquid(f) && f.session == session && f.pour == pour;
-                         })});
+    if (has_liquid(condition.factors)) pours.insert(pour_of(condition.factors));
+  for (const std::string& pour : pours)
+    nuisances.push_back({"fill of pour " + pour, sigma_mm,
+                         part_of(predictor, all, [&](const Factors& f) { return pour_of(f) == pour; })});
 }
 
 void add_places(const Predictor& predictor, std::vector<Nuisance>& nuisances) {

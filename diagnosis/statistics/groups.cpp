@@ -33,9 +33,11 @@ Groups group_by(const std::vector<Observation>& observations,
 
 std::string session_key(const Observation& o) { return fmt::format("{}", o.factors.session); }
 
-std::string pour_key(const Observation& o) {
-  return o.factors.liquid == "none" ? "" : fmt::format("{}/{}", o.factors.session, o.factors.pour);
+std::string pour_of(const Factors& f) {
+  return f.liquid == "none" ? "" : fmt::format("{}/{} of {}, {} mm", f.session, f.pour, f.liquid, f.fill_mm);
 }
+
+std::string pour_key(const Observation& o) { return pour_of(o.factors); }
 
 std::string placement_key(const Observation& o) {
   return fmt::format("{}/{}/{}/{}", o.factors.session, o.factors.pour, o.factors.placement, condition_key(o));

@@ -23,6 +23,8 @@ Groups group_by(const std::vector<Observation>& observations,
 
 /// One pour is one filling in one session, one placement one putting-down of it. Bare desks are never poured.
 std::string session_key(const Observation& observation);
+/// Laboratories number pours anew for each filling, too. Empty for a bare desk.
+std::string pour_of(const Factors& factors);
 std::string pour_key(const Observation& observation);
 std::string placement_key(const Observation& observation);
 /// What a repetition with a new pour and placement would have in common: liquid, fill, distance, lateral.

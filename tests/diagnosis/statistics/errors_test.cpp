@@ -86,6 +86,15 @@ TEST(VarianceComponents, AreBlindToEffects) {
   EXPECT_LT((a.total - b.total).norm(), 1e-6 * b.total.norm());
 }
 
+TEST(Groups, KeepPoursApartThatAreNumberedAnewForEachFilling) {
+  Observation shallow, deep;
+  shallow.factors.liquid = deep.factors.liquid = "water";
+  shallow.factors.pour = deep.factors.pour = 1;
+  shallow.factors.fill_mm = 10.0;
+  deep.factors.fill_mm = 30.0;
+  EXPECT_NE(pour_key(shallow), pour_key(deep));
+}
+
 /// Poured and put down once, all fillings read alike at a place: a smear on the lens is no scatter of placements.
 TEST(VarianceComponents, AreBlindToWhatAllFillingsShowAtAPlace) {
   CampaignDesign design;
