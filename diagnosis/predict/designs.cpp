@@ -65,7 +65,8 @@ void add_other_liquids(const Measurement& measurement, const Measured& known, co
     });
   };
   const auto add = [&](const std::string& label, const Json& medium, std::string_view words) {
-    if (measurement.rig.liquids.contains(label)) return;
+    const auto same_name = measurement.rig.liquids.find(label);
+    if (same_name != measurement.rig.liquids.end() && same_name->second != medium) return;
     MeasurementPlan plan = at_places;
     plan.name = fmt::format("{:g} mm of {}", kMiddleFill_mm, words);
     plan.fillings = {{label, kMiddleFill_mm}};
@@ -86,13 +87,14 @@ Observation observation(const Factors& factors, std::string_view observable, std
   return result;
 }
 
-/// All that a placement's clouds could give and that the model predicts.
+/// All that a placement's clouds, or a table of heights, could give and that the model predicts.
 void add_frame(const Factors& factors, int repeats, std::vector<Observation>& observations) {
   const auto add = [&](std::string_view observable, std::string_view region) {
     observations.push_back(observation(factors, observable, region, repeats));
   };
   if (factors.liquid != "none") {
     for (const std::string_view region : kCupRegionNames) add("height_mm", region);
+    add("height_mm", kWholeInterior);
     for (const std::string_view of_walls : {"cup_x_mm", "cup_y_mm", "cup_radius_mm"}) add(of_walls, "walls");
   }
   for (const std::string_view of_desk : {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg", "comb_strength",
@@ -121,6 +123,14 @@ std::vector<Observation> observations_of(const MeasurementPlan& plan, int sessio
           }
     }
   return observations;
+}
+
+/// A laboratory that wrote down no more than heights will do so again.
+void erase_unlike(const std::vector<Observation>& measured, std::vector<Observation>& planned) {
+  const auto kind = [](const Observation& o) { return std::pair(o.observable, o.factors.region == kWholeInterior); };
+  std::set<std::pair<std::string, bool>> kinds;
+  for (const Observation& observation : measured) kinds.insert(kind(observation));
+  std::erase_if(planned, [&](const Observation& observation) { return !kinds.contains(kind(observation)); });
 }
 
 }  // namespace
@@ -196,6 +206,7 @@ Design design_of(const MeasurementPlan& plan, const Measurement& measurement, co
   Measurement planned;
   planned.rig = measurement.rig;
   planned.observations = observations_of(plan, last_session + 1);
+  erase_unlike(measurement.observations, planned.observations);
   planned.rig.liquids.insert(plan.media.begin(), plan.media.end());
   return {plan.name, plan.minutes(), physics_of(planned, model_effects, file, effects).evidence};
 }

@@ -10,7 +10,13 @@
 namespace fathom {
 namespace {
 
-/// Milk at two distances, 20 mm deep; no clouds are needed to plan.
+void add_observation(const char* observable, const char* region, Measurement& measurement) {
+  Observation& observation = measurement.observations.emplace_back();
+  observation.observable = observable;
+  observation.factors.region = region;
+}
+
+/// Milk at two distances, 20 mm deep; to plan it is enough to know of what kinds its observations are.
 Measurement milk_alone() {
   Measurement measurement;
   measurement.rig = paper_laboratory();
@@ -21,6 +27,10 @@ Measurement milk_alone() {
     frame.fill_m = 0.020;
     frame.distance_m = distance_m;
   }
+  for (const char* region : {"centre", "near", "far", "left", "right"})
+    add_observation("height_mm", region, measurement);
+  for (const char* of_desk : {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg"})
+    add_observation(of_desk, "desk", measurement);
   return measurement;
 }
 
@@ -40,6 +50,28 @@ TEST(Designs, PlanWhatWasNotMeasuredYet) {
   ASSERT_NE(distances, nullptr);
   EXPECT_EQ(distances->distances_mm, (std::vector{400.0, 500.0}));
   EXPECT_LT(find(plans, "bare-desk")->minutes(), find(plans, "clear water")->minutes());
+}
+
+TEST(Designs, ClearWaterIsNewWhereItWasOnlyKnown) {
+  Measurement measurement = milk_alone();
+  measurement.rig.liquids["water"] = "water";
+  EXPECT_NE(find(possible_plans(measurement), "clear water"), nullptr);
+  measurement.frames.back().liquid = "water";
+  EXPECT_EQ(find(possible_plans(measurement), "clear water"), nullptr);
+}
+
+TEST(Designs, WhoWroteDownHeightsOnlyWillDoSoAgain) {
+  Measurement measurement = milk_alone();
+  measurement.observations.clear();
+  add_observation("height_mm", "interior", measurement);
+  const std::vector<MeasurementPlan> plans = possible_plans(measurement);
+  EXPECT_TRUE(design_of(*find(plans, "bare-desk"), measurement, {"sensor_height"}).evidence.observations.empty());
+  const Design empty = design_of(*find(plans, "empty cup"), measurement, {"cup_bottom_height", "cup_placement"});
+  ASSERT_EQ(empty.evidence.observations.size(), 4u);  // two distances, put down twice
+  for (const Observation& observation : empty.evidence.observations) {
+    EXPECT_EQ(observation.observable, "height_mm");
+    EXPECT_EQ(observation.factors.region, "interior");
+  }
 }
 
 TEST(Designs, TheBareDeskShowsTheSensorAndNoCup) {
