@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "bench/blind/clopper_pearson.h"
@@ -13,8 +12,6 @@ namespace fathom::blind {
 namespace {
 
 std::string text(double value) { return fmt::format("{:.4f}", value); }
-
-double normal_share_below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 struct Count {
   int hits = 0, trials = 0;
@@ -36,7 +33,6 @@ std::vector<const Judged*> most_confident_first(std::span<const Judged> judged) 
 
 Table power_table(std::span<const Judged> judged) {
   constexpr std::array kBorders{0.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 1e9};
-  constexpr double kFalseAlarm = 2.326;  // 1 %, one-sided
   Table table({"s_from", "s_to", "s_mean", "sets", "detected", "detected_low95", "detected_high95", "named",
                "named_low95", "named_high95", "matched_filter"});
   for (std::size_t bin = 0; bin + 1 < kBorders.size(); ++bin) {
@@ -44,12 +40,10 @@ Table power_table(std::span<const Judged> judged) {
     double bound = 0.0, sum = 0.0;
     for (const Judged& one : judged) {
       const double s = one.strongest();
-      if (one.truth.kind != "single" || one.truth.effects.empty() || s < kBorders[bin] || s >= kBorders[bin + 1])
-        continue;
-      detected.add(one.answer.verdict != "none" && one.answer.verdict != "missing" &&
-                   one.answer.verdict != "insufficient");
+      if (!one.is_single() || s < kBorders[bin] || s >= kBorders[bin + 1]) continue;
+      detected.add(one.answer.detects_something());
       named.add(one.is_right());
-      bound += normal_share_below(s - kFalseAlarm);
+      bound += one.matched_filter();
       sum += s;
     }
     if (detected.trials == 0) continue;

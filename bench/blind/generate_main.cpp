@@ -6,6 +6,7 @@
 
 #include "bench/blind/command_line.h"
 #include "bench/blind/pack.h"
+#include "bench/blind/settle.h"
 #include "bench/blind/write_set.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -20,7 +21,8 @@ struct Options {
   fs::path pack, truth, ledger;
   std::string kind = "development";
   std::uint64_t seed = 1;
-  int sets = 100, first = 0, last = -1;
+  int sets = 100, first = 0, last = -1, set = 0;
+  fs::path answer;
 };
 
 /// Sets that are there are left: a second run goes on where the first stopped.
@@ -36,14 +38,32 @@ void write_sets(const Options& options) {
   }
 }
 
+const blind::SetTruth& set_of(const blind::Pack& pack, int number) {
+  if (number < 0 || number >= static_cast<int>(pack.sets.size()))
+    throw Error("--set", fmt::format("must be from 0 to {}", pack.sets.size() - 1));
+  return pack.sets[static_cast<std::size_t>(number)];
+}
+
+/// Nothing is written where the answer leaves nothing open that it knows how to settle.
+void write_follow_up(const Options& options) {
+  const auto promise = blind::promise_of(blind::read_answer(options.answer));
+  if (!promise) return;
+  const blind::Pack pack = blind::open_pack(options.pack, options.truth);
+  const fs::path folder = options.pack / "follow_ups" / blind::set_folder(options.pack, options.set).filename();
+  if (!fs::exists(folder))
+    blind::write_follow_up(set_of(pack, options.set), blind::read_follow_up(options.answer / promise->spec), folder);
+}
+
 void define(CLI::App& app, Options& options) {
   app.require_subcommand(1);
   CLI::App* seal = app.add_subcommand("seal", "Draw what is hidden in each set, write and hash the truth");
   CLI::App* sets = app.add_subcommand("sets", "Write the measurement directories of a sealed pack");
+  CLI::App* follow_up = app.add_subcommand(
+      "follow_up", "Make the measurement that an answer proposes to settle what it leaves open: PACK/follow_ups/NNNN");
   CLI::App* exact = app.add_subcommand("exact", "Write the full design without effects, errors and noise");
-  for (CLI::App* command : {seal, sets, exact})
+  for (CLI::App* command : {seal, sets, follow_up, exact})
     command->add_option("-o,--output", options.pack, "Folder of the pack")->required();
-  for (CLI::App* command : {seal, sets})
+  for (CLI::App* command : {seal, sets, follow_up})
     command->add_option("--truth", options.truth, "The truth's file, outside the pack")->required();
   seal->add_option("--kind", options.kind, "development, validation or sealed")->capture_default_str();
   seal->add_option("--seed", options.seed, "Each kind has seeds of its own")->capture_default_str();
@@ -54,6 +74,10 @@ void define(CLI::App& app, Options& options) {
   seal->callback(
       [&] { blind::seal_pack(options.kind, options.seed, options.sets, options.pack, options.truth, options.ledger); });
   sets->callback([&] { write_sets(options); });
+  follow_up->add_option("--set", options.set, "The set that was answered")->required();
+  follow_up->add_option("--answer", options.answer, "Folder of the answer: report.json, next.json and its specs")
+      ->required();
+  follow_up->callback([&] { write_follow_up(options); });
   exact->callback([&] { blind::write_exact_set(options.pack); });
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "bench/blind/clopper_pearson.h"
+#include "bench/blind/settle.h"
 #include "core/estimate.h"
 
 namespace fathom::blind {
@@ -40,7 +41,7 @@ Goal mean(std::string metric, std::span<const Judged> judged, const Is& counts,
   Goal goal{.metric = std::move(metric), .low = -kForever, .high = kForever, .want = want, .bar = bar};
   Mean values;
   for (const Judged& one : judged)
-    if (counts(one) && is_answered(one)) values.add(value(one));
+    if (counts(one)) values.add(value(one));
   goal.trials = static_cast<int>(values.count());
   if (goal.trials < 2) {
     goal.trials = 0;  // no interval from one
@@ -54,6 +55,7 @@ Goal mean(std::string metric, std::span<const Judged> judged, const Is& counts,
 }
 
 bool has_gap(const Judged& one) { return one.answer.noise_floor > 0.0; }
+double behind_matched_filter(const Judged& one) { return one.matched_filter() - one.answer.detects_something(); }
 
 Is of_kind(const std::string& kind, double from = 0.0, double to = kForever) {
   return [=](const Judged& one) {
@@ -148,6 +150,7 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
   const auto plain_null = [](const Judged& one) { return is_null(one) && is_plain(one); };
   const auto odd_null = [](const Judged& one) { return is_null(one) && !is_plain(one); };
   const auto strong_single = of_kind("single", kStrong);
+  const auto strong_and_answered = [=](const Judged& one) { return strong_single(one) && is_answered(one); };
   const auto strong_with_gap = [=](const Judged& one) { return strong_single(one) && has_gap(one); };
   const auto judged_at_all = [](const Judged& one) { return one.truth.book_keeping.empty(); };
   std::vector<Goal> goals{
@@ -166,7 +169,7 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
           "truth in the ambiguity set", judged, has_effects, [](const Judged& one) { return one.holds_truth(); },
           Want::at_least, 0.99),
       mean(
-          "mean size of the ambiguity set, s ≥ 8", judged, strong_single,
+          "mean size of the ambiguity set, s ≥ 8", judged, strong_and_answered,
           [](const Judged& one) { return static_cast<double>(one.answer.ambiguity_set.size()); }, Want::at_most, 1.2),
       share("twins called ambiguous", judged, of_kind("twins"), calls_twins_ambiguous, Want::at_least, 1.0),
       share("pair exact, both s ≥ 8", judged, of_kind("pair", kStrong), is_right, Want::at_least, 0.95),
@@ -189,6 +192,10 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
           [](const Judged& one) { return one.answer.after_rms / one.answer.noise_floor; }, Want::at_most, 1.05),
       coverage(judged),
       localisation(judged),
+      share("settled by what was proposed at 6 σ", judged, is_followed_up, is_settled, Want::at_least, 0.90),
+      mean(
+          "matched filter's power less detected share", judged, [](const Judged& one) { return one.is_single(); },
+          behind_matched_filter, Want::at_most, 0.10),
   };
   return goals;
 }

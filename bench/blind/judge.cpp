@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 
 namespace fathom::blind {
@@ -33,6 +34,11 @@ double Judged::strongest() const {
   double s = 0.0;
   for (const Truth& hidden : truth.effects) s = std::max(s, hidden.strength);
   return s;
+}
+
+double Judged::matched_filter() const {
+  constexpr double kFalseAlarm = 2.326;  // 1 %, one-sided
+  return 0.5 * std::erfc((kFalseAlarm - strongest()) / std::sqrt(2.0));
 }
 
 Names Judged::nameable() const {

@@ -1,6 +1,8 @@
 // One answer beside its truth.
 #pragma once
 
+#include <optional>
+
 #include "bench/blind/draw.h"
 #include "bench/blind/report_file.h"
 
@@ -9,12 +11,16 @@ namespace fathom::blind {
 struct Judged {
   SetTruth truth;
   Answer answer;
+  std::optional<Answer> followed = {};  ///< to the set and what the answer proposed to measure next, together
 
   double weakest() const;    ///< smallest s of what is hidden; 0 of nothing
   double strongest() const;  ///< largest
   /// The effects that a registry can name; empty where there are none or where they are unknown.
   Names nameable() const;
   bool is_unknown() const { return truth.kind == "unknown" && !truth.effects.empty(); }
+  bool is_single() const { return truth.kind == "single" && !truth.effects.empty(); }
+  /// Power of a filter that knows the signature of what is hidden and looks for nothing else, at 1 % false alarms.
+  double matched_filter() const;
 
   /// What it puts first or names is exactly what is hidden, or, of twins, one of them.
   bool is_right() const;

@@ -48,10 +48,42 @@ World believed(const Placement& placement) {
   // Opaque, as far as the laboratory knows: a free path of a micrometre.
   if (placement.liquid == "milk_tea")
     world.liquid = Liquid{.index = 1.336, .absorption = 3.2, .reduced_scattering = 1e6};
+  if (placement.liquid == "opaque_liquid")
+    world.liquid = Liquid{.index = 1.34, .absorption = 3.0, .reduced_scattering = 1e6};
   return world;
 }
 
 std::span<const Uncertain> uncertain_rig() { return kRig; }
+
+Json rig_json() {
+  Json sensor_sigma = Json::object(), cup_sigma = Json::object();
+  for (const Uncertain& value : uncertain_rig())
+    (value.name == "bottom_mm" ? cup_sigma : sensor_sigma)[std::string(value.name)] = value.sigma;
+  const World world = believed({});
+  return {{"sensor",
+           {{"model", "xtion_pro_live"},
+            {"height_mm", 650},
+            {"pitch_deg", std::round(1e6 * deg_from_radians(world.sensor.pitch)) / 1e6},
+            {"roll_deg", 0},
+            {"baseline_mm", 75},
+            {"focal_px", 570.342},
+            {"disparity_offset_px", 0},
+            {"sigma", sensor_sigma}}},
+          {"cup",
+           {{"shape", "paper_cup"},
+            {"height_mm", 87},
+            {"inner_radius_mm", 40},
+            {"outer_radius_mm", 43},
+            {"bottom_mm", 7},
+            {"sigma", cup_sigma}}},
+          {"liquids",
+           {{"water", "water"},
+            {"milk_tea",
+             {{"index", 1.336}, {"absorption_per_mm", 0.0032}, {"scattering_per_mm", 1000}, {"anisotropy", 0}}}}},
+          {"fill_sigma_mm", mm_from_metres(kFillSigma)},
+          {"placement_sigma_mm", mm_from_metres(kPlacementSigma)}};
+}
+
 std::span<const SessionError> session_errors() { return kSession; }
 std::span<const Uncertain> dust() { return kDust; }
 

@@ -7,6 +7,7 @@
 
 #include "bench/blind/plan.h"
 #include "bench/blind/world.h"
+#include "core/json.h"
 
 namespace fathom::blind {
 
@@ -20,6 +21,9 @@ struct Uncertain {
   void (*add)(World&, double amount);
 };
 std::span<const Uncertain> uncertain_rig();
+
+/// rig.json of all sets: what is believed, and how well.
+Json rig_json();
 
 /// How much otherwise a session sets the rig up; no file says so.
 struct SessionError {

@@ -11,8 +11,6 @@
 namespace fathom::blind {
 namespace {
 
-constexpr double kSecondsPerPour = 90.0, kSecondsPerPlacement = 20.0;
-
 const std::vector<Filling> kPaper{{"empty", 0},     {"water", 10},    {"water", 20},   {"water", 30},
                                   {"milk_tea", 10}, {"milk_tea", 20}, {"milk_tea", 30}};
 const std::vector<Filling> kOpaque{{"milk_tea", 10}, {"milk_tea", 20}, {"milk_tea", 30}};
@@ -61,16 +59,19 @@ std::vector<Placement> plan(const Design& design, std::uint64_t seed) {
       clock += kSecondsPerPour;
       const double poured = clock;
       for (const auto& [distance, lateral] : places) {
-        placements.push_back({static_cast<int>(placements.size()), session, pour, std::string(filling.liquid),
+        placements.push_back({static_cast<int>(placements.size()), session, pour, filling.liquid,
                               metres_from_mm(filling.fill_mm), metres_from_mm(distance), metres_from_mm(lateral), clock,
-                              clock - poured});
+                              clock - poured, design.trials});
         clock += kSecondsPerPlacement + design.trials * kSecondsPerTrial;
       }
       ++pour;
     }
     for (int view = session; view < design.bare_views; view += design.pours, clock += kSecondsPerPlacement)
-      placements.push_back(
-          {.number = static_cast<int>(placements.size()), .session = session, .liquid = "none", .time_s = clock});
+      placements.push_back({.number = static_cast<int>(placements.size()),
+                            .session = session,
+                            .liquid = "none",
+                            .time_s = clock,
+                            .trials = design.trials});
   }
   return placements;
 }

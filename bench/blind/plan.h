@@ -10,7 +10,7 @@
 namespace fathom::blind {
 
 struct Filling {
-  std::string_view liquid;  ///< "empty", "water", "milk_tea"
+  std::string liquid;  ///< "empty" or one that the laboratory has
   double fill_mm;
 };
 
@@ -34,11 +34,12 @@ struct Placement {
   double fill = 0.0, distance = 0.0, lateral = 0.0;  ///< [m] nominal
   double time_s = 0.0;                               ///< of the first trial, since the session began
   double since_poured_s = 0.0;
+  int trials = 1;
 
   bool has_cup() const { return liquid != "none"; }
 };
 
-inline constexpr double kSecondsPerTrial = 2.0;
+inline constexpr double kSecondsPerPour = 90.0, kSecondsPerPlacement = 20.0, kSecondsPerTrial = 2.0;
 
 /// A session holds one pour of every filling, in an order drawn anew, at all places in an order drawn anew.
 std::vector<Placement> plan(const Design& design, std::uint64_t seed);

@@ -1,6 +1,7 @@
 #include "bench/blind/report_file.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "core/json.h"
 
@@ -13,6 +14,14 @@ std::string effect_of(const std::string& name) { return name.substr(0, name.find
 Names names_of(const Json& list) {
   Names names;
   for (const Json& name : list) names.insert(effect_of(name.get<std::string>()));
+  return names;
+}
+
+/// "foam+fill_offset@water", as proposals name a set; "none" is that of nothing.
+Names names_of_set(const std::string& text) {
+  Names names;
+  std::istringstream parts(text == "none" ? "" : text);
+  for (std::string part; std::getline(parts, part, '+');) names.insert(effect_of(part));
   return names;
 }
 
@@ -49,6 +58,16 @@ void read_ambiguity(const JsonReader& report, Answer& answer) {
   }
   std::stable_sort(answer.ambiguity_set.begin(), answer.ambiguity_set.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
+}
+
+void read_next(const std::filesystem::path& file, Answer& answer) {
+  const Json json = read_json(file);
+  for (const JsonReader& item : JsonReader(json, file.string()).items()) {
+    const std::vector<JsonReader> pair = item.at("separates").items();
+    if (pair.size() != 2) item.fail_at("separates", "must name two sets of effects");
+    answer.next.push_back({item.text("measurement"), item.text_or("campaign", ""), names_of_set(pair[0].text()),
+                           names_of_set(pair[1].text()), item.number("sigma")});
+  }
 }
 
 }  // namespace
@@ -98,8 +117,7 @@ Answer read_answer(const std::filesystem::path& folder) {
     answer.after_rms = held_out.number_or("after_rms_mm", 0.0);
     answer.noise_floor = held_out.number_or("noise_floor_mm", 0.0);
   }
-  for (const JsonReader& next : report.items_or_none("next"))
-    answer.next_sigma = std::max(answer.next_sigma, next.number_or("sigma", 0.0));
+  if (std::filesystem::exists(folder / "next.json")) read_next(folder / "next.json", answer);
   return answer;
 }
 

@@ -38,9 +38,16 @@ struct Answer {
   bool gap_in_all_liquids = false;         ///< … and whether one of them is of no liquid in particular
   std::string warnings;                    ///< joined
   double before_rms = 0.0, after_rms = 0.0, noise_floor = 0.0;  ///< [mm] held out
-  double next_sigma = 0.0;                                      ///< of the best measurement that it proposes
+  struct Proposal {
+    std::string measurement;
+    std::string spec;     ///< a campaign's, beside the report; "" where it would settle nothing
+    Names first, second;  ///< explanations that it tells apart
+    double sigma;         ///< … by so much
+  };
+  std::vector<Proposal> next;  ///< what it proposes to measure, pair by pair, the likeliest first
 
   bool names_something() const { return !named.empty(); }
+  bool detects_something() const { return verdict != "none" && verdict != "missing" && verdict != "insufficient"; }
   bool finds_unknown() const { return verdict == "unknown" || verdict == "named+unknown"; }
   double probability_of(const Names& effects) const;  ///< as an explanation
   bool holds(const Names& effects) const { return probability_of(effects) > 0.0; }
@@ -48,7 +55,8 @@ struct Answer {
   double confidence() const { return ambiguity_set.empty() ? 0.0 : ambiguity_set.front().probability; }
 };
 
-/// `folder/report.json`. A folder without one is an answer with the verdict "missing".
+/// `folder/report.json`, and `next.json` where there is one. A folder without one is an answer with the verdict
+/// "missing".
 Answer read_answer(const std::filesystem::path& folder);
 
 }  // namespace fathom::blind

@@ -8,6 +8,7 @@
 #include "bench/blind/goals.h"
 #include "bench/blind/ledger.h"
 #include "bench/blind/pack.h"
+#include "bench/blind/settle.h"
 #include "bench/blind/sha256.h"
 #include "core/files.h"
 
@@ -47,8 +48,9 @@ void print(std::span<const Goal> goals) {
 std::string hash_of_reports(const fs::path& pack, const fs::path& reports, std::size_t sets) {
   std::string all;
   for (std::size_t i = 0; i < sets; ++i) {
-    const fs::path report = reports / set_folder(pack, static_cast<int>(i)).filename() / "report.json";
-    all += fs::exists(report) ? sha256(read_text(report)) : "missing";
+    const fs::path answer = reports / set_folder(pack, static_cast<int>(i)).filename();
+    all += fs::exists(answer / "report.json") ? sha256(read_text(answer / "report.json")) : "missing";
+    if (const fs::path later = answer / "followed/report.json"; fs::exists(later)) all += sha256(read_text(later));
   }
   return sha256(all);
 }
@@ -57,8 +59,11 @@ void score(const Options& options) {
   Pack pack = open_pack(options.pack, options.truth);
   if (options.first > 0 && options.first < pack.sets.size()) pack.sets.resize(options.first);
   std::vector<Judged> judged;
-  for (const SetTruth& truth : pack.sets)
-    judged.push_back({truth, read_answer(options.reports / set_folder(options.pack, truth.number).filename())});
+  for (const SetTruth& truth : pack.sets) {
+    const fs::path answer = options.reports / set_folder(options.pack, truth.number).filename();
+    judged.push_back({truth, read_answer(answer)});
+    if (fs::exists(answer / "followed")) judged.back().followed = read_answer(answer / "followed");
+  }
   if (!options.ledger.empty()) {
     if (const auto earlier = opened_at(options.ledger, pack.truth_sha256); earlier && pack.kind == "sealed")
       fmt::print("this pack was opened on {}: it is development data now\n", *earlier);
@@ -78,6 +83,7 @@ void score(const Options& options) {
   write_table(options.output / "reliability.csv", reliability_table(judged));
   write_table(options.output / "risk_coverage.csv", risk_coverage_table(judged));
   write_table(options.output / "worst.csv", worst_table(judged));
+  write_table(options.output / "follow_ups.csv", follow_up_table(judged));
   write_table(options.output / "sets.csv", sets_table(judged));
   write_json(options.output / "score.json", {{"pack", pack.name},
                                              {"kind", pack.kind},

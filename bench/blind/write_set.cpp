@@ -25,42 +25,6 @@ constexpr double kDeskNear = 0.45, kDeskFar = 1.25;  // in the whole image
 
 enum class Key : std::uint64_t { standing = 301, desk, frame, mistake };
 
-Json rig_json() {
-  Json sensor_sigma = Json::object(), cup_sigma = Json::object();
-  for (const Uncertain& value : uncertain_rig())
-    (value.name == "bottom_mm" ? cup_sigma : sensor_sigma)[std::string(value.name)] = value.sigma;
-  const World world = believed({});
-  return {{"sensor",
-           {{"model", "xtion_pro_live"},
-            {"height_mm", 650},
-            {"pitch_deg", std::round(1e6 * deg_from_radians(world.sensor.pitch)) / 1e6},
-            {"roll_deg", 0},
-            {"baseline_mm", 75},
-            {"focal_px", 570.342},
-            {"disparity_offset_px", 0},
-            {"sigma", sensor_sigma}}},
-          {"cup",
-           {{"shape", "paper_cup"},
-            {"height_mm", 87},
-            {"inner_radius_mm", 40},
-            {"outer_radius_mm", 43},
-            {"bottom_mm", 7},
-            {"sigma", cup_sigma}}},
-          {"liquids",
-           {{"water", "water"},
-            {"milk_tea",
-             {{"index", 1.336}, {"absorption_per_mm", 0.0032}, {"scattering_per_mm", 1000}, {"anisotropy", 0}}}}},
-          {"fill_sigma_mm", mm_from_metres(kFillSigma)},
-          {"placement_sigma_mm", mm_from_metres(kPlacementSigma)}};
-}
-
-/// What the laboratory wrote down of a frame, before its mistakes.
-struct Note {
-  Placement placement;
-  int trial;
-  std::vector<CloudPoint> cloud;
-};
-
 void apply_wrong_cup(World& world) {
   world.cup.height = 0.092;
   world.cup.inner_radius = 0.0365;
@@ -124,7 +88,6 @@ void write_cloud(const fs::path& path, const std::vector<CloudPoint>& points) {
 /// What a laboratory may write down wrongly: the table's rows.
 struct Mistakes {
   const SetTruth& truth;
-  const Design& design;
 
   bool in_first_session(const Placement& p) const { return p.session == 0; }
 
@@ -191,15 +154,21 @@ class FramesTable {
   Table table_;
 };
 
-int write_folder(const SetTruth& truth, bool exact, const fs::path& folder) {
+/// What goes into one folder.
+struct Measured {
+  std::vector<Placement> placements;
+  Json rig;
+};
+
+int write_folder(const SetTruth& truth, bool exact, const Measured& measured, const fs::path& folder) {
   const Design& chosen = design(truth.design);
-  const Mistakes mistakes{truth, chosen};
+  const Mistakes mistakes{truth};
   const bool heights = !chosen.clouds || exact;
   if (chosen.clouds) make_directory(folder / "clouds");
-  write_json(folder / "rig.json", rig_json());
+  write_json(folder / "rig.json", measured.rig);
   FramesTable table(heights);
   Desks desks(truth, exact);
-  for (const Placement& p : plan(chosen, truth.seed)) {
+  for (const Placement& p : measured.placements) {
     const Raster near = near_cup(p);
     World world = exact ? believed(p) : world_of(truth, p);
     std::optional<Scene> cup;
@@ -208,7 +177,7 @@ int write_folder(const SetTruth& truth, bool exact, const fs::path& folder) {
       cup = stand(world, dots_for(world.sensor, near, kNear, kFar), true, near,
                   Rng(truth.seed, Key::standing, p.number).bits());
     std::vector<CloudPoint> cloud;
-    for (int trial = 0; trial < (exact ? 1 : chosen.trials); ++trial) {
+    for (int trial = 0; trial < (exact ? 1 : p.trials); ++trial) {
       world.seconds = p.time_s + trial * kSecondsPerTrial;
       if (trial == 0 || !mistakes.is_copy(p, trial))
         cloud = shoot(world, cup ? &*cup : nullptr, shadow_of(near), desks.in_session_of(p),
@@ -225,22 +194,32 @@ int write_folder(const SetTruth& truth, bool exact, const fs::path& folder) {
 }
 
 /// The folder is filled under another name: a killed run leaves nothing that looks whole.
-int write_whole(const SetTruth& truth, bool exact, const fs::path& folder) {
+int write_whole(const SetTruth& truth, bool exact, const Measured& measured, const fs::path& folder) {
   const fs::path beside = folder.string() + ".part";
   fs::remove_all(beside);
   make_directory(beside);
-  const int frames = write_folder(truth, exact, beside);
+  const int frames = write_folder(truth, exact, measured, beside);
   fs::rename(beside, folder);
   return frames;
 }
 
+Measured first_measured(const SetTruth& truth) { return {plan(design(truth.design), truth.seed), rig_json()}; }
+
 }  // namespace
 
-int write_set(const SetTruth& truth, const fs::path& folder) { return write_whole(truth, false, folder); }
+int write_set(const SetTruth& truth, const fs::path& folder) {
+  return write_whole(truth, false, first_measured(truth), folder);
+}
+
+int write_follow_up(const SetTruth& truth, const FollowUp& wanted, const fs::path& folder) {
+  Measured measured{plan(wanted, plan(design(truth.design), truth.seed)), rig_json()};
+  measured.rig["liquids"].update(wanted.new_liquids);
+  return write_whole(truth, false, measured, folder);
+}
 
 int write_exact_set(const fs::path& folder) {
   const SetTruth nothing{.kind = "null", .design = "full"};
-  return write_whole(nothing, true, folder);
+  return write_whole(nothing, true, first_measured(nothing), folder);
 }
 
 }  // namespace fathom::blind

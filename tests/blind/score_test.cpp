@@ -6,6 +6,7 @@
 #include "bench/blind/clopper_pearson.h"
 #include "bench/blind/curves.h"
 #include "bench/blind/goals.h"
+#include "bench/blind/settle.h"
 #include "core/files.h"
 
 namespace fathom::blind {
@@ -22,10 +23,11 @@ TEST(ClopperPearson, GivesThePublishedIntervals) {
   EXPECT_EQ(clopper_pearson_95(0, 0).high, 1.0);
 }
 
-Answer answer_of(const std::string& json) {
+Answer answer_of(const std::string& json, const std::string& next = "[]") {
   const fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
   make_directory(folder);
   write_text(folder / "report.json", json);
+  write_text(folder / "next.json", next);
   const Answer answer = read_answer(folder);
   fs::remove_all(folder);
   return answer;
@@ -151,6 +153,90 @@ TEST(BlindScore, PowerStandsBesideTheMatchedFilter) {
   ASSERT_EQ(power.rows(), 1u);
   EXPECT_NEAR(power.number(0, "matched_filter"), 0.5, 1e-4);  // Φ(0)
   EXPECT_EQ(power.number(0, "detected"), 1.0);
+}
+
+TEST(BlindScore, DetectionIsHeldAgainstTheMatchedFilter) {
+  const Answer silent = answer_of(R"({"verdict": "none", "ambiguity_set": [{"effects": [], "probability": 0.9}]})");
+  const char* metric = "matched filter's power less detected share";
+  const auto behind = [&](double s, const std::vector<Answer>& answers) {
+    std::vector<Judged> judged;
+    for (const Answer& answer : answers) judged.push_back({single("refractive_index", 0.011, s), answer});
+    return goal(goals_of(judged), metric);
+  };
+  // Half of what such a filter sees at s = 2.326 may be missed; of what it always sees, nothing.
+  EXPECT_NEAR(behind(2.326, {silent, answer_of(kIndexNamed)}).value, 0.0, 1e-4);
+  EXPECT_NEAR(behind(9.0, {silent, answer_of(kIndexNamed)}).value, 0.5, 1e-6);
+  EXPECT_EQ(behind(9.0, {silent, silent}).verdict(), "missed");
+  EXPECT_NEAR(behind(9.0, {read_answer("/no/such/folder"), silent}).value, 1.0, 1e-6);
+}
+
+/// Twins of which one is hidden, and what an answer proposes to tell them apart.
+struct BlindFollowUp : testing::Test {
+  SetTruth truth = single("fill_offset", 1.0, 9.0);
+  Answer before = answer_of(R"({"verdict": "ambiguous", "ambiguity_set": [
+    {"effects": ["cup_bottom_height"], "indistinguishable": [["fill_offset"]], "probability": 0.99},
+    {"effects": ["foam"], "probability": 0.01}]})",
+                            R"([
+    {"measurement": "more milk", "separates": ["foam", "fill_offset"], "sigma": 4.0, "campaign": "next_1.json"},
+    {"measurement": "bare desk", "separates": ["foam@milk_tea", "foam"], "sigma": 7.0, "campaign": "next_2.json"},
+    {"measurement": "the empty cup", "separates": ["cup_bottom_height", "fill_offset"], "sigma": 9.0, "campaign": "next_3.json"},
+    {"measurement": "clear water", "separates": ["cup_bottom_height", "foam"], "sigma": 9.0, "campaign": "next_4.json"},
+    {"measurement": "the empty cup", "separates": ["fill_offset", "fill_offset+foam"], "sigma": 8.0, "campaign": "next_3.json"},
+    {"measurement": "the empty cup", "separates": ["none", "fill_offset@milk_tea"], "sigma": 6.0, "campaign": "next_3.json"}])");
+  BlindFollowUp() {
+    truth.kind = "twins";
+    truth.twins = {"cup_bottom_height", "fill_offset"};
+  }
+
+  /// "settled", "told apart", "open", or "" where there is nothing to judge.
+  std::string outcome(const std::string& ambiguity_set) const {
+    const Judged one{truth, before, answer_of(R"({"verdict": "ambiguous", "ambiguity_set": )" + ambiguity_set + "}")};
+    const Goal settled = goal(goals_of(std::vector{one}), "settled by what was proposed at 6 σ");
+    EXPECT_EQ(settled.hits, is_settled(one));
+    return settled.trials == 0 ? "" : is_settled(one) ? "settled" : is_told_apart(one) ? "told apart" : "open";
+  }
+};
+
+TEST_F(BlindFollowUp, IsTheFirstMeasurementThatTellsEffectsApartBySixSigma) {
+  const std::optional<Promise> promise = promise_of(before);
+  ASSERT_TRUE(promise);
+  EXPECT_EQ(promise->spec, "next_3.json");  // before it one is too weak, one of two liquids
+  ASSERT_EQ(promise->pairs.size(), 3u);
+  // Nothing excludes that foam is there as well.
+  EXPECT_EQ(rivals({truth, before}), (std::vector<Names>{{"cup_bottom_height"}, {}}));
+  Answer sure = before;
+  sure.ambiguity_set = {{.sets = {{"fill_offset"}}, .supersets = {}, .probability = 1.0}};
+  EXPECT_FALSE(promise_of(sure));
+}
+
+TEST_F(BlindFollowUp, SettlesWhenWhatIsHiddenStandsFirstWithoutItsRivals) {
+  EXPECT_EQ(outcome(R"([{"effects": ["fill_offset"], "probability": 0.9}, {"effects": ["foam"], "probability": 0.1}])"),
+            "settled");
+  EXPECT_EQ(outcome(R"([{"effects": ["foam"], "probability": 0.9}, {"effects": ["fill_offset"], "probability": 0.1}])"),
+            "told apart");
+  EXPECT_EQ(outcome(R"([{"effects": ["fill_offset"], "probability": 0.9999},
+                        {"effects": ["cup_bottom_height"], "probability": 0.0001}])"),
+            "open");
+  EXPECT_EQ(outcome(R"([{"effects": ["fill_offset"], "probability": 0.9}, {"effects": [], "probability": 0.1}])"),
+            "open");
+  EXPECT_EQ(outcome(R"([{"effects": ["foam"], "probability": 1.0}])"), "open");
+}
+
+TEST_F(BlindFollowUp, IsNotJudgedWhereWhatIsHiddenWasInNoPair) {
+  truth.effects.front().active.effect = &hidden_effect("meniscus");
+  EXPECT_EQ(outcome(R"([{"effects": ["meniscus"], "probability": 1.0}])"), "");
+  truth = SetTruth{.kind = "null", .design = "full"};  // nothing: part of all that there may be
+  EXPECT_EQ(outcome(R"([{"effects": [], "probability": 1.0}])"), "");
+  truth = single("wall_caustic", 0.5, 12.0);
+  truth.kind = "unknown";
+  EXPECT_EQ(outcome(R"([{"effects": ["unknown"], "probability": 1.0}])"), "");
+}
+
+TEST_F(BlindFollowUp, WithoutAnAnswerSettlesNothing) {
+  const Judged one{truth, before, read_answer("/no/such/folder")};
+  EXPECT_TRUE(is_followed_up(one));
+  EXPECT_FALSE(is_settled(one));
+  EXPECT_FALSE(is_followed_up({truth, before}));
 }
 
 }  // namespace
