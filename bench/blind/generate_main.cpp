@@ -18,19 +18,23 @@ namespace fs = std::filesystem;
 using namespace fathom;
 
 struct Options {
-  fs::path pack, truth, ledger;
+  fs::path pack, truth, ledger, answer;
   std::string kind = "development";
   std::uint64_t seed = 1;
   int sets = 100, first = 0, last = -1, set = 0;
-  fs::path answer;
 };
+
+void require_set(const blind::Pack& pack, int number, const char* option) {
+  if (number < 0 || number >= static_cast<int>(pack.sets.size()))
+    throw Error(option, fmt::format("must be from 0 to {}", pack.sets.size() - 1));
+}
 
 /// Sets that are there are left: a second run goes on where the first stopped.
 void write_sets(const Options& options) {
   const blind::Pack pack = blind::open_pack(options.pack, options.truth);
   const int last = options.last < 0 ? static_cast<int>(pack.sets.size()) - 1 : options.last;
-  if (options.first < 0 || last >= static_cast<int>(pack.sets.size()))
-    throw Error("--set", fmt::format("must be from 0 to {}", pack.sets.size() - 1));
+  require_set(pack, options.first, "--first");
+  require_set(pack, last, "--last");
   Progress progress("set", static_cast<std::size_t>(last - options.first + 1), false);
   for (int i = options.first; i <= last; ++i, progress.step()) {
     const fs::path folder = blind::set_folder(options.pack, i);
@@ -38,20 +42,16 @@ void write_sets(const Options& options) {
   }
 }
 
-const blind::SetTruth& set_of(const blind::Pack& pack, int number) {
-  if (number < 0 || number >= static_cast<int>(pack.sets.size()))
-    throw Error("--set", fmt::format("must be from 0 to {}", pack.sets.size() - 1));
-  return pack.sets[static_cast<std::size_t>(number)];
-}
-
 /// Nothing is written where the answer leaves nothing open that it knows how to settle.
 void write_follow_up(const Options& options) {
   const auto promise = blind::promise_of(blind::read_answer(options.answer));
   if (!promise) return;
   const blind::Pack pack = blind::open_pack(options.pack, options.truth);
+  require_set(pack, options.set, "--set");
   const fs::path folder = options.pack / "follow_ups" / blind::set_folder(options.pack, options.set).filename();
-  if (!fs::exists(folder))
-    blind::write_follow_up(set_of(pack, options.set), blind::read_follow_up(options.answer / promise->spec), folder);
+  if (fs::exists(folder)) return;
+  blind::write_follow_up(pack.sets[static_cast<std::size_t>(options.set)],
+                         blind::read_follow_up(options.answer / promise->spec), folder);
 }
 
 void define(CLI::App& app, Options& options) {
