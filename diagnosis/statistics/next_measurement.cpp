@@ -8,6 +8,7 @@
 #include <set>
 
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/leeway.h"
 #include "diagnosis/statistics/problem.h"
 
 namespace fathom {
@@ -121,26 +122,56 @@ Eigen::MatrixXd signatures(const Evidence& evidence, const std::vector<const Can
   return result;
 }
 
-/// An explanation, with what its effects change in the old observations.
+/// What comes with an explanation's effects in observations and nobody predicts: independent errors, one a column.
+Eigen::MatrixXd own_errors(const Evidence& evidence, const std::vector<const Candidate*>& effects,
+                           const Eigen::VectorXd& parameters) {
+  Eigen::MatrixXd errors(static_cast<Eigen::Index>(evidence.observations.size()), 0);
+  Eigen::Index first = 0;
+  for (const Candidate* known : effects) {
+    const double amount = std::abs(parameters[first]);
+    first += static_cast<Eigen::Index>(known->parameters.size());
+    const auto seen = std::find_if(evidence.candidates.begin(), evidence.candidates.end(),
+                                   [&](const Candidate& c) { return c.effect == known->effect; });
+    if (seen == evidence.candidates.end() || seen->leeway.columns.cols() == 0) continue;
+    const Eigen::MatrixXd& own = seen->leeway.columns;
+    errors.conservativeResize(Eigen::NoChange, errors.cols() + own.cols());
+    errors.rightCols(own.cols()) = (seen->leeway.grow ? std::sqrt(amount) : 1.0) * own;
+  }
+  return errors;
+}
+
+/// The old observations, with what they share with new ones; whitened once for all designs.
+struct Old {
+  const Evidence& evidence;
+  const Covariance& covariance;
+  Eigen::MatrixXd nuisances = covariance.whiten(covariance.nuisance);
+};
+
+/// An explanation, with what its effects change in the old observations, whitened, and the leeway that it has there.
 struct Rival {
   const Option& option;
   std::vector<const Candidate*> effects;
-  Eigen::MatrixXd old_signatures;  ///< whitened
+  Eigen::MatrixXd old_signatures;
+  Leeway old_leeway;
 
-  Rival(const Evidence& evidence, const Covariance& covariance, const Option& explanation) : option(explanation) {
-    for (const int effect : option.effects) effects.push_back(&evidence.candidates[effect]);
-    old_signatures = covariance.whiten(signatures(evidence, effects));
+  Rival(const Old& old, const Option& explanation) : option(explanation) {
+    for (const int effect : option.effects) effects.push_back(&old.evidence.candidates[effect]);
+    old_signatures = old.covariance.whiten(signatures(old.evidence, effects));
+    old_leeway = leeway_of(old.covariance.whiten(own_errors(old.evidence, effects, option.parameters)));
   }
 };
 
-/// Old and new observations, with what they share: nuisances of one name. With N of those, L Lᵀ the covariance of the
-/// old observations and C that of the new ones, the factor of both is (L, 0; N_new Wᵀ, R) with W = L⁻¹ N_old and
-/// R Rᵀ = C − N_new WᵀW N_newᵀ: what the old ones are is factored once for all designs.
+/// Old and new observations as they err where an explanation holds, with what they share: nuisances of one name. With N
+/// of those, L Lᵀ the covariance of the old observations and C that of the new ones, the factor of both is
+/// (L, 0; N_new Wᵀ, R) with W = L⁻¹ N_old and R Rᵀ = C − N_new WᵀW N_newᵀ: what the old ones are is factored once for
+/// all designs. An explanation's leeway is anew with each measurement.
 class Together {
  public:
-  Together(const Evidence& evidence, const Covariance& covariance, const Design& design) : added_(design.evidence) {
+  /// `covariance`: of the new observations, nuisances apart.
+  Together(const Old& old, const Design& design, const Eigen::MatrixXd& covariance, const Rival& holds)
+      : added_(design.evidence), leeway_(holds.old_leeway) {
     std::map<std::string, Eigen::Index> of_old;
-    for (const Nuisance& nuisance : evidence.nuisances)
+    for (const Nuisance& nuisance : old.evidence.nuisances)
       of_old.emplace(nuisance.name, static_cast<Eigen::Index>(of_old.size()));
     const Eigen::Index added = added_.numerical_sd.size();
     Eigen::MatrixXd nuisances(added, static_cast<Eigen::Index>(added_.nuisances.size()));
@@ -153,15 +184,16 @@ class Together {
       shared_old.push_back(same->second);
       shared_new.push_back(k);
     }
-    shared_old_ = covariance.whiten(covariance.nuisance(Eigen::all, shared_old));
+    shared_old_ = leeway_.whiten(old.nuisances(Eigen::all, shared_old));
     shared_new_ = nuisances(Eigen::all, shared_new);
-    factor_.compute(nuisances * nuisances.transpose() + covariance_of_new(evidence, covariance, added_) -
+    const Eigen::MatrixXd own = own_errors(added_, holds.effects, holds.option.parameters);
+    factor_.compute(nuisances * nuisances.transpose() + covariance + own * own.transpose() -
                     shared_new_ * (shared_old_.transpose() * shared_old_) * shared_new_.transpose());
   }
 
   /// Changes of old and new observations by a rival's effects; whitened.
   Eigen::MatrixXd changes(const Rival& rival) const {
-    const Eigen::MatrixXd& old = rival.old_signatures;
+    const Eigen::MatrixXd old = leeway_.whiten(rival.old_signatures);
     Eigen::MatrixXd result(old.rows() + factor_.rows(), old.cols());
     result << old,
         factor_.matrixL().solve(signatures(added_, rival.effects) - shared_new_ * (shared_old_.transpose() * old));
@@ -170,6 +202,7 @@ class Together {
 
  private:
   const Evidence& added_;
+  const Leeway& leeway_;
   Eigen::MatrixXd shared_old_;  ///< W
   Eigen::MatrixXd shared_new_;
   Eigen::LLT<Eigen::MatrixXd> factor_;  ///< R
@@ -187,13 +220,15 @@ bool includes(const Option& option, const Option& part) {
   });
 }
 
-double t_criterion(const Together& together, const Rival& first, const Rival& second) {
-  const Eigen::MatrixXd one = together.changes(first), other = together.changes(second);
-  const double first_true = left(one * first.option.parameters, other);
-  const double second_true = left(other * second.option.parameters, one);
-  if (includes(first.option, second.option)) return first_true;
-  if (includes(second.option, first.option)) return second_true;
-  return std::min(first_true, second_true);
+/// σ by which the data would speak against `rival` if `truth` held.
+double against(const Together& as_of_rival, const Rival& truth, const Rival& rival) {
+  return left(as_of_rival.changes(truth) * truth.option.parameters, as_of_rival.changes(rival));
+}
+
+double t_criterion(const Together& as_of_first, const Together& as_of_second, const Rival& first, const Rival& second) {
+  if (includes(first.option, second.option)) return against(as_of_second, first, second);
+  if (includes(second.option, first.option)) return against(as_of_first, second, first);
+  return std::min(against(as_of_second, first, second), against(as_of_first, second, first));
 }
 
 std::vector<std::string> names(const Evidence& evidence, const Option& option) {
@@ -206,24 +241,31 @@ std::vector<std::string> names(const Evidence& evidence, const Option& option) {
 
 double t_criterion(const Evidence& evidence, const Covariance& covariance, const Design& design, const Option& first,
                    const Option& second) {
-  return t_criterion(Together(evidence, covariance, design), Rival(evidence, covariance, first),
-                     Rival(evidence, covariance, second));
+  const Old old{evidence, covariance};
+  const Rival one(old, first), other(old, second);
+  const Eigen::MatrixXd added = covariance_of_new(evidence, covariance, design.evidence);
+  return t_criterion(Together(old, design, added, one), Together(old, design, added, other), one, other);
 }
 
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Covariance& covariance,
                                                const Designs& designs, const AmbiguitySet& set) {
+  const Old old{evidence, covariance};
   std::vector<Rival> rivals;
   std::set<std::string> effects;
   for (const AmbiguityClass& alike : set.classes)
     for (const Option& option : alike.options)
       if (!option.has_unknown && rivals.size() < kLikeliest) {
-        rivals.emplace_back(evidence, covariance, option);
+        rivals.emplace_back(old, option);
         for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
       }
   if (rivals.size() < 2) return {};
   const std::vector<Design> possible = designs({effects.begin(), effects.end()});
-  std::vector<Together> together;
-  for (const Design& design : possible) together.emplace_back(evidence, covariance, design);
+  std::vector<std::vector<Together>> together;  // of each design, as each rival has it
+  for (const Design& design : possible) {
+    const Eigen::MatrixXd added = covariance_of_new(evidence, covariance, design.evidence);
+    std::vector<Together>& as_of = together.emplace_back();
+    for (const Rival& rival : rivals) as_of.emplace_back(old, design, added, rival);
+  }
   std::vector<NextMeasurement> result;
   for (std::size_t i = 0; i < rivals.size(); ++i)
     for (std::size_t j = i + 1; j < rivals.size(); ++j) {
@@ -235,7 +277,7 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
       for (std::size_t d = 0; d < possible.size(); ++d)
         each.push_back({possible[d].name,
                         {names(evidence, rivals[i].option), names(evidence, rivals[j].option)},
-                        t_criterion(together[d], rivals[i], rivals[j]),
+                        t_criterion(together[d][i], together[d][j], rivals[i], rivals[j]),
                         possible[d].cost});
       const auto best =
           std::max_element(each.begin(), each.end(),

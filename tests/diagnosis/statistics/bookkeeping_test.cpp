@@ -128,7 +128,14 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   // 1 mm seen with 0.05 mm, less what the campaign leaves uncertain of the size.
   EXPECT_GT(t_criterion(evidence, covariance, gauge, is_bottom, is_coaster), 3.0);
   // A coaster that is there would be told from nothing at all.
-  EXPECT_GT(t_criterion(evidence, covariance, gauge, Option{{}, {}, false, 0.0, none}, is_coaster), 3.0);
+  const Option is_nothing{{}, {}, false, 0.0, none};
+  const double told_from_nothing = t_criterion(evidence, covariance, gauge, is_nothing, is_coaster);
+  EXPECT_GT(told_from_nothing, 3.0);
+  // What may lift the gauge by any amount where there is a coaster excuses coasters, and nothing else.
+  Design shaky = gauge;
+  shaky.evidence.candidates[0].leeway.columns = Eigen::MatrixXd::Constant(1, 1, 1e3);
+  EXPECT_NEAR(t_criterion(evidence, covariance, shaky, is_bottom, is_coaster), 0.0, 0.01);
+  EXPECT_NEAR(t_criterion(evidence, covariance, shaky, is_nothing, is_coaster), told_from_nothing, 1e-9);
 
   const AmbiguitySet set{{{.options = {is_bottom, is_coaster}, .probability = 1.0}}};
   const auto next = next_measurements(
