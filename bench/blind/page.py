@@ -16,7 +16,7 @@ def rows(file):
 def figure(goal):
     if goal["trials"] == "0":
         return "no sets"
-    if goal["metric"].startswith(("mean size", "gap closed", "held-out RMS")):
+    if goal["metric"].startswith(("mean size", "gap closed", "held-out RMS", "matched filter")):
         return f"{float(goal['value']):.2f} ({float(goal['low95']):.2f} to {float(goal['high95']):.2f}), {goal['trials']} sets"
     if goal["metric"].startswith("localisation"):
         return f"{float(goal['value']):.2f}, {goal['trials']} sets"
