@@ -190,6 +190,7 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string effect_words(const std::string& name) {
+  if (name == "unknown") return "something unknown";
   const EffectName effect = effect_name(name);
   return spaced(effect.id) + (effect.liquid.empty() ? "" : " of " + spaced(effect.liquid));
 }
