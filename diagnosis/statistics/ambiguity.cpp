@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace fathom {
@@ -11,20 +10,18 @@ namespace {
 
 constexpr double kAlike = 1.0;  // whitened distance of predictions
 
-using Kinds = std::set<int>;
-
-Kinds kinds_of(const Option& option, const std::vector<int>& kinds) {
-  Kinds result;
-  for (const int effect : option.effects) result.insert(kinds[effect]);
-  return result;
-}
-
 bool are_twins(const Option& a, const Option& b) {
   return a.has_unknown == b.has_unknown && a.effects.size() == b.effects.size() &&
          (a.prediction - b.prediction).norm() < kAlike;
 }
 
 }  // namespace
+
+std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds) {
+  std::set<int> result;
+  for (const int effect : option.effects) result.insert(kinds[effect]);
+  return result;
+}
 
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta) {
   std::stable_sort(options.begin(), options.end(),
@@ -34,23 +31,24 @@ AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& 
   double sum = 0.0;
   for (Option& option : options) {
     if (option.log_posterior <= best - delta) break;
-    const Kinds own = kinds_of(option, kinds);
+    const std::set<int> own = kinds_of(option, kinds);
     const auto belongs = [&](const auto& is_akin) {
       return std::find_if(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {
         return std::any_of(one.options.begin(), one.options.end(), is_akin);
       });
     };
-    const auto alike = belongs([&](const Option& known) {
-      return are_twins(known, option) || (known.has_unknown == option.has_unknown && kinds_of(known, kinds) == own);
-    });
+    const auto is_same = [&](const Option& known) {
+      return known.has_unknown == option.has_unknown && kinds_of(known, kinds) == own;
+    };
     const auto is_superset = [&](const Option& known) {
-      const Kinds less = kinds_of(known, kinds);
+      const std::set<int> less = kinds_of(known, kinds);
       return (known.has_unknown || !less.empty()) && option.has_unknown >= known.has_unknown &&
              std::includes(own.begin(), own.end(), less.begin(), less.end());
     };
-    const auto home = alike != set.classes.end() ? alike : belongs(is_superset);
+    auto home = belongs(is_same);
+    const bool adds = home == set.classes.end() && (home = belongs(is_superset)) != set.classes.end();
+    if (home == set.classes.end()) home = belongs([&](const Option& known) { return are_twins(known, option); });
     AmbiguityClass& one = home != set.classes.end() ? *home : set.classes.emplace_back();
-    const bool adds = alike == set.classes.end() && home != set.classes.end();
     const double weight = std::exp(option.log_posterior - best);
     sum += weight;
     one.probability += weight;

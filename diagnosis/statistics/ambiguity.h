@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <set>
 #include <vector>
 
 namespace fathom {
@@ -27,10 +28,13 @@ struct AmbiguitySet {
   std::vector<AmbiguityClass> classes;  ///< in the order of their likeliest options
 };
 
+/// Of an option's effects, whatever liquids they are of. `kinds`: of each candidate, a number that it shares with the
+/// same effect in other liquids.
+std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds);
+
 /// Options within `delta` of the best log posterior; probabilities are shared among them. Those whose predictions
 /// differ by less than one σ of all the data together are twins, of one class. Supersets of an option (other than none)
-/// that are no likelier go with it. `kinds`: of each candidate, a number that it shares with the same effect in other
-/// liquids.
+/// that are no likelier go with it.
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta);
 
 }  // namespace fathom

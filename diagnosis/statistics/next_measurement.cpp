@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/statistics/explanations.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/leeway.h"
 #include "diagnosis/statistics/problem.h"
@@ -250,14 +251,16 @@ double t_criterion(const Evidence& evidence, const Covariance& covariance, const
 std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const Covariance& covariance,
                                                const Designs& designs, const AmbiguitySet& set) {
   const Old old{evidence, covariance};
+  const std::vector<int> kinds = kinds_of_candidates(evidence);
   std::vector<Rival> rivals;
+  std::set<std::set<int>> known;  // of which liquids effects are is not asked
   std::set<std::string> effects;
   for (const AmbiguityClass& alike : set.classes)
-    for (const Option& option : alike.options)
-      if (!option.has_unknown && rivals.size() < kLikeliest) {
-        rivals.emplace_back(old, option);
-        for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
-      }
+    for (const Option& option : alike.options) {
+      if (option.has_unknown || rivals.size() == kLikeliest || !known.insert(kinds_of(option, kinds)).second) continue;
+      rivals.emplace_back(old, option);
+      for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
+    }
   if (rivals.size() < 2) return {};
   const std::vector<Design> possible = designs({effects.begin(), effects.end()});
   std::vector<std::vector<Together>> together;  // of each design, as each rival has it

@@ -270,6 +270,20 @@ TEST(Decide, DoesNotNameWhatOneNumberAloneShows) {
   EXPECT_EQ(diagnosis.ambiguity_set[0].effects, std::vector<std::string>{"of_one_number"});
 }
 
+/// An effect in two liquids, in the one nearly nothing, looks like the effect in the other beside nearly nothing else.
+TEST(AmbiguitySet, WhatAddsToAnExplanationIsNoTwinOfIt) {
+  const auto option = [](std::vector<int> effects, double log_posterior) {
+    const auto count = static_cast<Eigen::Index>(effects.size());
+    return Option{std::move(effects), Eigen::VectorXd::Zero(count), false, log_posterior,
+                  Eigen::VectorXd::Constant(1, 9.0)};
+  };
+  const AmbiguitySet set =
+      ambiguity_set({option({0}, 0.0), option({0, 1}, -1.0), option({0, 2}, -2.0)}, {0, 0, 1}, 7.0);
+  ASSERT_EQ(set.classes.size(), 1U);
+  EXPECT_EQ(set.classes[0].options.size(), 2U);
+  EXPECT_EQ(set.classes[0].supersets.size(), 1U);
+}
+
 /// Several effects may together look like something that the list lacks, the better the more they are.
 TEST(AmbiguitySet, HoldsWhatACrowdMayImitate) {
   const auto unknown_of = [](const std::vector<int>& effects, bool has_unknown) {
