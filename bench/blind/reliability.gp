@@ -6,7 +6,7 @@ set terminal pngcairo size 700,700 font 'DejaVu Sans,14'
 set output 'reliability.png'
 set grid lc rgb 0xE4E4E4 lt 1
 set border 3; set tics nomirror
-set key top left
+set key bottom right
 set xrange [0:1]; set yrange [0:1.02]
 set xlabel 'probability of what is put first'
 set ylabel 'share of which it is true, 95 % intervals'
