@@ -147,7 +147,6 @@ SetTruth draw_set(const Views& views, std::uint64_t pack_seed, int number, int s
                                         ? hide_twin(strengths, twins, rng, truth)
                                         : hide_registered(strengths, registered_in(truth.kind), rng);
   for (const Shown& effect : hidden) truth.effects.push_back({effect.active, effect.s});
-  if (truth.kind == "single" && !hidden.empty()) truth.escape = escape(strengths, hidden.front());
   truth.strength_by_liquid = strengths.by_liquid(joint_signature(strengths, hidden));
   return truth;
 }

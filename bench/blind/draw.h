@@ -29,7 +29,7 @@ struct SetTruth {
   std::string left_out{};      ///< a registered effect that the analyser's registry must lack, or ""
   std::vector<std::string>
       twins{};          ///< effects that nothing in the set can tell from the one hidden, this one among them
-  double escape = 0.0;  ///< of a single effect, and of what is unknown
+  double escape = 0.0;  ///< of what is unknown
   double noise_scale = 1.0;
   bool heavy_tails = false;
   std::map<std::string, double> strength_by_liquid{};

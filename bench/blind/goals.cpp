@@ -162,10 +162,6 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
       share("single effect first, s 5 to 8", judged, of_kind("single", 5.0, kStrong), is_right, Want::at_least, 0.95),
       share("single effect first, s ≥ 8", judged, strong_single, is_right, Want::at_least, 0.99),
       share(
-          "… that escapes all others by 5 or more", judged,
-          [](const Judged& one) { return of_kind("single", 5.0)(one) && one.truth.escape >= 5.0; }, is_right,
-          Want::at_least, 0.95),
-      share(
           "truth in the ambiguity set", judged, has_effects, [](const Judged& one) { return one.holds_truth(); },
           Want::at_least, 0.99),
       mean(

@@ -20,6 +20,8 @@ namespace fathom {
 
 namespace {
 
+constexpr double kLikelyUnknown = 0.25;
+
 /// Of the likeliest option that has these effects, with something unknown or without.
 double log_posterior_with(const std::vector<Option>& options, const std::vector<int>& effects) {
   double best = -INFINITY;
@@ -35,6 +37,20 @@ double log_posterior_of_unknown_alone(const std::vector<Option>& options) {
   return -INFINITY;
 }
 
+double probability_of_unknown(const AmbiguitySet& set) {
+  for (const AmbiguityClass& one : set.classes)
+    if (one.options.front().effects.empty() && one.options.front().has_unknown) return one.probability;
+  return 0.0;
+}
+
+/// Whether the likeliest explanation is what passed all tests, with nothing unknown beside it.
+bool is_tested(const Weighed& weighed) {
+  const auto best =
+      std::max_element(weighed.options.begin(), weighed.options.end(),
+                       [](const Option& a, const Option& b) { return a.log_posterior < b.log_posterior; });
+  return weighed.choice && !best->has_unknown && best->effects == weighed.choice->fit.hypothesis.effects;
+}
+
 /// Of what passed all tests. `set` holds, beside the options, what they may imitate.
 Verdict verdict_of_named(const Case& c, const Weighed& weighed, const AmbiguitySet& set) {
   const std::vector<int>& effects = weighed.choice->fit.hypothesis.effects;
@@ -43,8 +59,8 @@ Verdict verdict_of_named(const Case& c, const Weighed& weighed, const AmbiguityS
                          log_posterior_of_unknown_alone(weighed.options) + std::log(kSureOdds);
     return is_sure ? Verdict::named_and_unknown : Verdict::unknown;
   }
-  const bool is_imitation = set.classes.front().options.front().has_unknown;
   const AmbiguitySet listed = ambiguity_set(weighed.options, kinds_of_candidates(c.evidence), c.settings.delta);
+  const bool is_imitation = probability_of_unknown(set) > kLikelyUnknown;
   return all_name(c.evidence, effects, listed) && !is_imitation ? Verdict::named : Verdict::ambiguous;
 }
 
@@ -92,7 +108,8 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   const Case c = case_of(evidence, predict, settings);
   describe_evidence(c, diagnosis);
   Weighed weighed = weigh(c);
-  const AmbiguitySet set = ambiguity_set(with_imitated(weighed.options), kinds_of_candidates(evidence), settings.delta);
+  const AmbiguitySet set =
+      ambiguity_set(with_imitated(weighed.options, is_tested(weighed)), kinds_of_candidates(evidence), settings.delta);
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.verdict = weighed.choice ? verdict_of_named(c, weighed, set) : verdict_of_unnamed(c, weighed.is_rest, set);
   describe_rest(c, weighed, diagnosis);

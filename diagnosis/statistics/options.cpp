@@ -149,8 +149,8 @@ std::vector<Option> options_of(const Case& c, const std::vector<Hypothesis>& hyp
   return options;
 }
 
-std::vector<Option> with_imitated(std::vector<Option> options) {
-  constexpr double kByOne = 1.0 / 48.0, kByEachMore = 8.0;
+std::vector<Option> with_imitated(std::vector<Option> options, bool is_tested) {
+  constexpr double kByOne = 1.0 / 48.0, kByEachMore = 8.0, kBehindTested = 0.75;
   const Option& best = *std::max_element(options.begin(), options.end(), [](const Option& a, const Option& b) {
     return a.log_posterior < b.log_posterior;
   });
@@ -158,6 +158,8 @@ std::vector<Option> with_imitated(std::vector<Option> options) {
   if (count == 0 || (count == 1 && !best.has_unknown)) return options;
   Option imitated{{}, {}, true, best.log_posterior + (count - 1) * std::log(kByEachMore), best.prediction};
   if (!best.has_unknown) imitated.log_posterior += std::log(kByOne);
+  if (is_tested)
+    imitated.log_posterior = std::min(imitated.log_posterior, best.log_posterior + std::log(kBehindTested));
   imitated.prediction.setZero();
   const auto known =
       std::find_if(options.begin(), options.end(), [](const Option& o) { return o.effects.empty() && o.has_unknown; });

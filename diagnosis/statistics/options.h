@@ -20,7 +20,8 @@ std::vector<Option> options_of(const Case& c, const std::vector<Hypothesis>& hyp
 
 /// The same beside what no list holds: several effects together may imitate it, the better the more they are. Of
 /// what bench/blind hides, what the list lacks looks like some two effects a sixth as often as two are hidden, and
-/// with each more eight times as often; effects beside something unknown are always open to be a part of it.
-std::vector<Option> with_imitated(std::vector<Option> options);
+/// with each more eight times as often; effects beside something unknown are always open to be a part of it. What
+/// `is_tested`, the likeliest, and passed stays before it.
+std::vector<Option> with_imitated(std::vector<Option> options, bool is_tested);
 
 }  // namespace fathom

@@ -286,10 +286,10 @@ TEST(AmbiguitySet, WhatAddsToAnExplanationIsNoTwinOfIt) {
 
 /// Several effects may together look like something that the list lacks, the better the more they are.
 TEST(AmbiguitySet, HoldsWhatACrowdMayImitate) {
-  const auto unknown_of = [](const std::vector<int>& effects, bool has_unknown) {
+  const auto unknown_of = [](const std::vector<int>& effects, bool has_unknown, bool is_tested = false) {
     const Eigen::VectorXd parameters = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(effects.size()));
     const Option option{effects, parameters, has_unknown, 30.0, Eigen::VectorXd::Constant(1, 9.0)};
-    for (const AmbiguityClass& one : ambiguity_set(with_imitated({option}), {0, 1, 2, 3}, 7.0).classes)
+    for (const AmbiguityClass& one : ambiguity_set(with_imitated({option}, is_tested), {0, 1, 2, 3}, 7.0).classes)
       if (one.options.front().has_unknown && one.options.front().effects.empty()) return one.probability;
     return 0.0;
   };
@@ -297,6 +297,7 @@ TEST(AmbiguitySet, HoldsWhatACrowdMayImitate) {
   EXPECT_EQ(unknown_of({1}, false), 0.0);
   EXPECT_NEAR(unknown_of({1, 2}, false), 1.0 / 7.0, 1e-9);
   EXPECT_NEAR(unknown_of({1, 2, 3}, false), 4.0 / 7.0, 1e-9);
+  EXPECT_NEAR(unknown_of({1, 2, 3}, false, true), 3.0 / 7.0, 1e-9) << "what passed all tests stays before it";
   EXPECT_EQ(unknown_of({1, 2}, true), 1.0) << "of which these may be a part";
 }
 
