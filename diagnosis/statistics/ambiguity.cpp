@@ -17,6 +17,11 @@ bool are_twins(const Option& a, const Option& b) {
 
 }  // namespace
 
+const Option& likeliest(const std::vector<Option>& options) {
+  return *std::max_element(options.begin(), options.end(),
+                           [](const Option& a, const Option& b) { return a.log_posterior < b.log_posterior; });
+}
+
 std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds) {
   std::set<int> result;
   for (const int effect : option.effects) result.insert(kinds[effect]);

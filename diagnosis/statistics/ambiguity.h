@@ -14,7 +14,12 @@ struct Option {
   bool has_unknown = false;
   double log_posterior = 0.0;
   Eigen::VectorXd prediction;  ///< change against the nominal model, whitened; of the effects
+
+  bool is_unknown_alone() const { return effects.empty() && has_unknown; }
 };
+
+/// The first of the highest log posterior; there must be one.
+const Option& likeliest(const std::vector<Option>& options);
 
 /// Explanations that cannot be told apart, or that name the same effects in other liquids.
 struct AmbiguityClass {

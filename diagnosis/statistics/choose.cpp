@@ -87,8 +87,7 @@ bool adds_enough(const Case& c, const Refit& more, const Refit& fit) {
 /// Whether every option that is not excluded has this effect, in whatever liquid.
 bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
   const auto id_of = [&](int candidate) { return effect_name(c.evidence.candidates[candidate].effect).id; };
-  double best = -INFINITY;
-  for (const Option& o : options) best = std::max(best, o.log_posterior);
+  const double best = likeliest(options).log_posterior;
   return std::all_of(options.begin(), options.end(), [&](const Option& o) {
     return o.log_posterior < best - c.settings.delta ||
            std::any_of(o.effects.begin(), o.effects.end(), [&](int one) { return id_of(one) == id_of(effect); });

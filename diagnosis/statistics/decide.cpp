@@ -33,22 +33,14 @@ double log_posterior_with(const std::vector<Option>& options, const std::vector<
 
 double log_posterior_of_unknown_alone(const std::vector<Option>& options) {
   for (const Option& o : options)
-    if (o.effects.empty() && o.has_unknown) return o.log_posterior;
+    if (o.is_unknown_alone()) return o.log_posterior;
   return -INFINITY;
-}
-
-double probability_of_unknown(const AmbiguitySet& set) {
-  for (const AmbiguityClass& one : set.classes)
-    if (one.options.front().effects.empty() && one.options.front().has_unknown) return one.probability;
-  return 0.0;
 }
 
 /// Whether the likeliest explanation is what passed all tests, with nothing unknown beside it.
 bool is_tested(const Weighed& weighed) {
-  const auto best =
-      std::max_element(weighed.options.begin(), weighed.options.end(),
-                       [](const Option& a, const Option& b) { return a.log_posterior < b.log_posterior; });
-  return weighed.choice && !best->has_unknown && best->effects == weighed.choice->fit.hypothesis.effects;
+  const Option& best = likeliest(weighed.options);
+  return weighed.choice && !best.has_unknown && best.effects == weighed.choice->fit.hypothesis.effects;
 }
 
 /// Of what passed all tests. `set` holds, beside the options, what they may imitate.

@@ -23,6 +23,15 @@ std::set<std::string> ids(const Evidence& evidence, const Option& option) {
   return result;
 }
 
+/// Of the first class in which some option is such.
+template <class Is>
+double probability_where(const AmbiguitySet& set, const Is& is) {
+  const auto found = std::find_if(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {
+    return std::any_of(one.options.begin(), one.options.end(), is);
+  });
+  return found != set.classes.end() ? found->probability : 0.0;
+}
+
 }  // namespace
 
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
@@ -54,11 +63,11 @@ std::vector<int> kinds_of_candidates(const Evidence& evidence) {
 }
 
 double probability_of_nothing(const AmbiguitySet& set) {
-  for (const AmbiguityClass& one : set.classes)
-    if (std::any_of(one.options.begin(), one.options.end(),
-                    [](const Option& o) { return o.effects.empty() && !o.has_unknown; }))
-      return one.probability;
-  return 0.0;
+  return probability_where(set, [](const Option& o) { return o.effects.empty() && !o.has_unknown; });
+}
+
+double probability_of_unknown(const AmbiguitySet& set) {
+  return probability_where(set, [](const Option& o) { return o.is_unknown_alone(); });
 }
 
 }  // namespace fathom

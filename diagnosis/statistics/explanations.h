@@ -21,4 +21,7 @@ bool all_name(const Evidence& evidence, const std::vector<int>& effects, const A
 /// Probability of the class with the model as it is; 0 if none has it.
 double probability_of_nothing(const AmbiguitySet& set);
 
+/// The same of the class with something unknown and no effects.
+double probability_of_unknown(const AmbiguitySet& set);
+
 }  // namespace fathom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "diagnosis/statistics/screen.h"
@@ -151,9 +152,7 @@ std::vector<Option> options_of(const Case& c, const std::vector<Hypothesis>& hyp
 
 std::vector<Option> with_imitated(std::vector<Option> options, bool is_tested) {
   constexpr double kByOne = 1.0 / 48.0, kByEachMore = 8.0, kBehindTested = 0.75;
-  const Option& best = *std::max_element(options.begin(), options.end(), [](const Option& a, const Option& b) {
-    return a.log_posterior < b.log_posterior;
-  });
+  const Option& best = likeliest(options);
   const auto count = static_cast<int>(best.effects.size());
   if (count == 0 || (count == 1 && !best.has_unknown)) return options;
   Option imitated{{}, {}, true, best.log_posterior + (count - 1) * std::log(kByEachMore), best.prediction};
@@ -161,8 +160,7 @@ std::vector<Option> with_imitated(std::vector<Option> options, bool is_tested) {
   if (is_tested)
     imitated.log_posterior = std::min(imitated.log_posterior, best.log_posterior + std::log(kBehindTested));
   imitated.prediction.setZero();
-  const auto known =
-      std::find_if(options.begin(), options.end(), [](const Option& o) { return o.effects.empty() && o.has_unknown; });
+  const auto known = std::find_if(options.begin(), options.end(), std::mem_fn(&Option::is_unknown_alone));
   if (known == options.end())
     options.push_back(std::move(imitated));
   else
