@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "diagnosis/measurement/frame_estimates.h"
+#include "diagnosis/measurement/variance_excess.h"
 
 namespace fathom {
 namespace {
@@ -76,13 +77,9 @@ std::map<int, Placements> scatter_by_session(const std::vector<Observation>& obs
   return in_time;
 }
 
-/// A variance beyond what is known to make one.
-struct Excess {
-  double value, error;  ///< error: 1 σ, of the mean over placements
-};
-
+/// Of the mean over placements.
 template <class Of>
-Excess mean_excess(std::span<const Scatter> placements, const Of& of) {
+VarianceExcess mean_excess(std::span<const Scatter> placements, const Of& of) {
   const auto n = static_cast<double>(placements.size());
   double sum = 0.0, squares = 0.0;
   for (const Scatter& scatter : placements) sum += of(scatter);
@@ -90,33 +87,21 @@ Excess mean_excess(std::span<const Scatter> placements, const Of& of) {
   return {sum / n, std::sqrt(squares / (n * (n - 1.0)))};
 }
 
-/// The root of a variance; as significant as that is, and never less uncertain than the root of its error.
-Observation root_of(const Excess& excess, const char* observable, int session, std::size_t repeats) {
-  Observation root;
-  root.observable = observable;
-  root.factors.session = session;
-  root.factors.liquid = "none";
-  root.factors.region = "desk";
-  root.value = std::copysign(std::sqrt(std::abs(excess.value)), excess.value);
-  root.repeats = static_cast<int>(repeats);
-  const double error = std::min(std::sqrt(excess.error), excess.error / std::max(std::abs(root.value), 1e-12));
-  root.repeat_sd = error * std::sqrt(static_cast<double>(repeats));
-  return root;
-}
-
 void add_motion(int session, std::span<const Scatter> placements, const LaboratoryRig& rig,
                 std::vector<Observation>& result) {
   constexpr double kSteps_px = 0.005;  // a row of a level desk lies in one step of 1/8 px, and some rows make a band
   constexpr double kTogether = 4.0;    // bands of one crest
-  Excess waves = mean_excess(placements, [](const Scatter& s) { return s.rows - s.columns; });
-  const Excess noise = mean_excess(placements, [](const Scatter& s) { return s.columns; });
+  VarianceExcess waves = mean_excess(placements, [](const Scatter& s) { return s.rows - s.columns; });
+  const VarianceExcess noise = mean_excess(placements, [](const Scatter& s) { return s.columns; });
   waves.error = std::hypot(waves.error, kUnexplained * noise.value, kSteps_px * kSteps_px);
   const auto local = [ratio = height_over_residual(rig)](const Scatter& s) { return ratio * s.residuals / s.thirds; };
-  Excess wander = mean_excess(placements, [&](const Scatter& s) { return s.height - local(s); });
+  VarianceExcess wander = mean_excess(placements, [&](const Scatter& s) { return s.height - local(s); });
   const double of_waves = kTogether * height_over_rows(rig) * std::max(waves.value, 0.0);
   wander.error = std::hypot(wander.error, kUnexplained * mean_excess(placements, local).value, of_waves);
-  result.push_back(root_of(wander, "desk_wander_mm", session, placements.size()));
-  result.push_back(root_of(waves, "desk_waves_px", session, placements.size()));
+  const Factors factors{.session = session, .liquid = "none", .region = "desk"};
+  const auto count = static_cast<int>(placements.size());
+  result.push_back(root_of(wander, "desk_wander_mm", factors, count));
+  result.push_back(root_of(waves, "desk_waves_px", factors, count));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ enum class SharedBy {
   place_region,
   liquid,
   liquid_region,
+  filling,
   condition,
   condition_region,
   placement_region
@@ -53,7 +54,8 @@ constexpr std::array kModelErrors{
     ModelError{"log_brightness", 0.50, SharedBy::liquid},    // what scatters has an albedo of its own
     ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
     ModelError{"log_brightness", 0.05, SharedBy::condition},
-    ModelError{"desk_wander_mm", 0.02, SharedBy::all},     // noise reaches across the thirds' borders
+    ModelError{"desk_wander_mm", 0.02, SharedBy::all},  // noise reaches across the thirds' borders
+    ModelError{"liquid_motion_mm", 0.05, SharedBy::all},
     ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
     ModelError{"comb_quarter", 0.05, SharedBy::session},   // what teeth a desk's own codes have
     ModelError{"comb_half", 0.05, SharedBy::session},
@@ -67,15 +69,16 @@ struct EffectError {
 };
 /// Foam has holes where nothing is seen. Of a window of 11 mm, 0.7 m away, cells of 6 mm that lack a tenth shift the
 /// middle of its light by half a pixel; across it heights differ by 0.7 mm a pixel. A region holds few such windows.
-/// Waves tilt a region's surface in each shot otherwise. Whole frames of water 20 mm and 40 mm deep in waves of a mean
-/// square slope of 0.005, a typical departure, are off their mean by 0.15 to 0.3 mm and 0.4 to 1.3 mm; a matcher that
-/// loses smeared dots makes the deeper ones a sixth darker than direct light has them.
+/// Waves are of any length, and move a region by as much as that has it; a matcher that loses smeared dots makes
+/// the deeper bottoms of whole frames darker than direct light has them. How far each shot is off its mean
+/// is in the scatter of heights.
 constexpr std::array kEffectErrors{
     EffectError{"foam", {"height_mm", 0.3, SharedBy::liquid_region}},     // the same holes at each pour, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::place_region}},      // … seen from elsewhere, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::condition_region}},  // … by other dots
-    EffectError{"ripples", {"height_mm", 0.3, SharedBy::placement_region}, true},
-    EffectError{"ripples", {"log_brightness", 0.15, SharedBy::condition}, true}};
+    EffectError{"foam", {"liquid_motion_mm", 0.3, SharedBy::liquid}},
+    EffectError{"ripples", {"log_brightness", 0.08, SharedBy::filling}, true},
+    EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, true}};
 
 std::string shared_key(const Observation& observation, SharedBy shared_by) {
   const Factors& f = observation.factors;
@@ -96,6 +99,8 @@ std::string shared_key(const Observation& observation, SharedBy shared_by) {
       return f.liquid;
     case SharedBy::liquid_region:
       return f.region + " of " + f.liquid;
+    case SharedBy::filling:
+      return fmt::format("{}, {:g} mm", f.liquid, f.fill_mm);
     case SharedBy::condition:
       return condition;
     case SharedBy::condition_region:
@@ -107,7 +112,9 @@ std::string shared_key(const Observation& observation, SharedBy shared_by) {
 }
 
 /// Told from how trials scatter, not from rays.
-bool is_motion(std::string_view observable) { return observable == "desk_wander_mm" || observable == "desk_waves_px"; }
+bool is_motion(std::string_view observable) {
+  return observable == "desk_wander_mm" || observable == "desk_waves_px" || observable == "liquid_motion_mm";
+}
 
 Groups groups_of(const ModelError& error, const std::vector<Observation>& observations) {
   return group_by(observations, [&](const Observation& o) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "diagnosis/predict/candidates.h"
+#include "diagnosis/predict/liquid_motion.h"
 #include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/predictable.h"
@@ -46,6 +47,11 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   for (std::size_t row = 0; row < kept.size(); ++row)
     if (kept[row]) evidence.observations.push_back(observations[row]);
   predictor->keep(kept);
+  for (Observation& motion :
+       liquid_motion(evidence.observations, see_through(*predictor, "", evidence.observations.size()))) {
+    predictor->add(motion);
+    evidence.observations.push_back(std::move(motion));
+  }
   evidence.predicted = predictor->predict({});
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);

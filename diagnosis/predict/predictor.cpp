@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
-#include "diagnosis/measurement/named_values.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
@@ -20,11 +19,15 @@ namespace {
 
 using ConditionKey = std::tuple<int, int, int, std::string, double, double, double>;
 
+ConditionKey key_of(const Factors& f) {
+  return {f.session, f.pour, f.placement, f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm};
+}
+
 std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector<Observation>& observations) {
   std::map<ConditionKey, Condition> found;
   for (std::size_t row = 0; row < observations.size(); ++row) {
     const Factors& f = observations[row].factors;
-    Condition& condition = found[{f.session, f.pour, f.placement, f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm}];
+    Condition& condition = found[key_of(f)];
     condition.factors = f;
     condition.rows.push_back(row);
   }
@@ -127,6 +130,15 @@ std::vector<bool> Predictor::near_shadows() const {
   return shadowed;
 }
 
+void Predictor::add(const Observation& observation) {
+  const auto known = std::find_if(conditions_.begin(), conditions_.end(), [&](const Condition& condition) {
+    return key_of(condition.factors) == key_of(observation.factors);
+  });
+  known->rows.push_back(observables_.size());
+  observables_.push_back(observation.observable);
+  regions_.push_back(observation.factors.region);
+}
+
 void Predictor::keep(const std::vector<bool>& kept) {
   std::vector<std::size_t> new_row(kept.size());
   std::size_t count = 0;
@@ -148,34 +160,23 @@ void Predictor::keep(const std::vector<bool>& kept) {
 
 std::optional<Predictor::Foreseen> Predictor::foresee(const Look& look, const Condition& condition,
                                                       const Change& change) const {
-  const Setup shot = setup(condition, change);
+  Setup shot = setup(condition, change);
   auto estimates = look(shot, condition);
   if (!estimates) return std::nullopt;
-  const double wander = wander_mm(shot.rig.sensor, estimates->desk);
-  return Foreseen{std::move(*estimates), wander};
+  std::vector<NamedValue> named = named_values(*estimates);
+  return Foreseen{std::move(shot), std::move(*estimates), std::move(named)};
 }
 
-void Predictor::set_rows(const Condition& condition, const std::optional<Foreseen>& foreseen,
-                         Eigen::VectorXd& values) const {
-  for (const std::size_t row : condition.rows) values[row] = std::numeric_limits<double>::quiet_NaN();
-  if (!foreseen) return;
-  const std::vector<NamedValue> named = named_values(foreseen->estimates);
-  for (const std::size_t row : condition.rows) {
-    if (observables_[row] == "height_mm" && regions_[row] == kWholeInterior) {
-      values[row] = interior_height_mm(foreseen->estimates);
-      continue;
-    }
-    if (observables_[row] == "desk_wander_mm") {
-      values[row] = foreseen->wander_mm;
-      continue;
-    }
-    if (observables_[row] == "desk_waves_px") {
-      values[row] = 0.0;
-      continue;
-    }
-    for (const NamedValue& value : named)
-      if (value.observable == observables_[row] && value.region == regions_[row]) values[row] = value.value;
-  }
+double Predictor::value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const {
+  const std::string& observable = observables_[row];
+  if (observable == "desk_wander_mm") return wander_mm(foreseen.shot.rig.sensor, foreseen.estimates.desk);
+  if (observable == "desk_waves_px") return 0.0;
+  if (observable == "liquid_motion_mm")
+    return scatter_by_waves_mm(foreseen.shot, model_.laboratory, place_of(condition.factors).value(), condition.pixels);
+  if (observable == "height_mm" && regions_[row] == kWholeInterior) return interior_height_mm(foreseen.estimates);
+  for (const NamedValue& value : foreseen.named)
+    if (value.observable == observable && value.region == regions_[row]) return value.value;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<std::vector<std::size_t>> Predictor::alike(const Change& change,
@@ -191,7 +192,9 @@ std::vector<std::vector<std::size_t>> Predictor::alike(const Change& change,
 void Predictor::predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
                               Eigen::VectorXd& values) const {
   const std::optional<Foreseen> foreseen = foresee(look, conditions_[conditions.front()], change);
-  for (const std::size_t i : conditions) set_rows(conditions_[i], foreseen, values);
+  for (const std::size_t i : conditions)
+    for (const std::size_t row : conditions_[i].rows)
+      values[row] = foreseen ? value_of(row, conditions_[i], *foreseen) : std::numeric_limits<double>::quiet_NaN();
 }
 
 Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {

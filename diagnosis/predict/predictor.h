@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/nominal_model.h"
 #include "diagnosis/predict/surrogate.h"
@@ -52,6 +53,9 @@ class Predictor {
   /// Whether each observation is of a region of the cup that the model puts into shadow, or near one.
   std::vector<bool> near_shadows() const;
 
+  /// One more observation, of a condition that it knows.
+  void add(const Observation& observation);
+
   /// Forgets the other observations, and conditions of which none is left.
   void keep(const std::vector<bool>& kept);
 
@@ -60,14 +64,15 @@ class Predictor {
 
  private:
   struct Foreseen {
+    Setup shot;
     FrameEstimates estimates;
-    double wander_mm;  ///< of the desk between frames, 1 σ
+    std::vector<NamedValue> named;  ///< of the estimates
   };
 
   void look_at_nominal();
   std::vector<std::size_t> all_conditions() const;
   std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;
-  void set_rows(const Condition& condition, const std::optional<Foreseen>& foreseen, Eigen::VectorXd& values) const;
+  double value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const;
   /// Rows of conditions that are alike.
   void predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
                      Eigen::VectorXd& values) const;

@@ -1,10 +1,13 @@
 #include "diagnosis/predict/surrogate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 
+#include "core/estimate.h"
+#include "core/units.h"
 #include "diagnosis/predict/cup_walls.h"
 #include "theory/raised_bottom.h"
 
@@ -70,6 +73,11 @@ std::vector<SensedPoint> points_at(const DeviceReader& read, const std::vector<E
   return points;
 }
 
+SurrogateView view_of(const Setup& setup) {
+  return {DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0, setup.processing.bisector,
+          cup_optics(setup)};
+}
+
 std::vector<SensedPoint> desk_points(const SurrogateView& view, const SampledPixels& pixels) {
   const Eigen::Vector3d camera = view.reader.rig().camera_in_world(),
                         projector = view.reader.rig().projector_in_world();
@@ -84,6 +92,8 @@ std::vector<SensedPoint> desk_points(const SurrogateView& view, const SampledPix
     return SeenLight{way / distance, view.desk_albedo * -way.z() / (distance * distance * distance)};
   });
 }
+
+bool is_clear(const CupOptics& cup) { return cup.layers.empty() || !cup.layers.back().opaque; }
 
 /// The same cup at moments that stand for all: nobody knows where waves are in a shot, nor whence they come. Three
 /// phases leave of the first two orders of their slope its mean square alone; two directions across each other, 22.5°
@@ -120,19 +130,21 @@ std::optional<SeenLight> mean_light(const SurrogateView& view, std::span<const C
   return SeenLight{sum.projector_direction.normalized(), sum.reflected / seen};
 }
 
+std::vector<SensedPoint> points_through(const SurrogateView& view, std::span<const CupOptics> moments,
+                                        const SampledPixels& pixels, double weight) {
+  return points_at(view.reader, pixels.cup, weight, [&](const Ray& sight) { return mean_light(view, moments, sight); });
+}
+
 /// Through waves each point is the mean over all moments: a matcher's window spans most of a wave, so that no height
 /// that it reads is as far off as the steepest part has it, beyond what counts as the cup's. On an opaque liquid each
 /// moment has its points: none is far off, and their spread is the waves'.
 std::vector<SensedPoint> inside_points(const SurrogateView& view, const SampledPixels& pixels) {
-  const std::vector<LiquidLayer>& layers = view.cup->layers;
   const std::vector<CupOptics> moments = moments_of(*view.cup);
-  const std::size_t together = !layers.empty() && layers.back().opaque ? 1 : moments.size();
+  const std::size_t together = is_clear(*view.cup) ? moments.size() : 1;
   const double weight = pixels.cup_weight * static_cast<double>(together) / static_cast<double>(moments.size());
   std::vector<SensedPoint> points;
   for (std::size_t first = 0; first < moments.size(); first += together) {
-    const std::span<const CupOptics> some = std::span(moments).subspan(first, together);
-    const auto seen =
-        points_at(view.reader, pixels.cup, weight, [&](const Ray& sight) { return mean_light(view, some, sight); });
+    const auto seen = points_through(view, std::span(moments).subspan(first, together), pixels, weight);
     points.insert(points.end(), seen.begin(), seen.end());
   }
   return points;
@@ -246,15 +258,35 @@ std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const Lab
   return dark;
 }
 
+double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& place,
+                           const SampledPixels& pixels) {
+  constexpr double kFewestPixels = 60.0;
+  const SurrogateView view = view_of(setup);
+  if (!view.cup || !is_clear(*view.cup)) return 0.0;
+  const std::vector<CupOptics> moments = moments_of(*view.cup);
+  if (moments.size() == 1) return 0.0;
+  const std::vector<SensedPoint> desk = desk_points(view, pixels);
+  std::array<Mean, 5> heights;
+  for (const CupOptics& moment : moments) {
+    std::vector<SensedPoint> points = points_through(view, std::span(&moment, 1), pixels, pixels.cup_weight);
+    points.insert(points.end(), desk.begin(), desk.end());
+    const auto estimates = estimate_frame(points, rig, {place, pixels.soft_m});
+    for (std::size_t region = 0; estimates && region < heights.size(); ++region)
+      if (estimates->height[region].weight >= kFewestPixels) heights[region].add(estimates->height[region].mean);
+  }
+  double variance = 0.0, regions = 0.0;
+  for (const Mean& height : heights) {
+    if (height.count() < moments.size()) continue;  // phases make a variance only together
+    variance += static_cast<double>(height.count() - 1) * std::pow(height.estimate().standard_error, 2);
+    ++regions;
+  }
+  return regions > 0.0 ? mm_from_metres(std::sqrt(variance / regions)) : 0.0;
+}
+
 SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
                                const std::optional<Eigen::Vector2d>& place, const SampledPixels& pixels,
                                const SurrogateFrame* known) {
-  SurrogateFrame frame{{DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0,
-                        setup.processing.bisector, cup_optics(setup)},
-                       {},
-                       {},
-                       {},
-                       {}};
+  SurrogateFrame frame{view_of(setup), {}, {}, {}, {}};
   const SurrogateView& view = frame.view;
   const bool same_desk = known && desk_looks_alike(view, known->view);
   const bool same_inside = same_desk && inside_looks_alike(view, known->view);

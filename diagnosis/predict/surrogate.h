@@ -39,6 +39,10 @@ struct SurrogateFrame {
 SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup,
                                const SampledPixels& pixels, const SurrogateFrame* known = nullptr);
 
+/// By how much waves on a clear liquid let the height of a region differ between shots, 1 σ; 0 without waves.
+double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& cup,
+                           const SampledPixels& pixels);
+
 /// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
 /// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.
 std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,

@@ -10,9 +10,10 @@ namespace {
 
 constexpr double kAlike = 1.0;  // whitened distance of predictions
 
+/// Effects too small to be seen are a twin of none.
 bool are_twins(const Option& a, const Option& b) {
-  return a.has_unknown == b.has_unknown && a.effects.size() == b.effects.size() &&
-         (a.prediction - b.prediction).norm() < kAlike;
+  const bool are_as_many = a.effects.size() == b.effects.size() || a.effects.empty() || b.effects.empty();
+  return are_as_many && a.has_unknown == b.has_unknown && (a.prediction - b.prediction).norm() < kAlike;
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ struct AmbiguitySet {
 std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds);
 
 /// Options within `delta` of the best log posterior; probabilities are shared among them. Those whose predictions
-/// differ by less than one σ of all the data together are twins, of one class. Supersets of an option (other than none)
-/// that are no likelier go with it.
+/// differ by less than one σ of all the data together are twins, of one class: as many effects, or none. Supersets of
+/// an option (other than none) that are no likelier go with it.
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta);
 
 }  // namespace fathom

@@ -16,7 +16,6 @@ constexpr int kKept = 60;                // sets of each size that are considere
 constexpr double kHopeless = 12.0;       // … unless that far below the best in linear log evidence, …
 constexpr std::size_t kRefitted = 8;     // … and refitted, likeliest first
 constexpr std::size_t kWithUnknown = 5;  // likeliest sets that are also considered beside something unknown
-const double kLogPriorUnknown = std::log(0.1);
 
 /// Effects with leeway of which a refit left nothing: by their signatures alone they pass for what their leeway is.
 std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits) {

@@ -1,12 +1,16 @@
 // The explanations that are weighed against each other, each with its log posterior.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/case.h"
 
 namespace fathom {
+
+/// That something is there which no list holds.
+inline const double kLogPriorUnknown = std::log(0.1);
 
 /// Sets of effects by their signatures alone, likeliest first.
 std::vector<Hypothesis> screened(const Case& c);

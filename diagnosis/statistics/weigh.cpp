@@ -17,6 +17,15 @@ double log_bayes_factor(double p) {
   return log_p < -1.0 ? 1.0 + log_p + std::log(-log_p) : 0.0;
 }
 
+/// Of the posteriors of those options that have something unknown, or do not.
+double log_sum(const std::vector<Option>& options, bool has_unknown) {
+  const double best = likeliest(options).log_posterior;
+  double sum = 0.0;
+  for (const Option& o : options)
+    if (o.has_unknown == has_unknown) sum += std::exp(o.log_posterior - best);
+  return best + std::log(sum);
+}
+
 /// What is small beside something unknown is not told from it.
 void take_out_parts_of_rest(const Case& c, const Refit& nothing, Weighed& weighed) {
   const std::vector<int> parts = parts_of_rest(c, *weighed.choice, weighed.rest);
@@ -34,8 +43,12 @@ void reject(const Case& c, Weighed& weighed) {
     std::erase_if(options, [](const Option& o) { return o.prediction.isZero(0.0) && !o.has_unknown; });
   if (weighed.rest.p >= c.settings.p_gap) std::erase_if(options, [](const Option& o) { return o.has_unknown; });
   if (!weighed.is_rest) return;
+  // What tests find may have another shape than the smooth ones by which something unknown is weighed.
+  const double against = log_bayes_factor(weighed.p_rest);
+  const double most = log_sum(options, true) - kLogPriorUnknown + against;
+  const double change = std::min(against, most - log_sum(options, false));
   for (Option& o : options)
-    if (!o.has_unknown) o.log_posterior += log_bayes_factor(weighed.p_rest);
+    if (!o.has_unknown) o.log_posterior += change;
 }
 
 }  // namespace

@@ -6,12 +6,15 @@
 namespace fathom::effects {
 namespace {
 
+/// Of liquids only fluorinated ones bend light less.
+constexpr double kLeastIndex = 1.28;
+
 void apply(Setup& setup, const EffectSetting& setting) {
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     Medium& medium = filling.medium;
     if (setting.values[0] == 0.0) return;
-    medium.index = ConstantIndex{std::max(medium.n(wavelength_nm) + setting.values[0], 1.0)};
+    medium.index = ConstantIndex{std::max(medium.n(wavelength_nm) + setting.values[0], kLeastIndex)};
   });
 }
 

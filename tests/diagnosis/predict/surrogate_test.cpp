@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "core/estimate.h"
 #include "diagnosis/measurement/named_values.h"
 #include "sim/sensor/capture.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
@@ -94,22 +96,24 @@ TEST(Surrogate, SaysOfWavesWhatFramesSayInTheMean) {
     return mm_from_metres(surrogate_frame(setup, rig, place, pixels).estimates.value().height[0].mean);
   };
   const double level = shot_mm(still);
-  double sum = 0.0, least = 0.0, most = 0.0, few = 0.0;
-  int frames = 0;
+  double few = 0.0;
+  Mean changes;
+  fathom::Setup moved = still;
   for (int direction = 0; direction < 4; ++direction)
     for (int third = 0; third < 3; ++third) {
       const double azimuth = 0.3 + 0.25 * std::numbers::pi * direction,
                    phase = 0.4 + 2.0 / 3.0 * std::numbers::pi * third;
-      fathom::Setup moved = still;
       moved.scene.cups[0].filling->form.ripples = {{0.015, 0.0002, azimuth, phase}};
-      const double change = shot_mm(moved) - level;
-      sum += change, ++frames;
-      least = std::min(least, change), most = std::max(most, change);
+      changes.add(shot_mm(moved) - level);
       few = few_mm(moved) - few_mm(still);
     }
-  EXPECT_LT(few, -0.05);                                           // waves deepen what they show
-  EXPECT_NEAR(few, sum / frames, 0.02) << least << " … " << most;  // pixels at a region's border come and go
-  EXPECT_GT(most - least, 0.1);
+  const auto [mean, error] = changes.estimate();
+  const double scatter = error * std::sqrt(static_cast<double>(changes.count() - 1));
+  EXPECT_LT(few, -0.05);         // waves deepen what they show
+  EXPECT_NEAR(few, mean, 0.02);  // pixels at a region's border come and go
+  EXPECT_GT(scatter, 0.05);
+  EXPECT_NEAR(scatter_by_waves_mm(moved, rig, place, pixels) / scatter, 1.0, 0.5);
+  EXPECT_EQ(scatter_by_waves_mm(still, rig, place, pixels), 0.0);
 }
 
 // Of their slope's second order, whatever its size: rays that steep waves throw aside neither stick nor turn the sign.
