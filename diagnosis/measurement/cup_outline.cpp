@@ -5,6 +5,14 @@
 #include <cmath>
 
 namespace fathom {
+namespace {
+
+constexpr double kGate = 0.012, kNarrowGate = 0.007;  ///< [m]
+constexpr double kCoarse = 0.008;                     ///< [m] between places that are looked at for a cup
+constexpr double kNearest = 0.010;                    ///< [m] nearer the fit from the written place says all there is
+constexpr double kFarthest = 0.032;                   ///< [m] the bound of cup_placement, and what a desk's error adds
+
+}  // namespace
 
 OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis)
     : inner_radius_(rig.inner_radius_m),
@@ -17,10 +25,26 @@ void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double wei
   if (height >= kReach && height <= rim_ - kReach) sensed_.push_back({from_axis, height, weight});
 }
 
+/// Nothing of a point that is no wall's, or farther than `gate` [m] from it.
+std::optional<OutlineFit::NearWall> OutlineFit::near_wall(const Sensed& sensed, const CupOutline& outline,
+                                                          double gate) const {
+  constexpr double kInnerBelow = 0.035;  // [m] the rim: what stands in a cup is deeper
+  constexpr double kFacing = 0.25;       // least cosine between the wall's normal and the sensor's direction
+  const Eigen::Vector2d off = sensed.from_axis - outline.off;
+  const double distance = off.norm();
+  if (!(distance > 0.0)) return std::nullopt;
+  const Eigen::Vector2d outward = off / distance;
+  const double facing = outward.dot(to_sensor_);
+  if (std::abs(facing) < kFacing) return std::nullopt;
+  const bool is_inside = facing < 0.0;
+  if (is_inside && sensed.height < rim_ - kInnerBelow) return std::nullopt;
+  const double excess = distance - outline.wider - (is_inside ? inner_radius_ : outer_radius_);
+  if (std::abs(excess) > gate) return std::nullopt;
+  return NearWall{outward, excess, is_inside};
+}
+
 /// One step of Gauss and Newton.
 std::optional<CupOutline> OutlineFit::step(const CupOutline& from, double gate) const {
-  constexpr double kInnerBelow = 0.035;   // [m] the rim: what stands in a cup is deeper
-  constexpr double kFacing = 0.25;        // least cosine between the wall's normal and the sensor's direction
   constexpr double kFewestPixels = 60.0;  // on either side
   // Least eigenvalue per pixel: 0.37 of two arcs of 75° to either side, at most 0.033 of what one side shows. There a
   // radius and a place that belong to each other fit alike, and a window's pull on the wall counts six times.
@@ -29,20 +53,12 @@ std::optional<CupOutline> OutlineFit::step(const CupOutline& from, double gate) 
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   double inner_pixels = 0.0;
   for (const Sensed& sensed : sensed_) {
-    const Eigen::Vector2d off = sensed.from_axis - from.off;
-    const double distance = off.norm();
-    if (!(distance > 0.0)) continue;
-    const Eigen::Vector2d outward = off / distance;
-    const double facing = outward.dot(to_sensor_);
-    if (std::abs(facing) < kFacing) continue;
-    const bool is_inside = facing < 0.0;
-    if (is_inside && sensed.height < rim_ - kInnerBelow) continue;
-    const double excess = distance - from.wider - (is_inside ? inner_radius_ : outer_radius_);
-    if (std::abs(excess) > gate) continue;
-    const Eigen::Vector3d moves(outward.x(), outward.y(), 1.0);
+    const std::optional<NearWall> wall = near_wall(sensed, from, gate);
+    if (!wall) continue;
+    const Eigen::Vector3d moves(wall->outward.x(), wall->outward.y(), 1.0);
     normal += sensed.weight * moves * moves.transpose();
-    right += sensed.weight * excess * moves;
-    if (is_inside) inner_pixels += sensed.weight;
+    right += sensed.weight * wall->excess * moves;
+    if (wall->is_inside) inner_pixels += sensed.weight;
   }
   const double pixels = normal(2, 2);
   if (std::min(inner_pixels, pixels - inner_pixels) < kFewestPixels) return std::nullopt;
@@ -53,11 +69,58 @@ std::optional<CupOutline> OutlineFit::step(const CupOutline& from, double gate) 
   return CupOutline{from.off + x.head<2>(), from.wider + x.z()};
 }
 
-std::optional<CupOutline> OutlineFit::solve() const {
-  constexpr double kGate = 0.012, kNarrowGate = 0.007;  // [m]
-  std::optional<CupOutline> outline = step({Eigen::Vector2d::Zero(), 0.0}, kGate);
+std::optional<CupOutline> OutlineFit::fit_from(const Eigen::Vector2d& off) const {
+  std::optional<CupOutline> outline = step({off, 0.0}, kGate);
   for (int i = 0; i < 2 && outline; ++i) outline = step(*outline, kNarrowGate);
   return outline;
 }
+
+/// [m] of points near the walls off these: 2 mm of a wall's, 4 mm of what happens to lie there, even within the gate.
+double OutlineFit::scatter(const CupOutline& outline) const {
+  double squares = 0.0, pixels = 0.0;
+  for (const Sensed& sensed : sensed_)
+    if (const std::optional<NearWall> wall = near_wall(sensed, outline, kNarrowGate))
+      squares += sensed.weight * wall->excess * wall->excess, pixels += sensed.weight;
+  return std::sqrt(squares / pixels);
+}
+
+/// Pixels on that wall of a cup there which has fewer: a liquid or one wall alone make many on the other.
+double OutlineFit::weaker_wall(const Eigen::Vector2d& off) const {
+  double inner = 0.0, outer = 0.0;
+  for (const Sensed& sensed : sensed_)
+    if (const std::optional<NearWall> wall = near_wall(sensed, {off, 0.0}, kCoarse)) {
+      const double share = wall->excess / kCoarse;
+      (wall->is_inside ? inner : outer) += sensed.weight * (1.0 - share * share);
+    }
+  return std::min(inner, outer);
+}
+
+/// Where most of a cup's walls lie, to 8 mm, which the fit's first gate spans.
+Eigen::Vector2d OutlineFit::place_of_walls() const {
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double most = 0.0;
+  constexpr int kSteps = static_cast<int>(kFarthest / kCoarse);
+  for (int x = -kSteps; x <= kSteps; ++x)
+    for (int y = -kSteps; y <= kSteps; ++y) {
+      const Eigen::Vector2d off = kCoarse * Eigen::Vector2d(x, y);
+      if (off.norm() > kFarthest) continue;
+      const double pixels = weaker_wall(off);
+      if (pixels > most) most = pixels, best = off;
+    }
+  return best;
+}
+
+std::optional<CupOutline> OutlineFit::solve() const {
+  constexpr double kSharp = 0.003, kOwnWidth = 0.002;  // [m]
+  const std::optional<CupOutline> as_written = fit_from(Eigen::Vector2d::Zero());
+  const double scattered = as_written ? std::min(scatter(*as_written), kSharp) : kSharp;
+  const bool is_near = as_written && as_written->off.norm() < kNearest;
+  if (is_near && scattered < kSharp && std::abs(as_written->wider) < kOwnWidth) return as_written;
+  const std::optional<CupOutline> beside = fit_from(place_of_walls());
+  if (!beside || beside->off.norm() < kNearest || beside->off.norm() > kFarthest) return as_written;
+  return scatter(*beside) < scattered ? beside : as_written;
+}
+
+double OutlineFit::reach() const { return kFarthest + outer_radius_ + kCoarse; }
 
 }  // namespace fathom

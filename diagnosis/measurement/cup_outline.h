@@ -26,15 +26,29 @@ class OutlineFit {
 
   /// By least squares of the points' distances from the circle: first of those within 12 mm of where the rig has it,
   /// then of those within 7 mm of where it was found, so that of a cup beside its place the liquid counts for no wall.
+  /// Where that finds no cup of the rig's width, from where most of one's walls lie, up to 30 mm beside its place.
   /// Nothing with less than 60 pixels on either side, or where they lie on too short an arc.
   std::optional<CupOutline> solve() const;
+
+  /// [m] from where the cup should stand to the farthest points that are of use.
+  double reach() const;
 
  private:
   struct Sensed {
     Eigen::Vector2d from_axis;
     double height, weight;
   };
+  struct NearWall {
+    Eigen::Vector2d outward;  ///< unit
+    double excess;            ///< [m] outside the wall
+    bool is_inside;           ///< the inner wall
+  };
+  std::optional<NearWall> near_wall(const Sensed& sensed, const CupOutline& outline, double gate) const;
   std::optional<CupOutline> step(const CupOutline& from, double gate) const;
+  std::optional<CupOutline> fit_from(const Eigen::Vector2d& off) const;
+  double scatter(const CupOutline& outline) const;
+  double weaker_wall(const Eigen::Vector2d& off) const;
+  Eigen::Vector2d place_of_walls() const;
 
   double inner_radius_, outer_radius_, rim_;  // [m]
   Eigen::Vector2d to_sensor_;                 // unit

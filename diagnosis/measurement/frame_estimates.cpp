@@ -139,6 +139,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   std::vector<CupPoint> around;
   std::optional<OutlineFit> outline;
   if (cup) outline.emplace(rig, cup->centre);
+  const double walls_reach = cup ? outline->reach() : 0.0;
   std::complex<double> comb;
   std::array<std::complex<double>, 2> coarse, coarse_of_plane;
   double millimetres = 0.0;
@@ -148,8 +149,8 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     const Eigen::Vector3f p = turn * sensed.point + shift;
     const Eigen::Vector2d from_axis = p.head<2>().cast<double>() - (cup ? cup->centre : Eigen::Vector2d::Zero());
     const double squared = from_axis.squaredNorm(), w = sensed.weight;
+    if (squared < walls_reach * walls_reach) outline->add(from_axis, p.z(), w);
     if (cup && squared < cup->clear_of_cup * cup->clear_of_cup) {
-      outline->add(from_axis, p.z(), w);
       around.push_back({from_axis, p.z(), sensed.intensity, sensed.weight});
       continue;
     }

@@ -198,10 +198,38 @@ BoxOfPixels pixels_about(const LaboratoryRig& rig, const Pose& camera_from_world
   return seen;
 }
 
-std::vector<Eigen::Vector2d> every(int stride, const Eigen::AlignedBox2d& box) {
+/// Those of the box that are a whole number of strides from `first`'s corner.
+std::vector<Eigen::Vector2d> every(int stride, const Eigen::AlignedBox2d& first, const Eigen::AlignedBox2d& box) {
+  const auto start = [stride](double from, double to) { return from + stride * std::ceil((to - from) / stride) + 0.5; };
+  const double left = start(std::floor(first.min().x()), std::floor(box.min().x())),
+               top = start(std::floor(first.min().y()), std::floor(box.min().y()));
   std::vector<Eigen::Vector2d> pixels;
-  for (double y = std::floor(box.min().y()) + 0.5; y < box.max().y(); y += stride)
-    for (double x = std::floor(box.min().x()) + 0.5; x < box.max().x(); x += stride) pixels.emplace_back(x, y);
+  for (double y = top; y < box.max().y(); y += stride)
+    for (double x = left; x < box.max().x(); x += stride) pixels.emplace_back(x, y);
+  return pixels;
+}
+
+double half_of_inside(const LaboratoryRig& rig) { return 1.2 * (rig.inner_radius_m - kInteriorMargin); }
+
+constexpr int kStride = 2, kWallStride = 3;  ///< [px] some 300 in a cup 0.7 m away, as many on its walls
+
+/// Pixels of a cup that stands at `axis`, of the same raster wherever near `place` that is.
+void look_about(const LaboratoryRig& rig, const Eigen::Vector2d& place, const Eigen::Vector2d& axis,
+                SampledPixels& pixels) {
+  const Pose camera_from_world = believed_pose(rig).inverse();
+  const auto box = [&](const Eigen::Vector2d& at, double half) {
+    return pixels_about(rig, camera_from_world, at, half).box;
+  };
+  const double inside = half_of_inside(rig), walls = 1.1 * rig.outer_radius_m;
+  pixels.cup = every(kStride, box(place, inside), box(axis, inside));
+  pixels.walls = every(kWallStride, box(place, walls), box(axis, walls));
+}
+
+/// The pixels; of a cup that stands so far beside its place that they would miss some of its walls, those about it.
+SampledPixels following(SampledPixels pixels, const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& place,
+                        const std::optional<CupOptics>& cup) {
+  constexpr double kSpare = 0.003;  // [m] of 4 mm that are looked at around the walls
+  if (place && cup && (cup->body.axis - *place).norm() > kSpare) look_about(rig, *place, cup->body.axis, pixels);
   return pixels;
 }
 
@@ -217,13 +245,10 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
   pixels.desk_weight = kImageWidth_px * kImageHeight_px / (kDeskColumns * kDeskRows);
   if (!cup) return pixels;
 
-  const Pose camera_from_world = believed_pose(rig).inverse();
-  constexpr int kStride = 2, kWallStride = 3;  // some 300 in a cup 0.7 m away, as many on its walls
-  const BoxOfPixels inside = pixels_about(rig, camera_from_world, *cup, 1.2 * (rig.inner_radius_m - kInteriorMargin));
-  pixels.cup = every(kStride, inside.box);
+  look_about(rig, *cup, *cup, pixels);
+  pixels.soft_m =
+      kStride * pixels_about(rig, believed_pose(rig).inverse(), *cup, half_of_inside(rig)).depth / rig.focal_px;
   pixels.cup_weight = kStride * kStride;
-  pixels.soft_m = kStride * inside.depth / rig.focal_px;
-  pixels.walls = every(kWallStride, pixels_about(rig, camera_from_world, *cup, 1.1 * rig.outer_radius_m).box);
   pixels.wall_weight = kWallStride * kWallStride;
   return pixels;
 }
@@ -284,10 +309,11 @@ double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const E
 }
 
 SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
-                               const std::optional<Eigen::Vector2d>& place, const SampledPixels& pixels,
+                               const std::optional<Eigen::Vector2d>& place, const SampledPixels& fixed,
                                const SurrogateFrame* known) {
   SurrogateFrame frame{view_of(setup), {}, {}, {}, {}};
   const SurrogateView& view = frame.view;
+  const SampledPixels pixels = following(fixed, rig, place, view.cup);
   const bool same_desk = known && desk_looks_alike(view, known->view);
   const bool same_inside = same_desk && inside_looks_alike(view, known->view);
   const bool same_walls = same_desk && walls_look_alike(view, known->view);

@@ -7,7 +7,7 @@
 namespace fathom {
 
 /// Pixels of the depth image that stand for it; fixed by what the laboratory believes, so that set-ups that differ a
-/// little are looked at by the same rays.
+/// little are looked at by the same rays. Of a cup more than 3 mm beside its place others of the same raster are.
 struct SampledPixels {
   std::vector<Eigen::Vector2d> desk, cup, walls;
   double desk_weight = 0.0, cup_weight = 0.0, wall_weight = 0.0;  ///< pixels that each stands for

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -35,6 +36,23 @@ TEST_F(Outline, OfACupThatIsWiderAndBesideItsPlace) {
   EXPECT_NEAR(outline->off.x(), off.x(), 1e-5);  // of the third step of Gauss and Newton
   EXPECT_NEAR(outline->off.y(), off.y(), 1e-5);
   EXPECT_NEAR(outline->wider, 0.001, 1e-5);
+}
+
+/// Wherever within its bounds an effect has put a cup, an opaque liquid near the rim being in it.
+TEST_F(Outline, OfACupFarBesideItsPlace) {
+  for (int eighth = 0; eighth < 8; ++eighth)
+    for (const double far : {0.012, 0.020, 0.030}) {
+      const Eigen::Vector2d off = Eigen::Rotation2Dd(0.25 * std::numbers::pi * eighth) * Eigen::Vector2d(far, 0.0);
+      fit = OutlineFit(rig, {0.0, 0.200});
+      add_wall(kNear, rig.outer_radius_m, off, 0.015, 0.075);
+      add_wall(kFar, rig.inner_radius_m, off, 0.055, 0.075);
+      for (double radius = 0.002; radius < rig.inner_radius_m; radius += 0.002)
+        for (const double towards : {kNear, kFar}) add_wall(towards, radius, off, 0.050, 0.051);
+      const auto outline = fit.solve();
+      ASSERT_TRUE(outline) << off.transpose();
+      EXPECT_LT((outline->off - off).norm(), 0.001) << off.transpose();  // the liquid's edge draws the outer wall
+      EXPECT_LT(std::abs(outline->wider), 0.001) << off.transpose();
+    }
 }
 
 /// A radius and a place that belong to each other fit one side alike.

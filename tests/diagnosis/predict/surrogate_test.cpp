@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"water", 30, 300, 120, Json::parse(R"([{"name": "principal_point", "x_px": 3}])")},
                     Case{"milk", 30, 300, -120, Json::parse(R"([{"name": "cup_placement", "x_mm": 3, "y_mm": -4}])")},
                     Case{"milk", 30, 200, 0, Json::parse(R"([{"name": "cup_placement", "y_mm": -8}])")},
+                    Case{"water", 30, 300, 0, Json::parse(R"([{"name": "cup_placement", "x_mm": 20, "y_mm": 15}])")},
+                    Case{"milk", 20, 400, 0, Json::parse(R"([{"name": "cup_placement", "x_mm": -25}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "radial_distortion", "k1": 0.01}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "surface_tilt", "slope_x_deg": 1}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "meniscus", "contact_angle_deg": 30}])")},
@@ -149,7 +151,7 @@ Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral
 }
 
 TEST(CupsOutline, GoesWithTheCup) {
-  for (const double mm : {2.0, 8.0}) {
+  for (const double mm : {2.0, 8.0, 14.0, 20.0}) {
     const Json beside = {{{"name", "cup_placement"}, {"x_mm", mm}, {"y_mm", -mm}}};
     const Eigen::Vector3d moved = moved_by(beside, 300, 0);
     constexpr double kWalls = 0.1;  // mm: as against whole frames
