@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string_view>
 
 #include "core/median.h"
 #include "diagnosis/statistics/groups.h"
@@ -136,6 +138,24 @@ void check_other_cup(const Evidence& evidence, std::vector<std::string>& warning
   }
 }
 
+/// Such clouds have the same axes, but begin where the colour camera is; their points keep their depths.
+void check_colour_view(const Evidence& evidence, std::vector<std::string>& warnings) {
+  constexpr double kColourCamera_mm = 25.0, kByHand_mm = 3.0;  // of Carmine, Xtion and Kinect; a place's error
+  const Eigen::VectorXd off = residual(evidence);
+  const auto median_of = [&](std::string_view observable) -> std::optional<double> {
+    std::vector<double> values;
+    for (Eigen::Index i = 0; i < off.size(); ++i)
+      if (evidence.observations[i].observable == observable) values.push_back(off[i]);
+    return values.size() < kFewestTwins ? std::nullopt : std::optional(median(values));
+  };
+  const std::optional<double> x = median_of("cup_x_mm"), y = median_of("cup_y_mm");
+  if (x && y && std::hypot(*x + kColourCamera_mm, *y) < kByHand_mm)
+    warnings.push_back(
+        fmt::format("cups stand {:.0f} mm to the left of their places, as in clouds that are registered to the colour "
+                    "camera, 25 mm beside the infrared one: depth_registered for depth?",
+                    -*x));
+}
+
 }  // namespace
 
 std::vector<std::string> hygiene_warnings(const Evidence& evidence) {
@@ -145,6 +165,7 @@ std::vector<std::string> hygiene_warnings(const Evidence& evidence) {
   check_mirrored(evidence, warnings);
   check_swapped(evidence, warnings);
   check_other_cup(evidence, warnings);
+  check_colour_view(evidence, warnings);
   return warnings;
 }
 

@@ -65,6 +65,29 @@ TEST(Hygiene, SeesACopiedPlacement) {
                           [](const std::string& w) { return w.find("identical") != std::string::npos; }));
 }
 
+/// Walls of four cups that stand so far beside their places.
+Evidence cups_beside(double x_mm, double y_mm) {
+  Evidence evidence;
+  for (int placement = 1; placement <= 4; ++placement)
+    for (const auto& [observable, value] : {std::pair("cup_x_mm", x_mm), std::pair("cup_y_mm", y_mm)}) {
+      Observation walls;
+      walls.observable = observable;
+      walls.value = value;
+      walls.factors.placement = placement;
+      evidence.observations.push_back(walls);
+    }
+  evidence.predicted = Eigen::VectorXd::Zero(8);
+  return evidence;
+}
+
+TEST(Hygiene, KnowsWhereAColourCameraSeesCups) {
+  const auto found = warnings(cups_beside(-24.6, 0.3));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("colour camera"), std::string::npos);
+  EXPECT_TRUE(warnings(cups_beside(24.6, 0.3)).empty());
+  EXPECT_TRUE(warnings(cups_beside(-20.0, -15.0)).empty());
+}
+
 TEST(Screen, FindsAPlantedTripleAmongAllSets) {
   const World world(small_design());
   const std::vector<std::string> names{"radial_distortion", "meniscus", "wall_albedo"};
