@@ -67,6 +67,16 @@ Json model_json(const Json& had, const Diagnosis& diagnosis, const Json& provena
   return model;
 }
 
+/// Candidates of these ids are no more; returns those ids of which there were any.
+std::vector<std::string> leave_out(const std::vector<std::string>& ids, std::vector<Candidate>& candidates) {
+  std::vector<std::string> left_out;
+  for (const std::string& id : ids) {
+    const auto is_it = [&](const Candidate& candidate) { return effect_name(candidate.effect).id == id; };
+    if (std::erase_if(candidates, is_it) > 0) left_out.push_back(id);
+  }
+  return left_out;
+}
+
 /// report.json's effects have the inverses of their parameters too, where tables do.
 void add_inverses(const Diagnosis& diagnosis, Json& report) {
   for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
@@ -111,10 +121,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
   make_directory(common.output);  // what cannot be written shows before the long work
   remove_leftovers(common.output);
-  std::erase_if(physics.evidence.candidates, [&](const Candidate& candidate) {
-    return std::find(options.without.begin(), options.without.end(), effect_name(candidate.effect).id) !=
-           options.without.end();
-  });
+  const std::vector<std::string> not_looked_for = leave_out(options.without, physics.evidence.candidates);
   DecisionSettings settings;
   settings.seed = common.seed;
   const std::vector<MeasurementPlan> plans = possible_plans(measurement);
@@ -140,8 +147,8 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   }
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
-  if (!physics.not_sought.empty())
-    campaign.notes.push_back(fmt::format("Not looked for: {}.", effects_words(physics.not_sought)));
+  if (!not_looked_for.empty())
+    campaign.notes.push_back(fmt::format("Not looked for: {}.", effects_words(not_looked_for)));
   const Json provenance = {{"fathom", FATHOM_VERSION},
                            {"measurement", campaign.name},
                            {"model", options.model.string()},

@@ -14,8 +14,8 @@
 namespace fathom {
 namespace {
 
-/// Mistakes in writing down are looked for before any physics, with their exact values.
-constexpr std::array<std::string_view, 2> kNotSought{"unit_error", "label_swap"};
+/// Mistakes in writing down are looked for before any physics, with their exact values (bookkeeping.h).
+constexpr std::array<std::string_view, 2> kBookkeeping{"unit_error", "label_swap"};
 
 /// A nuisance (nuisances.h) that goes as the effect does: nothing is left of it to be seen.
 constexpr std::string_view kAllowedFor = "window_averaging";
@@ -109,10 +109,8 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
   std::vector<std::string> names = only;
   if (only.empty())
     for (const Effect& effect : effect_registry()) {
-      if (std::find(kNotSought.begin(), kNotSought.end(), effect.id) != kNotSought.end())
-        candidates.not_sought.emplace_back(effect.id);
-      else
-        for (std::string& name : names_of(effect, liquids)) names.push_back(std::move(name));
+      if (std::find(kBookkeeping.begin(), kBookkeeping.end(), effect.id) != kBookkeeping.end()) continue;
+      for (std::string& name : names_of(effect, liquids)) names.push_back(std::move(name));
     }
   std::optional<Candidate> of_all;  // liquids: the last one that was predicted
   Progress progress("effect", names.size(), quiet);

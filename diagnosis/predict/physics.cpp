@@ -66,7 +66,6 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
                                      see_through(*predictor, name.liquid, evidence.observations.size()));
   }
   physics.unseen = std::move(candidates.unseen);
-  physics.not_sought = std::move(candidates.not_sought);
   physics.predictor = predictor;
   physics.predict = [predictor, nominal = evidence.predicted](const std::vector<EffectValue>& effects) {
     Eigen::VectorXd values = predictor->predict(switch_on(effects));

@@ -12,7 +12,6 @@ struct Physics {
   Predict predict;                             ///< for the rows of the evidence; deterministic, on all threads
   std::shared_ptr<const Predictor> predictor;  ///< of these rows
   std::vector<std::string> unseen;             ///< effects of the registry that move no row
-  std::vector<std::string> not_sought;         ///< those that are no candidates
 };
 
 /// Rows: of the observations those that direct light predicts (predictable.h), without regions of the cup in or near

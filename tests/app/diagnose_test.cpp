@@ -75,6 +75,14 @@ TEST_F(DiagnoseCommand, NamesNothingWhereNothingIsHidden) {
     EXPECT_EQ(read_text(folder / "out" / file), read_text(folder / "again" / file)) << file;
 }
 
+TEST_F(DiagnoseCommand, SaysWhatItWasToldNotToLookForAndNothingElse) {
+  measure(Json::array());
+  const std::string words = "Not looked for", all = diagnosis("all")["notes"].dump();
+  EXPECT_EQ(all.find(words), std::string::npos) << all;
+  const std::string some = diagnosis("some", "--without foam")["notes"].dump();
+  EXPECT_NE(some.find(words + ": foam."), std::string::npos) << some;
+}
+
 TEST_F(DiagnoseCommand, FindsASensorThatIsTurned) { expect_found("sensor_roll", "roll_deg", 0.8); }
 
 TEST_F(DiagnoseCommand, FindsCupsThatHoldMore) { expect_found("fill_scale", "scale", 0.15); }
