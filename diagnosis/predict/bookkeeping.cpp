@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/units.h"
+#include "diagnosis/predict/odd_pours.h"
 #include "diagnosis/predict/predictor.h"
 #include "diagnosis/predict/slope.h"
 
@@ -178,6 +179,7 @@ void put_bookkeeping_right(const Json& model_effects, const std::string& file, M
   const Heights heights(model_effects, file, measurement);
   put_units_right(heights, measurement);
   put_labels_right(heights, measurement);
+  leave_out_odd_pours(model_effects, file, measurement);
 }
 
 }  // namespace fathom

@@ -6,7 +6,8 @@
 namespace fathom {
 
 /// Puts fills in another unit ("unit_error") and liquids whose labels were exchanged in a session ("label_swap") right
-/// where the heights then fit far better, and adds that to the mistakes. `model_effects` and `file` as of Predictor.
+/// where the heights then fit far better, leaves out pours that are none of what they are called (odd_pours.h), and
+/// adds that to the mistakes. `model_effects` and `file` as of Predictor.
 void put_bookkeeping_right(const Json& model_effects, const std::string& file, Measurement& measurement);
 
 }  // namespace fathom

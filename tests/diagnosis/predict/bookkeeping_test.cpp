@@ -88,6 +88,55 @@ TEST(Bookkeeping, ExchangedLabelsAreFound) {
     EXPECT_EQ(measurement.observations[i].factors.liquid, truth.observations[i].factors.liquid);
 }
 
+/// As many pours of every filling, one after the other.
+Measurement poured_often(int pours) {
+  const Measurement once = measured();
+  Measurement measurement = once;
+  for (int pour = 1; pour < pours; ++pour)
+    for (Observation o : once.observations) {
+      o.factors.pour += 100 * pour, o.factors.placement += 100 * pour;
+      o.factors.time_s += 1e4 * pour;
+      o.value += pour % 2 ? 0.3 : -0.3;  // fills scatter
+      measurement.observations.push_back(o);
+    }
+  return measurement;
+}
+
+/// Of one filling, in some pours.
+void raise(Measurement& measurement, const std::string& liquid, double fill_mm, int first_pour, double by_mm) {
+  for (Observation& o : measurement.observations)
+    if (o.observable == "height_mm" && o.factors.liquid == liquid && o.factors.fill_mm == fill_mm &&
+        o.factors.pour >= first_pour)
+      o.value += by_mm;
+}
+
+TEST(Bookkeeping, APourThatHoldsSomethingElseIsLeftOut) {
+  Measurement measurement = poured_often(3);
+  raise(measurement, "milk", 10.0, 200, 20.0);
+  const std::size_t before = measurement.observations.size();
+  put_right(measurement);
+  ASSERT_EQ(measurement.mistakes.size(), 1u);
+  EXPECT_EQ(measurement.mistakes[0].id, "wrong_pour");
+  EXPECT_EQ(measurement.mistakes[0].sentence,
+            "Pour 203 of milk 10 mm, 3 placements from number 209 on, reads 19.4 mm higher than the others of it: "
+            "another filling or another cup, and left out.");
+  EXPECT_LT(measurement.observations.size(), before);
+  for (const Observation& o : measurement.observations) EXPECT_NE(o.factors.pour, 203);
+}
+
+TEST(Bookkeeping, APourIsNotLeftOutWhereTheOthersLeaveADoubt) {
+  Measurement little = poured_often(3), half = poured_often(2), all = poured_often(3), at_one_place = poured_often(3);
+  raise(little, "milk", 10.0, 200, 4.0);            // may be foam, or a careless hand
+  raise(half, "milk", 10.0, 100, 20.0);             // which of the two?
+  raise(all, "milk", 10.0, 0, 20.0);                // an effect
+  for (Observation& o : at_one_place.observations)  // a cup beside its place
+    if (o.factors.placement == 209) o.value += 20.0;
+  for (Measurement* measurement : {&little, &half, &all, &at_one_place}) {
+    put_right(*measurement);
+    EXPECT_TRUE(measurement->mistakes.empty());
+  }
+}
+
 TEST(Bookkeeping, AnEffectIsNoMistake) {
   Measurement measurement = paper_measurement(false);
   const Eigen::VectorXd values =
