@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "diagnosis/statistics/groups.h"
 
@@ -10,9 +11,22 @@ namespace fathom {
 
 namespace {
 
-constexpr int kFewestConditions = 3;
+constexpr std::size_t kFewestConditions = 3;
 constexpr std::size_t kFewestObservations = 8;
 constexpr std::size_t kFewestReplicates = 4;
+/// "1 condition", "2 conditions"
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// What would make more conditions of those there are.
+std::string_view more_conditions(const std::vector<Observation>& observations) {
+  const bool has_cups = std::any_of(observations.begin(), observations.end(),
+                                    [](const Observation& o) { return o.factors.liquid != "none"; });
+  return has_cups ? "the cup at other known places or with other known fillings would be more"
+                  : "all is bare desk: cups at known places, empty or with known fillings, would be more";
+}
+
 /// From so many on, what a smooth function of the factors leaves tells how large errors are.
 constexpr std::size_t kEnoughForSmooth = 24;
 
@@ -21,13 +35,13 @@ constexpr std::size_t kEnoughForSmooth = 24;
 std::vector<std::string> missing_for_diagnosis(const Evidence& evidence) {
   std::vector<std::string> missing;
   const auto& observations = evidence.observations;
-  const int conditions = group_by(observations, condition_key).count;
+  const auto conditions = static_cast<std::size_t>(group_by(observations, condition_key).count);
   if (observations.size() < kFewestObservations)
-    missing.push_back(fmt::format("{} observations (means over trials), at least {} are needed", observations.size(),
-                                  kFewestObservations));
+    missing.push_back(fmt::format("{} (means over trials), at least {} are needed",
+                                  counted(observations.size(), "observation"), kFewestObservations));
   if (conditions < kFewestConditions)
-    missing.push_back(fmt::format("{} conditions (liquid, fill, distance, lateral), at least {} are needed", conditions,
-                                  kFewestConditions));
+    missing.push_back(fmt::format("{} (liquid, fill, distance, lateral), at least {} are needed ({})",
+                                  counted(conditions, "condition"), kFewestConditions, more_conditions(observations)));
   if (evidence.candidates.empty()) missing.emplace_back("effects to choose from");
   const bool has_repeats =
       std::any_of(observations.begin(), observations.end(), [](const Observation& o) { return o.repeats > 1; });

@@ -357,6 +357,19 @@ TEST(Decide, SaysWhatIsMissing) {
   const Diagnosis diagnosis = decide(world.measure({}, {}, 1), world.predict());
   EXPECT_EQ(diagnosis.verdict, Verdict::insufficient);
   EXPECT_TRUE(has(diagnosis.missing, "2 conditions"));
+  EXPECT_TRUE(has(diagnosis.missing, "the cup at other known places"));
+}
+
+TEST(Decide, ABareDeskAloneAsksForCups) {
+  Evidence evidence = World(small_design()).measure({}, {}, 1);
+  for (Observation& o : evidence.observations) {
+    o.factors = {};
+    o.factors.liquid = "none";
+  }
+  const Diagnosis diagnosis = decide(evidence, {});
+  EXPECT_EQ(diagnosis.verdict, Verdict::insufficient);
+  EXPECT_TRUE(has(diagnosis.missing, "1 condition ("));
+  EXPECT_TRUE(has(diagnosis.missing, "cups at known places"));
 }
 
 TEST(Decide, IsDeterministic) {
