@@ -109,13 +109,25 @@ std::string rival_words(const Explanation& explanation) {
                      100 * explanation.probability);
 }
 
+std::string_view anew_words(Anew lacks) {
+  switch (lacks) {
+    case Anew::nothing:
+      return "";
+    case Anew::pours:
+      return ": too little was measured anew. Measure the same fillings again, each poured anew (3 pours of each, say)";
+    case Anew::sessions:
+      return ": what shows it is seen but once or twice a session. Measure all of it again in two more sessions";
+  }
+  return {};
+}
+
 std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   constexpr double kWorthNaming = 0.02;
   constexpr std::size_t kMost = 4;
   const std::vector<Explanation>& set = diagnosis.ambiguity_set;
   if (set.size() == 1 && set.front().alternatives.empty())
-    return fmt::format("It may well be {}, but the tests do not confirm it: too little was measured anew. ",
-                       effects_words(set.front().effects)) +
+    return fmt::format("It may well be {}, but the tests do not confirm it{}. ", effects_words(set.front().effects),
+                       anew_words(diagnosis.lacks_anew)) +
            next_sentences(diagnosis.next);
   std::vector<std::string> rivals;
   std::size_t others = 0;

@@ -11,6 +11,7 @@
 #include "diagnosis/statistics/hygiene.h"
 #include "diagnosis/statistics/intervals.h"
 #include "diagnosis/statistics/limits.h"
+#include "diagnosis/statistics/once.h"
 #include "diagnosis/statistics/options.h"
 #include "diagnosis/statistics/sufficiency.h"
 #include "diagnosis/statistics/unknown.h"
@@ -104,6 +105,8 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
       ambiguity_set(with_imitated(weighed.options, is_tested(weighed)), kinds_of_candidates(evidence), settings.delta);
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.verdict = weighed.choice ? verdict_of_named(c, weighed, set) : verdict_of_unnamed(c, weighed.is_rest, set);
+  if (diagnosis.verdict == Verdict::ambiguous)
+    diagnosis.lacks_anew = lacks_anew(evidence, c.covariance, set.classes.front().options.front());
   describe_rest(c, weighed, diagnosis);
   if (weighed.choice && diagnosis.verdict != Verdict::unknown) {
     add_parameters(c, *weighed.choice);

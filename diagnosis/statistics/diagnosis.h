@@ -14,6 +14,9 @@ enum class Verdict { none, named, ambiguous, unknown, named_and_unknown, insuffi
 /// As in report.json: "none", "named", …, "named+unknown".
 std::string_view name_of(Verdict verdict);
 
+/// What has to be measured again for a test to be possible.
+enum class Anew { nothing, pours, sessions };
+
 /// A part of the observations that departs from the prediction.
 struct GapLocation {
   std::string observable, stratum;  ///< "height_mm", "liquid=milk_tea, distance_mm=400"
@@ -109,6 +112,7 @@ struct Diagnosis {
   std::vector<GapLocation> where;
   std::vector<NamedEffect> effects;
   std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
+  Anew lacks_anew = Anew::nothing;         ///< if ambiguous: for tests of the first explanation
   /// Of all effects' parameters, in their order, in their units: rows of the matrix.
   std::vector<std::vector<double>> parameter_covariance;
   GapSize train, held_out;

@@ -128,6 +128,22 @@ TEST_F(DiagnoseCommand, SaysWhichMeasurementTellsTwinsApartAndThatOneDoes) {
   EXPECT_FALSE(is_in_set(after, "fill_offset") || is_in_set(after, "foam")) << after["ambiguity_set"];
 }
 
+TEST_F(DiagnoseCommand, WhatIsSeenOnceASessionIsConfirmedByTheSessionsItAsksFor) {
+  Json spec = kSpec;
+  spec["pours"] = 2;
+  spec["effects"] = {{{"name", "depth_quantization"}, {"law", 0}, {"step_px", 0.5}}};
+  for (const int sessions : {1, 3}) {
+    spec["sessions"] = sessions;
+    write_json(folder / "spec.json", spec);
+    std::filesystem::remove_all(folder / "campaign");
+    ASSERT_EQ(run_fathom("campaign " + path("spec.json") + " -o " + path("campaign")).exit_code, 0);
+    const Json report = diagnosis("out");
+    const std::string answer = report["answer"];
+    EXPECT_EQ(report["verdict"], sessions == 1 ? "ambiguous" : "named") << answer;
+    EXPECT_EQ(answer.find("two more sessions") != std::string::npos, sessions == 1) << answer;
+  }
+}
+
 TEST_F(DiagnoseCommand, FoldersThatGoTogetherHaveOneRig) {
   measure(Json::array());
   std::filesystem::copy(folder / "campaign", folder / "other", std::filesystem::copy_options::recursive);
