@@ -8,6 +8,7 @@
 #include "app/diagnosis_pictures.h"
 #include "app/diagnosis_words.h"
 #include "app/html.h"
+#include "app/observable_words.h"
 #include "core/files.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
@@ -36,7 +37,8 @@ std::string where_html(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) return paragraph("No part of the measurements departs from the model for sure.");
   Rows rows;
   for (const GapLocation& where : diagnosis.where)
-    rows.push_back({stratum_words(where), fmt::format("{:+.3g} ± {:.2g}", where.mean, where.sigma),
+    rows.push_back({stratum_words(where),
+                    fmt::format("{:+.3g} ± {:.2g}{}", where.mean, where.sigma, observable_words(where.observable).unit),
                     fmt::format("{:.0f} %", 100 * where.share_of_gap), fmt::format("{:.1g}", where.p)});
   return html_table({"where", "measured − model", "share of the gap", "p"}, rows);
 }

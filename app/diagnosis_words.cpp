@@ -1,11 +1,13 @@
 #include "app/diagnosis_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "app/observable_words.h"
 #include "diagnosis/statistics/decision_settings.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/registry.h"
@@ -39,14 +41,34 @@ std::string joined(const std::vector<std::string>& words, std::string_view last)
   return text;
 }
 
-/// "height of milk tea reads 1.40 mm too low": where the gap is largest.
+/// "liquid is milk tea and distance is 400 mm"; nothing where it is everywhere.
+std::string place_words(std::string_view stratum) {
+  std::vector<std::string> factors;
+  while (!stratum.empty() && stratum != "all") {
+    const std::size_t comma = stratum.find(", ");
+    const std::string_view factor = stratum.substr(0, comma);
+    stratum = comma == std::string_view::npos ? "" : stratum.substr(comma + 2);
+    const std::size_t equals = factor.find('=');
+    if (equals == std::string_view::npos) {
+      factors.emplace_back(factor);
+      continue;
+    }
+    const auto [name, unit] = without_unit(factor.substr(0, equals));
+    factors.push_back(fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit));
+  }
+  return fmt::format("{}", fmt::join(factors, " and "));
+}
+
+/// "The height in the cup, where liquid is milk tea, is 1.40 mm lower than the model has it.": where the gap is
+/// largest.
 std::string where_sentence(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) return {};
   const GapLocation& where = diagnosis.where.front();
-  const auto [what, unit] = without_unit(where.observable);
-  std::string place = stratum_words(where);
-  place.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(place.front())));
-  return fmt::format("{} reads {:.3g}{} too {}. ", place, std::abs(where.mean), unit, where.mean < 0 ? "low" : "high");
+  const ObservableWords words = observable_words(where.observable);
+  const std::string place = place_words(where.stratum);
+  return fmt::format("The {}{} is {:.3g}{} {} than the model has it. ", words.name,
+                     place.empty() ? "" : fmt::format(", where {},", place), std::abs(where.mean), words.unit,
+                     where.mean < 0 ? words.less : words.more);
 }
 
 std::string gap_words(const GapSize& gap) {
@@ -215,24 +237,8 @@ std::string effects_words(const std::vector<std::string>& effects) {
 }
 
 std::string stratum_words(const GapLocation& where) {
-  std::string text = without_unit(where.observable).first;
-  std::string_view rest = where.stratum;
-  bool first = true;
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(", ");
-    const std::string_view factor = rest.substr(0, comma);
-    rest = comma == std::string_view::npos ? "" : rest.substr(comma + 2);
-    const std::size_t equals = factor.find('=');
-    text += first ? " where " : " and ";
-    first = false;
-    if (equals == std::string_view::npos) {
-      text += factor;
-      continue;
-    }
-    const auto [name, unit] = without_unit(factor.substr(0, equals));
-    text += fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit);
-  }
-  return text;
+  const std::string place = place_words(where.stratum);
+  return fmt::format("{}{}{}", observable_words(where.observable).name, place.empty() ? "" : " where ", place);
 }
 
 std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {

@@ -10,7 +10,7 @@ namespace fathom {
 
 std::string effect_words(const std::string& name);           ///< "subsurface scattering of milk tea"
 std::string effects_words(const std::vector<std::string>&);  ///< "foam and surface tilt", "nothing"
-std::string stratum_words(const GapLocation& where);         ///< "height of milk tea at 400 mm"
+std::string stratum_words(const GapLocation& where);         ///< "height in the cup where liquid is milk tea"
 /// As people know them: where a parameter's inverse has a name, that.
 std::vector<NamedParameter> shown_parameters(const NamedEffect& effect);
 std::string parameter_words(const NamedParameter& parameter);  ///< "scattering = 2.1 per mm (1.9 to 2.4)"

@@ -1,0 +1,39 @@
+#include "app/observable_words.h"
+
+#include <algorithm>
+#include <array>
+
+namespace fathom {
+namespace {
+
+constexpr std::array kWords{
+    ObservableWords{"height_mm", "height in the cup", " mm", "higher", "lower"},
+    ObservableWords{"height_sd_mm", "scatter of the heights in the cup", " mm", "wider", "narrower"},
+    ObservableWords{"log_brightness", "logarithm of the brightness in the cup", "", "higher", "lower"},
+    ObservableWords{"ir_contrast", "contrast of the infrared image", "", "stronger", "weaker"},
+    ObservableWords{"valid_fraction", "share of pixels in the cup with a depth", "", "larger", "smaller"},
+    ObservableWords{"cup_x_mm", "sideways place of the cup", " mm", "further right", "further left"},
+    ObservableWords{"cup_y_mm", "distance of the cup", " mm", "larger", "smaller"},
+    ObservableWords{"cup_radius_mm", "radius of the cup", " mm", "larger", "smaller"},
+    ObservableWords{"desk_height_mm", "height of the camera above the desk", " mm", "higher", "lower"},
+    ObservableWords{"desk_pitch_deg", "pitch of the camera", "°", "steeper", "flatter"},
+    ObservableWords{"desk_roll_deg", "roll of the camera", "°", "larger", "smaller"},
+    ObservableWords{"desk_residual_mm", "height of the desk above its plane", " mm", "higher", "lower"},
+    ObservableWords{"desk_wander_mm", "wander of the desk from shot to shot", " mm", "wider", "narrower"},
+    ObservableWords{"desk_waves_px", "waves across the desk from shot to shot", " px", "higher", "lower"},
+    ObservableWords{"desk_rows_px", "scatter of the image's rows", " px", "wider", "narrower"},
+    ObservableWords{"desk_columns_px", "scatter of the image's columns", " px", "wider", "narrower"},
+    ObservableWords{"comb_strength", "grip of steps of 1/8 px on disparities", "", "stronger", "weaker"},
+    ObservableWords{"comb_phase", "place of disparities between steps", " steps", "further on", "further back"},
+    ObservableWords{"comb_quarter", "grip of steps of 1/4 px on disparities", "", "stronger", "weaker"},
+    ObservableWords{"comb_half", "grip of steps of 1/2 px on disparities", "", "stronger", "weaker"},
+    ObservableWords{"millimetre_comb", "grip of whole millimetres on depths", "", "stronger", "weaker"}};
+
+}  // namespace
+
+ObservableWords observable_words(std::string_view id) {
+  const auto known = std::find_if(kWords.begin(), kWords.end(), [&](const ObservableWords& w) { return w.id == id; });
+  return known != kWords.end() ? *known : ObservableWords{id, id, "", "larger", "smaller"};
+}
+
+}  // namespace fathom
