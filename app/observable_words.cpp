@@ -19,6 +19,8 @@ constexpr std::array kWords{
     ObservableWords{"desk_pitch_deg", "pitch of the camera", "°", "steeper", "flatter"},
     ObservableWords{"desk_roll_deg", "roll of the camera", "°", "larger", "smaller"},
     ObservableWords{"desk_residual_mm", "height of the desk above its plane", " mm", "higher", "lower"},
+    ObservableWords{"liquid_motion_mm", "movement of what is seen through a liquid, from shot to shot,", " mm", "wider",
+                    "narrower"},
     ObservableWords{"desk_wander_mm", "wander of the desk from shot to shot", " mm", "wider", "narrower"},
     ObservableWords{"desk_waves_px", "waves across the desk from shot to shot", " px", "higher", "lower"},
     ObservableWords{"desk_rows_px", "scatter of the image's rows", " px", "wider", "narrower"},
