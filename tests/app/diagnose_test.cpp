@@ -131,7 +131,7 @@ TEST_F(DiagnoseCommand, SaysWhichMeasurementTellsTwinsApartAndThatOneDoes) {
 TEST_F(DiagnoseCommand, WhatIsSeenOnceASessionIsConfirmedByTheSessionsItAsksFor) {
   Json spec = kSpec;
   spec["pours"] = 2;
-  spec["effects"] = {{{"name", "depth_quantization"}, {"law", 0}, {"step_px", 0.5}}};
+  spec["effects"] = {{{"name", "depth_quantization"}, {"law", 0}, {"step_px", 0.25}}};
   for (const int sessions : {1, 3}) {
     spec["sessions"] = sessions;
     write_json(folder / "spec.json", spec);
