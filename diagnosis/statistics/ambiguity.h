@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -15,6 +17,7 @@ struct Option {
   double log_posterior = 0.0;
   Eigen::VectorXd prediction;  ///< change against the nominal model, whitened; of the effects
 
+  bool is_nothing() const { return effects.empty() && !has_unknown; }
   bool is_unknown_alone() const { return effects.empty() && has_unknown; }
 };
 
@@ -27,6 +30,8 @@ struct AmbiguityClass {
   std::vector<Option> supersets = {};  ///< all effects of one of the options, and more that the data need not have
   double probability = 0.0;            ///< of all of them together
   double alone = 0.0;                  ///< of the options
+
+  bool holds_nothing() const { return std::any_of(options.begin(), options.end(), std::mem_fn(&Option::is_nothing)); }
 };
 
 struct AmbiguitySet {

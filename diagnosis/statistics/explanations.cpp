@@ -1,6 +1,7 @@
 #include "diagnosis/statistics/explanations.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -63,7 +64,7 @@ std::vector<int> kinds_of_candidates(const Evidence& evidence) {
 }
 
 double probability_of_nothing(const AmbiguitySet& set) {
-  return probability_where(set, [](const Option& o) { return o.effects.empty() && !o.has_unknown; });
+  return probability_where(set, std::mem_fn(&Option::is_nothing));
 }
 
 double probability_of_unknown(const AmbiguitySet& set) {
