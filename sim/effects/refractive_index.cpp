@@ -25,8 +25,9 @@ Effect refractive_index() {
       .id = "refractive_index",
       .family = "liquid",
       .sentence = "The liquid bends light more than its table says.",
-      .parameters = {{"index_change", "added to the refractive index at the sensor's wavelength", 0.0, 0.005, -0.3,
-                      0.3}},
+      .parameters = {{"index_change",
+                      "added to the refractive index at the sensor's wavelength, down to an index of 1.28", 0.0, 0.005,
+                      -0.3, 0.3}},
       .citation =
           "Daimon & Masumura 2007, Applied Optics 46, 3811: water at 830 nm has 1.328, not the 1.333 of visible light",
       .twins = {"fill_scale", "fill_offset"},

@@ -41,8 +41,7 @@ Effect ripples() {
           "Cox & Munk 1954, Journal of the Optical Society of America 44, 838: what waves do to sight goes "
           "by their mean square slope",
       .twins = {"refractive_index", "fill_scale"},
-      .discriminated_by =
-          "trials spread over time: waves die out; fills: they move a bottom by more than the fill's share",
+      .discriminated_by = "how trials scatter: no two shots see waves alike; trials spread over time: they die out",
       .apply = apply,
       .of_liquids = true};
 }
