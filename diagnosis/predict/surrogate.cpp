@@ -22,7 +22,8 @@ Pose believed_pose(const LaboratoryRig& rig) {
 
 /// Samples lie where they lie, but a frame's noise spreads its points over many steps and millimetres. Of the law's
 /// depths, cut to whole millimetres, the cut is even over one, which is k steps: the mean cosine of that is sinc k.
-void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, FrameEstimates& estimates) {
+/// `phase`: by how many steps codes stand beside those that the comb is measured on.
+void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, double phase, FrameEstimates& estimates) {
   estimates.step_comb.setZero();
   estimates.coarse_combs.fill(0.0);
   estimates.millimetre_comb = sensor.quantized ? 1.0 : 0.0;
@@ -38,7 +39,7 @@ void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, Fra
     }
     return sum / weight;
   };
-  estimates.step_comb.x() = strength(1);
+  estimates.step_comb = strength(1) * direction_of(2.0 * std::numbers::pi * phase);
   for (std::size_t i = 0; i < kCoarseCombs.size(); ++i)
     if (sensor.codes_per_step % kCoarseCombs[i] == 0) estimates.coarse_combs[i] = strength(kCoarseCombs[i]);
 }
@@ -75,7 +76,7 @@ std::vector<SensedPoint> points_at(const DeviceReader& read, const std::vector<E
 
 SurrogateView view_of(const Setup& setup) {
   return {DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0, setup.processing.bisector,
-          cup_optics(setup)};
+          setup.rig.sensor.step_phase, cup_optics(setup)};
 }
 
 std::vector<SensedPoint> desk_points(const SurrogateView& view, const SampledPixels& pixels) {
@@ -317,7 +318,7 @@ SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
   const bool same_desk = known && desk_looks_alike(view, known->view);
   const bool same_inside = same_desk && inside_looks_alike(view, known->view);
   const bool same_walls = same_desk && walls_look_alike(view, known->view);
-  if (same_desk && same_inside && same_walls) return *known;
+  if (same_desk && same_inside && same_walls && view.step_phase == known->view.step_phase) return *known;
   frame.desk = same_desk ? known->desk : desk_points(view, pixels);
   if (view.cup) {
     frame.inside = same_inside ? known->inside : inside_points(view, pixels);
@@ -327,7 +328,8 @@ SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
   points.insert(points.end(), frame.inside.begin(), frame.inside.end());
   points.insert(points.end(), frame.walls.begin(), frame.walls.end());
   frame.estimates = estimate_frame(points, rig, {place, pixels.soft_m});
-  if (frame.estimates) set_combs(frame.desk, view.reader.rig().sensor, *frame.estimates);
+  if (frame.estimates)
+    set_combs(frame.desk, view.reader.rig().sensor, view.step_phase - SensorModel().step_phase, *frame.estimates);
   return frame;
 }
 

@@ -20,7 +20,7 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen:
 /// All of a set-up that its points depend on.
 struct SurrogateView {
   DeviceReader reader;
-  double desk_albedo, bisector;
+  double desk_albedo, bisector, step_phase;
   std::optional<CupOptics> cup;
 };
 

@@ -136,6 +136,27 @@ TEST(Surrogate, DeepensWhatWavesShowByTheirMeanSquareSlope) {
     EXPECT_NEAR((height_mm(slope) - still) / (per_slope * slope), 1.0, kFourthOrder) << slope;
 }
 
+TEST(Surrogate, KnowsOnWhichCodesDepthsStand) {
+  const LaboratoryRig rig = paper_laboratory();
+  const Factors factors = paper_shot("water", 20.0, 300.0);
+  const Eigen::Vector2d place(0.0, 0.3);
+  const SampledPixels pixels = sample_pixels(rig, place);
+  const auto quantized = [&](const Json& effects) {
+    fathom::Setup setup = paper_setup(factors, effects);
+    setup.rig.sensor.quantized = true;
+    return setup;
+  };
+  const SurrogateFrame nominal = surrogate_frame(quantized(Json::array()), rig, place, pixels);
+  const double strength = nominal.estimates.value().step_comb.x();
+  ASSERT_GT(strength, 0.4);
+  for (const double phase : {0.25, 0.5}) {
+    const Json moved = {{{"name", "depth_step_phase"}, {"phase_steps", phase}}};
+    const FrameEstimates seen = surrogate_frame(quantized(moved), rig, place, pixels, &nominal).estimates.value();
+    EXPECT_NEAR(seen.step_comb.x(), strength * std::cos(2.0 * std::numbers::pi * phase), 1e-12);
+    EXPECT_EQ(seen.height[0].mean, nominal.estimates->height[0].mean);
+  }
+}
+
 /// What the walls say of a cup with an effect, less what they say without one [mm].
 Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral_mm) {
   const LaboratoryRig rig = paper_laboratory();
