@@ -103,7 +103,8 @@ std::string rivals_html(const Diagnosis& diagnosis) {
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
     std::vector<std::string> twins;
     for (const auto& twin : explanation.alternatives) twins.push_back(effects_words(twin));
-    rows.push_back({effects_words(explanation.effects), some_of(std::move(twins)), beside_words(explanation),
+    rows.push_back({effects_words(explanation.effects) + (explanation.is_too_small ? ", too small to show" : ""),
+                    some_of(std::move(twins)), beside_words(explanation),
                     fmt::format("{:.3f}", explanation.probability), fmt::format("{:.3f}", explanation.alone)});
   }
   return html_table({"explanation", "cannot be told from", "may be there as well", "probability", "alone"}, rows);

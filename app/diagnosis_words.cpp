@@ -123,8 +123,8 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
 /// "foam, cup bottom height or fill offset (98 %)": an explanation and what cannot be told from it.
 std::string rival_words(const Explanation& explanation) {
   constexpr std::size_t kMost = 3;
-  if (explanation.effects.empty())
-    return fmt::format("nothing that would show ({:.0f} %)", 100 * explanation.probability);
+  if (explanation.is_too_small)
+    return fmt::format("something too small to show ({:.0f} %)", 100 * explanation.probability);
   std::vector<std::string> alike{effects_words(explanation.effects)};
   for (const std::vector<std::string>& other : explanation.alternatives)
     if (alike.size() < kMost) alike.push_back(effects_words(other));

@@ -10,13 +10,14 @@ namespace {
 
 constexpr double kAlike = 1.0;  // whitened distance of predictions
 
-/// Effects too small to be seen are a twin of none.
 bool are_twins(const Option& a, const Option& b) {
-  const bool are_as_many = a.effects.size() == b.effects.size() || a.effects.empty() || b.effects.empty();
-  return are_as_many && a.has_unknown == b.has_unknown && (a.prediction - b.prediction).norm() < kAlike;
+  return a.has_unknown == b.has_unknown && a.effects.size() == b.effects.size() &&
+         (a.prediction - b.prediction).norm() < kAlike;
 }
 
 }  // namespace
+
+bool Option::is_too_small() const { return !effects.empty() && !has_unknown && prediction.norm() < kAlike; }
 
 const Option& likeliest(const std::vector<Option>& options) {
   return *std::max_element(options.begin(), options.end(),

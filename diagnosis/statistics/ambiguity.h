@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <functional>
 #include <set>
 #include <vector>
 
@@ -19,6 +17,7 @@ struct Option {
 
   bool is_nothing() const { return effects.empty() && !has_unknown; }
   bool is_unknown_alone() const { return effects.empty() && has_unknown; }
+  bool is_too_small() const;  ///< for all the data together to show
 };
 
 /// The first of the highest log posterior; there must be one.
@@ -30,8 +29,6 @@ struct AmbiguityClass {
   std::vector<Option> supersets = {};  ///< all effects of one of the options, and more that the data need not have
   double probability = 0.0;            ///< of all of them together
   double alone = 0.0;                  ///< of the options
-
-  bool holds_nothing() const { return std::any_of(options.begin(), options.end(), std::mem_fn(&Option::is_nothing)); }
 };
 
 struct AmbiguitySet {
@@ -43,8 +40,8 @@ struct AmbiguitySet {
 std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds);
 
 /// Options within `delta` of the best log posterior; probabilities are shared among them. Those whose predictions
-/// differ by less than one σ of all the data together are twins, of one class: as many effects, or none. Supersets of
-/// an option (other than none) that are no likelier go with it.
+/// differ by less than one σ of all the data together are twins, of one class. Supersets of an option (other than none)
+/// that are no likelier go with it.
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta);
 
 }  // namespace fathom

@@ -46,6 +46,7 @@ struct Explanation {
   std::vector<std::vector<std::string>> supersets;     ///< hold more that the data neither need nor exclude
   double probability = 0.0;                            ///< of all of these together
   double alone = 0.0;                                  ///< without the supersets
+  bool is_too_small = false;                           ///< for these measurements to show
 };
 
 /// Root mean square of the heights' residuals.

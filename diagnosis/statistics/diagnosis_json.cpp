@@ -54,6 +54,7 @@ Json json_from(const NamedEffect& effect) {
 Json json_from(const Explanation& explanation) {
   Json json{{"effects", ids_of(explanation.effects)}, {"probability", explanation.probability}};
   if (ids_of(explanation.effects) != explanation.effects) json["in_detail"] = explanation.effects;
+  if (explanation.is_too_small) json["too_small_to_show"] = true;
   std::set<std::set<std::string>> known;
   const auto is_new = [&](const std::vector<std::string>& ids) { return known.emplace(ids.begin(), ids.end()).second; };
   is_new(ids_of(explanation.effects));

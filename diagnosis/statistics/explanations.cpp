@@ -38,7 +38,12 @@ double probability_where(const AmbiguitySet& set, const Is& is) {
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
   std::vector<Explanation> result;
   for (const AmbiguityClass& one : set.classes) {
-    Explanation explanation{words(evidence, one.options.front()), {}, {}, one.probability, one.alone};
+    Explanation explanation{words(evidence, one.options.front()),
+                            {},
+                            {},
+                            one.probability,
+                            one.alone,
+                            std::all_of(one.options.begin(), one.options.end(), std::mem_fn(&Option::is_too_small))};
     for (std::size_t i = 1; i < one.options.size(); ++i)
       explanation.alternatives.push_back(words(evidence, one.options[i]));
     for (const Option& superset : one.supersets) explanation.supersets.push_back(words(evidence, superset));

@@ -257,8 +257,9 @@ std::vector<NextMeasurement> next_measurements(const Evidence& evidence, const C
   std::set<std::string> effects;
   for (const AmbiguityClass& alike : set.classes)
     for (const Option& option : alike.options) {
-      if (alike.holds_nothing() && !option.is_nothing()) continue;  // too small to be asked after
-      if (option.has_unknown || rivals.size() == kLikeliest || !known.insert(kinds_of(option, kinds)).second) continue;
+      if (option.has_unknown || option.is_too_small() || rivals.size() == kLikeliest ||
+          !known.insert(kinds_of(option, kinds)).second)
+        continue;
       rivals.emplace_back(old, option);
       for (const int effect : option.effects) effects.insert(evidence.candidates[effect].effect);
     }

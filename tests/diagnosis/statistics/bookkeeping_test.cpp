@@ -144,9 +144,9 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   blind.name = "another look at nothing";
   blind.evidence.candidates.clear();
 
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(residual_of(evidence).size());
-  const Option is_bottom{{bottom}, Eigen::VectorXd::Constant(1, 1.0), false, 0.0, none};
-  const Option is_coaster{{coaster}, Eigen::VectorXd::Constant(1, 2.0), false, 0.0, none};
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(residual_of(evidence).size()), raised = none.array() + 1.0;
+  const Option is_bottom{{bottom}, Eigen::VectorXd::Constant(1, 1.0), false, 0.0, raised};
+  const Option is_coaster{{coaster}, Eigen::VectorXd::Constant(1, 2.0), false, 0.0, raised};
   EXPECT_NEAR(t_criterion(evidence, covariance, blind, is_bottom, is_coaster), 0.0, 1e-6);
   // 1 mm seen with 0.05 mm, less what the campaign leaves uncertain of the size.
   EXPECT_GT(t_criterion(evidence, covariance, gauge, is_bottom, is_coaster), 3.0);
@@ -169,6 +169,13 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
       set);
   ASSERT_EQ(next.size(), 1U);
   EXPECT_EQ(next[0].measurement, "gauge block");
+  // What is too small to show is not asked after.
+  Option is_hardly = is_coaster;
+  is_hardly.prediction = none;
+  EXPECT_TRUE(next_measurements(evidence, covariance,
+                                [&](const std::vector<std::string>&) { return std::vector{gauge}; },
+                                {{{.options = {is_nothing, is_hardly}, .probability = 1.0}}})
+                  .empty());
 }
 
 }  // namespace
