@@ -20,8 +20,7 @@ enum class SharedBy {
   liquid_region,
   filling,
   condition,
-  condition_region,
-  placement_region
+  condition_region
 };
 
 /// What few rays and direct light leave out of an observable (see surrogate.h and its test), in its unit.
@@ -105,8 +104,6 @@ std::string shared_key(const Observation& observation, SharedBy shared_by) {
       return condition;
     case SharedBy::condition_region:
       return f.region + " of " + condition;
-    case SharedBy::placement_region:
-      return f.region + " of " + placement_key(observation);
   }
   return {};
 }

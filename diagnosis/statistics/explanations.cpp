@@ -73,7 +73,7 @@ double probability_of_nothing(const AmbiguitySet& set) {
 }
 
 double probability_of_unknown(const AmbiguitySet& set) {
-  return probability_where(set, [](const Option& o) { return o.is_unknown_alone(); });
+  return probability_where(set, std::mem_fn(&Option::is_unknown_alone));
 }
 
 }  // namespace fathom
