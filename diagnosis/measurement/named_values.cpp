@@ -9,7 +9,7 @@ namespace fathom {
 
 std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   // Pixels; fewer are no evidence, and of a region no more than the edge of a shadow.
-  constexpr double kFewestInside = 10.0, kFewestInRegion = 60.0, kFewestOnDesk = 100.0;
+  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0;
   constexpr std::string_view kDesk = "desk";
   std::vector<NamedValue> values;
   for (std::size_t i = 0; i < estimates.height.size(); ++i)

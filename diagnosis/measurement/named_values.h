@@ -14,6 +14,9 @@ struct NamedValue {
   double value;
 };
 
+/// Pixels that a region of the cup needs.
+inline constexpr double kFewestInRegion = 60.0;
+
 /// "height_mm" of every region of the cup with at least sixty pixels; of its walls "cup_x_mm", "cup_y_mm" (of the axis
 /// from where it should stand) and "cup_radius_mm" (less the rig's); of the desk "desk_height_mm" (of the camera above
 /// it), "desk_pitch_deg", "desk_roll_deg", "desk_residual_mm" of each third of the image with at least a hundred,

@@ -8,6 +8,7 @@
 
 #include "core/estimate.h"
 #include "core/units.h"
+#include "diagnosis/measurement/named_values.h"
 #include "diagnosis/predict/cup_walls.h"
 #include "theory/raised_bottom.h"
 
@@ -286,7 +287,6 @@ std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const Lab
 
 double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& place,
                            const SampledPixels& pixels) {
-  constexpr double kFewestPixels = 60.0;
   const SurrogateView view = view_of(setup);
   if (!view.cup || !is_clear(*view.cup)) return 0.0;
   const std::vector<CupOptics> moments = moments_of(*view.cup);
@@ -298,7 +298,7 @@ double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const E
     points.insert(points.end(), desk.begin(), desk.end());
     const auto estimates = estimate_frame(points, rig, {place, pixels.soft_m});
     for (std::size_t region = 0; estimates && region < heights.size(); ++region)
-      if (estimates->height[region].weight >= kFewestPixels) heights[region].add(estimates->height[region].mean);
+      if (estimates->height[region].weight >= kFewestInRegion) heights[region].add(estimates->height[region].mean);
   }
   double variance = 0.0, regions = 0.0;
   for (const Mean& height : heights) {

@@ -15,7 +15,6 @@ namespace fathom {
 namespace {
 
 constexpr int kThirds = 3;
-constexpr double kInformative = 0.02;  // share of an effect's information that makes a part count
 constexpr int kFlips = 1999;
 constexpr int kFewestPours = 6;
 

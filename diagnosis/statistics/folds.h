@@ -9,6 +9,8 @@
 namespace fathom {
 
 inline constexpr int kFolds = 6;
+/// Share of an effect's information that makes a part of the data count.
+inline constexpr double kInformative = 0.02;
 
 /// The fold 0 … kFolds-1 of every observation. Whole pours go together where there are at least twice as many as folds,
 /// else whole placements. They are ordered by liquid, fill, distance and lateral and dealt out in shuffled rounds, so

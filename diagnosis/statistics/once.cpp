@@ -12,7 +12,6 @@ namespace fathom {
 // An effect s tells sᵀ Σ⁻¹ s of itself, of which each row has its own s (Σ⁻¹ s); with Σ = L Lᵀ and s = L w the latter
 // is L⁻ᵀ w.
 Anew lacks_anew(const Evidence& evidence, const Covariance& covariance, const Option& option) {
-  constexpr double kTelling = 0.02;  // share of the information, as of folds that count (confirm.cpp)
   constexpr std::size_t kOnceOrTwice = 2;
   const Eigen::VectorXd& w = option.prediction;
   const Eigen::VectorXd change = covariance.factor.matrixL() * w, weighted = covariance.factor.matrixU().solve(w);
@@ -20,7 +19,7 @@ Anew lacks_anew(const Evidence& evidence, const Covariance& covariance, const Op
   std::map<int, std::size_t> of_session;
   std::set<std::string> pours;
   for (const std::vector<Eigen::Index>& rows : placements.members()) {
-    if (change(rows).dot(weighted(rows)) < kTelling * w.squaredNorm()) continue;
+    if (change(rows).dot(weighted(rows)) < kInformative * w.squaredNorm()) continue;
     const Observation& o = evidence.observations[rows.front()];
     ++of_session[o.factors.session];
     if (o.factors.liquid != "none") pours.insert(pour_key(o));
