@@ -14,7 +14,8 @@ void apply(Setup& setup, const EffectSetting& setting) {
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     Medium& medium = filling.medium;
     if (setting.values[0] == 0.0) return;
-    medium.index = ConstantIndex{std::max(medium.n(wavelength_nm) + setting.values[0], kLeastIndex)};
+    const double n = medium.n(wavelength_nm);
+    medium.index = ConstantIndex{std::max(n + setting.values[0], std::min(n, kLeastIndex))};
   });
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -284,6 +285,19 @@ TEST(Effects, MistakesInAListNameTheirPlaceAndTheChoices) {
       {"scene.json: /effects/1/thick_mm: unknown parameter of foam 'thick_mm', choose from thickness_mm, liquid"});
   expect_error(switched(R"([{"name": "foam", "thickness_mm": -1}])"),
                {"scene.json: /effects/0/thickness_mm: must be a number from 0 to 20, got -1"});
+}
+
+TEST(Effects, AnIndexFallsToItsFloorAndIsNeverLiftedToIt) {
+  const Effect* effect = find_effect("refractive_index");
+  ASSERT_TRUE(effect);
+  for (const auto& [n, change, changed] : {std::array{1.33, -0.01, 1.32}, {1.33, -0.1, 1.28}, {1.25, -0.01, 1.25}}) {
+    fathom::Setup setup = paper_setup(paper_shot("water", 20.0, 300.0), Json::array());
+    Medium& medium = setup.scene.cups[0].filling->medium;
+    medium.index = ConstantIndex{n};
+    const std::array values{change};
+    effect->apply(setup, {values, ""});
+    EXPECT_DOUBLE_EQ(medium.n(setup.rig.sensor.wavelength_nm), changed);
+  }
 }
 
 TEST(Effects, OfALiquidLeaveTheOthersAlone) {
