@@ -14,7 +14,8 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   std::vector<NamedValue> values;
   for (std::size_t i = 0; i < estimates.height.size(); ++i)
     if (estimates.height[i].weight >= kFewestInRegion)
-      values.push_back({"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean)});
+      values.push_back(
+          {"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean), estimates.height[i].weight});
   if (estimates.interior.weight >= kFewestInside) {
     values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});
     const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;

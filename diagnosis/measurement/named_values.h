@@ -12,6 +12,7 @@ struct NamedValue {
   std::string_view observable;  ///< with its unit: "height_mm"
   std::string_view region;      ///< of the cup or of the desk around it
   double value;
+  double pixels = 0.0;  ///< that it is the mean of; 0: of no certain number
 };
 
 /// Pixels that a region of the cup needs.

@@ -133,6 +133,7 @@ std::vector<FrameReading> read_frames_of(const Measurement& measurement, const s
 struct Trials {
   std::string_view observable, region;
   std::vector<double> values;
+  double pixels = 0.0;  ///< of all
 };
 
 Observation observation_of(const Trials& trials, const FrameRecord& frame, double time_s, double stood_s) {
@@ -140,6 +141,7 @@ Observation observation_of(const Trials& trials, const FrameRecord& frame, doubl
   Observation observation;
   observation.observable = trials.observable;
   observation.repeats = static_cast<int>(trials.values.size());
+  observation.pixels = trials.pixels / n;
   Factors& factors = observation.factors;
   factors.session = frame.session;
   factors.pour = frame.pour;
@@ -173,6 +175,7 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
       });
       if (same == all.end()) same = all.insert(all.end(), {named.observable, named.region, {}});
       same->values.push_back(named.value);
+      same->pixels += named.pixels;
     }
   }
   if (const std::optional<BandScatter> scatter = scatter_of(bands)) {

@@ -37,7 +37,7 @@ Eigen::VectorXd numerical_variance(const Evidence& evidence) {
 void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
   for (const auto& members : component.groups.members())
     for (const auto i : members)
-      for (const auto j : members) covariance(i, j) += component.variance;
+      for (const auto j : members) covariance(i, j) += component.variance * component.scale[i] * component.scale[j];
 }
 
 /// Variances that the data might as well have come from: lognormal, for those of few degrees of freedom are often much
@@ -109,10 +109,10 @@ Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::Ma
   for (const ObservableErrors& errors : covariance.errors.observables) {
     Eigen::MatrixXd shares(static_cast<Eigen::Index>(errors.components.size()), columns.cols());
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
-      const Groups& groups = errors.components[k].groups;
+      const auto& [observable, level, variance, groups, scale] = errors.components[k];
       Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(groups.count, columns.cols());
       for (Eigen::Index i = 0; i < weights.rows(); ++i)
-        if (const int group = groups.of[i]; group >= 0) sums.row(group) += weights.row(i);
+        if (const int group = groups.of[i]; group >= 0) sums.row(group) += scale[i] * weights.row(i);
       shares.row(static_cast<Eigen::Index>(k)) = sums.colwise().squaredNorm().array() / total.transpose().array();
     }
     if (shares.rows() > 0)
@@ -142,7 +142,8 @@ Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std:
         std::vector<double> shared(groups.count);
         for (double& value : shared) value = sd * rng.normal();
         for (Eigen::Index i = 0; i < n; ++i)
-          if (const int group = groups.of[i]; group >= 0) residuals(i, draw) += shared[group];
+          if (const int group = groups.of[i]; group >= 0)
+            residuals(i, draw) += errors.components[k].scale[i] * shared[group];
       }
     }
   }

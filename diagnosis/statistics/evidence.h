@@ -25,6 +25,7 @@ struct Observation {
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
   int repeats = 1;
+  double pixels = 0.0;  ///< of one repeat, that the value is the mean of; 0: of no certain number
 };
 
 /// Something uncertain that is no effect: a calibrated length, the fill of one pour, the place of one placement.

@@ -62,7 +62,11 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     for (const SharedError& shared : evidence.shared_errors) {
       if (shared.observable != observable) continue;
       const int count = *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1;
-      errors.components.push_back({observable, ErrorLevel::model, 0.0, {shared.group_of, count}});
+      errors.components.push_back({observable,
+                                   ErrorLevel::model,
+                                   0.0,
+                                   {shared.group_of, count},
+                                   Eigen::VectorXd::Ones(static_cast<Eigen::Index>(evidence.observations.size()))});
       priors.push_back({shared.sigma * shared.sigma, kThoughtDof});
     }
     if (errors.components.empty()) continue;

@@ -19,6 +19,7 @@ constexpr std::size_t kFewestRows = 4;  // of an observable whose errors can be 
 /// The components of one observable that can be told apart, over its rows.
 std::vector<VarianceComponent> candidates_of(const std::string& observable,
                                              const std::vector<Observation>& observations) {
+  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
   std::vector<VarianceComponent> result;
   const auto add = [&](ErrorLevel level, const std::function<std::string(const Observation&)>& key) {
     int row = 0;
@@ -28,7 +29,9 @@ std::vector<VarianceComponent> candidates_of(const std::string& observable,
       return level == ErrorLevel::observation ? std::to_string(row) : key(o);
     });
     const bool is_known = !result.empty() && result.back().groups.count == groups.count;
-    if (groups.count >= 2 && !is_known) result.push_back({observable, level, 0.0, std::move(groups)});
+    if (groups.count >= 2 && !is_known)
+      result.push_back({observable, level, 0.0, std::move(groups),
+                        level == ErrorLevel::observation ? relative_errors(observations) : alike});
   };
   add(ErrorLevel::observation, cell_key);
   add(ErrorLevel::placement, placement_key);
@@ -38,11 +41,12 @@ std::vector<VarianceComponent> candidates_of(const std::string& observable,
 }
 
 /// Z Zᵀ between contrasts K (rows × m), from K's rows summed over each group.
-Eigen::MatrixXd shared(const Groups& groups, const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& contrasts) {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(groups.count, contrasts.cols());
+Eigen::MatrixXd shared(const VarianceComponent& component, const std::vector<Eigen::Index>& rows,
+                       const Eigen::MatrixXd& contrasts) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(component.groups.count, contrasts.cols());
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (const int group = groups.of[rows[i]]; group >= 0)
-      sums.row(group) += contrasts.row(static_cast<Eigen::Index>(i));
+    if (const int group = component.groups.of[rows[i]]; group >= 0)
+      sums.row(group) += component.scale[rows[i]] * contrasts.row(static_cast<Eigen::Index>(i));
   return sums.transpose() * sums;
 }
 
@@ -73,11 +77,11 @@ void fit_unrepeated(const Evidence& evidence, const std::vector<Eigen::Index>& r
   const Eigen::MatrixXd contrasts = means.over.transpose() * means.contrasts;
   Eigen::MatrixXd covariance = contrasts.transpose() * known(rows, rows) * contrasts;
   for (const VarianceComponent& component : errors.components)
-    covariance += component.variance * shared(component.groups, rows, contrasts);
+    covariance += component.variance * shared(component, rows, contrasts);
   std::vector<Eigen::MatrixXd> shapes;
   std::erase_if(components, [&](const VarianceComponent& component) {
-    Eigen::MatrixXd shape = shared(component.groups, rows, contrasts);
-    const double all = shared(component.groups, rows, means.over.transpose()).trace();
+    Eigen::MatrixXd shape = shared(component, rows, contrasts);
+    const double all = shared(component, rows, means.over.transpose()).trace();
     if (shape.trace() < kLeastSeen * all || (!shapes.empty() && are_alike(shapes.back(), shape))) return true;
     shapes.push_back(std::move(shape));
     return false;
@@ -103,28 +107,48 @@ std::string name_of(ErrorLevel level) {
   return {};
 }
 
+Eigen::VectorXd relative_errors(const std::vector<Observation>& observations) {
+  constexpr double kMost = 3.0;
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
+  const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
+  for (const auto& rows : observables.members()) {
+    std::vector<double> pixels;
+    for (const auto row : rows) pixels.push_back(observations[row].pixels);
+    if (*std::min_element(pixels.begin(), pixels.end()) <= 0.0) continue;
+    const double typical = median(pixels);
+    double squares = 0.0;
+    for (const auto row : rows) {
+      result[row] = std::clamp(std::sqrt(typical / observations[row].pixels), 1.0 / kMost, kMost);
+      squares += result[row] * result[row];
+    }
+    for (const auto row : rows) result[row] /= std::sqrt(squares / static_cast<double>(rows.size()));
+  }
+  return result;
+}
+
 Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations) {
+  const Eigen::VectorXd relative = relative_errors(observations);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()));
   const Groups groups =
       group_by(observations, [](const Observation& o) { return o.observable + "/" + o.factors.region; });
   for (const auto& members : groups.members()) {
     std::vector<double> scatters;
     for (const auto i : members)
-      if (observations[i].repeats > 1) scatters.push_back(observations[i].repeat_sd);
+      if (observations[i].repeats > 1) scatters.push_back(observations[i].repeat_sd / relative[i]);
     if (scatters.empty()) continue;
     const double most =
         median(scatters) > 0.0 ? kOutlier * median(scatters) : *std::max_element(scatters.begin(), scatters.end());
     double squares = 0.0, dof = 0.0;
     for (const auto i : members) {
       const double weight = observations[i].repeats - 1;
-      squares += weight * std::pow(std::min(observations[i].repeat_sd, most), 2.0);
+      squares += weight * std::pow(std::min(observations[i].repeat_sd / relative[i], most), 2.0);
       dof += weight;
     }
     for (const auto i : members) {
       const double own = observations[i].repeats - 1;
       const double own_squares = own * std::pow(observations[i].repeat_sd, 2.0);
-      result[i] =
-          (kPooledDof * squares / dof + own_squares) / (kPooledDof + own) / std::max(1, observations[i].repeats);
+      result[i] = (kPooledDof * relative[i] * relative[i] * squares / dof + own_squares) / (kPooledDof + own) /
+                  std::max(1, observations[i].repeats);
     }
   }
   return result;
@@ -149,7 +173,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     std::vector<Eigen::MatrixXd> shapes;
     std::vector<VarianceComponent> unrepeated;
     std::erase_if(components, [&](VarianceComponent& component) {
-      Eigen::MatrixXd shape = shared(component.groups, rows, contrasts);
+      Eigen::MatrixXd shape = shared(component, rows, contrasts);
       const bool is_seen = shape.trace() > 1e-6 * static_cast<double>(rows.size());
       // Sessions have nuisances of their own, and what sets their means apart may be the effect itself.
       if (!is_seen && component.level != ErrorLevel::session) unrepeated.push_back(std::move(component));

@@ -19,6 +19,7 @@ struct VarianceComponent {
   ErrorLevel level = ErrorLevel::observation;
   double variance = 0.0;  ///< in the observable's unit, squared
   Groups groups;          ///< -1 for other observables
+  Eigen::VectorXd scale;  ///< of the error in each observation; 1 on the whole
 };
 
 /// The components of one observable, estimated together: a large pour goes with a small placement.
@@ -36,6 +37,10 @@ struct ErrorBudget {
 
 /// Variance of the mean of each observation's repeats: their own scatter and the one pooled over its observable and
 /// region, weighed by degrees of freedom; outliers among the scatters count no more than three times their median.
+/// How large the errors of single observations are beside those of their observable on the whole: a mean of few pixels
+/// scatters more.
+Eigen::VectorXd relative_errors(const std::vector<Observation>& observations);
+
 Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations);
 
 /// Restricted maximum likelihood (reml.h), for each observable. `known` (n × n) is
