@@ -17,9 +17,6 @@ namespace {
 /// Mistakes in writing down are looked for before any physics, with their exact values (bookkeeping.h).
 constexpr std::array<std::string_view, 2> kBookkeeping{"unit_error", "label_swap"};
 
-/// A nuisance (nuisances.h) that goes as the effect does: nothing is left of it to be seen.
-constexpr std::string_view kAllowedFor = "window_averaging";
-
 Candidate candidate_of(const Predictor& predictor, const Effect& effect, const std::string& liquid) {
   const std::vector<std::size_t> touched = conditions_touched(predictor, effect, liquid);
   const auto slope_there = [&](const std::function<EffectValue(double)>& at, double low, double high) {
@@ -46,15 +43,6 @@ Candidate candidate_of_liquid(const Predictor& predictor, const Effect& effect, 
     for (const std::size_t row : predictor.conditions()[condition].rows)
       candidate.signature.row(static_cast<Eigen::Index>(row)) = of_all.signature.row(static_cast<Eigen::Index>(row));
   return candidate;
-}
-
-/// A candidate that nothing shows.
-Candidate unseen(const Predictor& predictor, const Effect& effect) {
-  std::size_t rows = 0;
-  for (const Condition& condition : predictor.conditions()) rows += condition.rows.size();
-  return candidate_by_slopes(effect, std::string(effect.id), [&](const auto&, double, double) {
-    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows)).eval();
-  });
 }
 
 /// What moves every row by less than this at its prior scale moves nothing that could be measured.
@@ -118,8 +106,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
     const EffectName parts = effect_name(name);
     const Effect* effect = find_effect(parts.id);
     if (!effect) throw Error("effects", unknown_name("effect", parts.id, effect_ids()));
-    Candidate candidate = parts.id == kAllowedFor ? unseen(predictor, *effect)
-                          : !parts.liquid.empty() && of_all && of_all->effect == parts.id
+    Candidate candidate = !parts.liquid.empty() && of_all && of_all->effect == parts.id
                               ? candidate_of_liquid(predictor, *effect, parts.liquid, *of_all)
                               : candidate_of(predictor, *effect, parts.liquid);
     if (parts.liquid.empty()) of_all = candidate;

@@ -60,24 +60,30 @@ constexpr std::array kModelErrors{
     ModelError{"comb_half", 0.05, SharedBy::session},
     ModelError{"millimetre_comb", 0.02, SharedBy::all}};
 
-/// The same of an effect, above clear liquids.
+/// The same of an effect, above clear liquids or everywhere.
 struct EffectError {
   std::string_view effect;
   ModelError error;
-  bool grows = false;
+  bool grows = false, everywhere = false;
 };
 /// Foam has holes where nothing is seen. Of a window of 11 mm, 0.7 m away, cells of 6 mm that lack a tenth shift the
 /// middle of its light by half a pixel; across it heights differ by 0.7 mm a pixel. A region holds few such windows.
 /// Waves are of any length, and move a region by as much as that has it; a matcher that loses smeared dots makes
 /// the deeper bottoms of whole frames darker than direct light has them. How far each shot is off its mean
-/// is in the scatter of heights.
+/// is in the scatter of heights. Wide windows hold two surfaces: which they read, and where they have them, is the
+/// matcher's.
 constexpr std::array kEffectErrors{
     EffectError{"foam", {"height_mm", 0.3, SharedBy::liquid_region}},     // the same holes at each pour, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::place_region}},      // … seen from elsewhere, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::condition_region}},  // … by other dots
     EffectError{"foam", {"liquid_motion_mm", 0.3, SharedBy::liquid}},
     EffectError{"ripples", {"log_brightness", 0.08, SharedBy::filling}, true},
-    EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, true}};
+    EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, true},
+    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::place_region}, true, true},
+    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::condition_region}, true, true},
+    EffectError{"window_averaging", {"cup_x_mm", 0.4, SharedBy::condition}, true, true},
+    EffectError{"window_averaging", {"cup_y_mm", 0.4, SharedBy::condition}, true, true},
+    EffectError{"window_averaging", {"cup_radius_mm", 0.4, SharedBy::condition}, true, true}};
 
 std::string shared_key(const Observation& observation, SharedBy shared_by) {
   const Factors& f = observation.factors;
@@ -142,7 +148,8 @@ OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& obs
     const Groups groups = groups_of(of_effect.error, observations);
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, groups.count);
     for (Eigen::Index row = 0; row < n; ++row)
-      if (groups.of[row] >= 0 && sees_through[row]) columns(row, groups.of[row]) = of_effect.error.sigma;
+      if (groups.of[row] >= 0 && (of_effect.everywhere || sees_through[row]))
+        columns(row, groups.of[row]) = of_effect.error.sigma;
     std::vector<Eigen::Index> seen;
     for (Eigen::Index k = 0; k < columns.cols(); ++k)
       if (!columns.col(k).isZero(0.0)) seen.push_back(k);

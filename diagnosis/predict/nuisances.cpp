@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/units.h"
@@ -51,12 +52,7 @@ void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   }
 }
 
-/// A device that matches has averaged over its windows, a capture without images has not: both are taken for right.
-Nuisance window_nuisance(const Predictor& predictor) {
-  constexpr double kWindow_px = 9.0;
-  const auto at = [](double x) { return switch_on({{"window_averaging", {x}}}); };
-  return {"matching window", kWindow_px, slope(predictor, at, 1.0, kWindow_px, all_conditions(predictor))};
-}
+constexpr double kNoWindow_px = 1.0, kDeviceWindow_px = 9.0;
 
 void add_fills(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   const double sigma_mm = mm_from_metres(predictor.model().laboratory.fill_sigma_m);
@@ -99,8 +95,21 @@ std::vector<Nuisance> nuisances_of(const Predictor& predictor) {
   add_rig(predictor, nuisances);
   add_fills(predictor, nuisances);
   add_places(predictor, nuisances);
-  nuisances.push_back(window_nuisance(predictor));
   return nuisances;
+}
+
+Nuisance usual_windows(const Predictor& predictor) {
+  constexpr double kWidth_px = kDeviceWindow_px - kNoWindow_px;
+  const auto at = [](double x) { return switch_on({{"window_averaging", {x}}}); };
+  return {"matching window", 0.5,
+          kWidth_px * slope(predictor, at, kNoWindow_px, kDeviceWindow_px, all_conditions(predictor))};
+}
+
+double left_to_usual_windows(const std::vector<EffectValue>& effects) {
+  for (const EffectValue& effect : effects)
+    if (effect.effect == "window_averaging")
+      return std::clamp((kDeviceWindow_px - effect.values[0]) / (kDeviceWindow_px - kNoWindow_px), 0.0, 1.0);
+  return 1.0;
 }
 
 Nuisance brightness_response(const std::vector<Observation>& observations, const Eigen::VectorXd& predicted) {

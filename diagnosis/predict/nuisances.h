@@ -6,8 +6,15 @@
 namespace fathom {
 
 /// The rig's uncertain values (1 σ from the rig, else from uncertain_rig.h), the sensor's pose in each session where
-/// there are several, the fill of every pour, the place of every placement, and the matcher's window.
+/// there are several, the fill of every pour, and the place of every placement.
 std::vector<Nuisance> nuisances_of(const Predictor& predictor);
+
+/// What a device's windows of 9 × 9 pixels change, and half of it, by which clouds that have averaged over them and
+/// clouds that have not both lie beside what is in the middle of the two.
+Nuisance usual_windows(const Predictor& predictor);
+
+/// How much of that middle is left where effects may say how wide windows are: 1 to 0.
+double left_to_usual_windows(const std::vector<EffectValue>& effects);
 
 /// What recorded the brightness need not have been linear: an exponent of 1 ± 0.5 (encodings for screens have 1 / 2.2)
 /// on all that is `predicted` of it.

@@ -52,9 +52,12 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
     predictor->add(motion);
     evidence.observations.push_back(std::move(motion));
   }
-  evidence.predicted = predictor->predict({});
+  const Nuisance windows = usual_windows(*predictor);
+  const Eigen::VectorXd middle = windows.sigma * windows.signature;
+  evidence.predicted = predictor->predict({}) + middle;
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);
+  evidence.nuisances.push_back(windows);
   if (Nuisance response = brightness_response(evidence.observations, evidence.predicted); !response.signature.isZero())
     evidence.nuisances.push_back(std::move(response));
   evidence.shared_errors = model_errors(evidence.observations);
@@ -67,8 +70,8 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   }
   physics.unseen = std::move(candidates.unseen);
   physics.predictor = predictor;
-  physics.predict = [predictor, nominal = evidence.predicted](const std::vector<EffectValue>& effects) {
-    Eigen::VectorXd values = predictor->predict(switch_on(effects));
+  physics.predict = [predictor, middle, nominal = evidence.predicted](const std::vector<EffectValue>& effects) {
+    Eigen::VectorXd values = predictor->predict(switch_on(effects)) + left_to_usual_windows(effects) * middle;
     for (Eigen::Index row = 0; row < values.size(); ++row)
       if (!std::isfinite(values[row])) values[row] = nominal[row];
     return values;

@@ -66,8 +66,7 @@ TEST(Physics, RowsAreWhatTheModelPredicts) {
     EXPECT_EQ(candidate.signature.rows(), evidence.predicted.size()) << candidate.effect;
   }
   EXPECT_TRUE(find(evidence, "fill_offset") && find(evidence, "fill_offset@milk"));
-  for (const char* unseen :
-       {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost", "window_averaging"})
+  for (const char* unseen : {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost"})
     EXPECT_TRUE(std::count(physics.unseen.begin(), physics.unseen.end(), unseen)) << unseen;
 }
 
