@@ -30,6 +30,11 @@ std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds) {
   return result;
 }
 
+void AmbiguitySet::put_unknown_first() {
+  std::stable_partition(classes.begin(), classes.end(),
+                        [](const AmbiguityClass& one) { return one.options.front().has_unknown; });
+}
+
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta) {
   std::stable_sort(options.begin(), options.end(),
                    [](const Option& a, const Option& b) { return a.log_posterior > b.log_posterior; });
@@ -66,6 +71,8 @@ AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& 
     one.probability /= sum;
     one.alone /= sum;
   }
+  std::stable_sort(set.classes.begin(), set.classes.end(),
+                   [](const AmbiguityClass& a, const AmbiguityClass& b) { return a.probability > b.probability; });
   return set;
 }
 

@@ -32,7 +32,10 @@ struct AmbiguityClass {
 };
 
 struct AmbiguitySet {
-  std::vector<AmbiguityClass> classes;  ///< in the order of their likeliest options
+  std::vector<AmbiguityClass> classes;  ///< likeliest first
+
+  /// Where tests say that something unknown is there.
+  void put_unknown_first();
 };
 
 /// Of an option's effects, whatever liquids they are of. `kinds`: of each candidate, a number that it shares with the

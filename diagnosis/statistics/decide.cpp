@@ -101,8 +101,9 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   const Case c = case_of(evidence, predict, settings);
   describe_evidence(c, diagnosis);
   Weighed weighed = weigh(c);
-  const AmbiguitySet set =
+  AmbiguitySet set =
       ambiguity_set(with_imitated(weighed.options, is_tested(weighed)), kinds_of_candidates(evidence), settings.delta);
+  if (weighed.is_rest) set.put_unknown_first();
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.verdict = weighed.choice ? verdict_of_named(c, weighed, set) : verdict_of_unnamed(c, weighed.is_rest, set);
   if (diagnosis.verdict == Verdict::ambiguous)
