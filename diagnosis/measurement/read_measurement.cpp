@@ -84,7 +84,8 @@ bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
 FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder) {
   FrameReading reading;
   if (frame.cloud.empty()) {
-    if (frame.height_mm) reading.values.push_back({"height_mm", kWholeInterior, *frame.height_mm});
+    if (frame.height_mm)
+      reading.values.push_back({"height_mm", kWholeInterior, *frame.height_mm, frame.points.value_or(0.0)});
     return reading;
   }
   const Cloud cloud = read_frame_cloud(frame, folder);
