@@ -1,5 +1,7 @@
 #include "diagnosis/predict/device_reader.h"
 
+#include "sim/sensor/registration.h"
+
 namespace fathom {
 namespace {
 
@@ -23,7 +25,8 @@ UnitError without_wander(UnitModel unit) {
 DeviceReader::DeviceReader(const Setup& setup)
     : rig_(without_noise(setup.rig)),
       error_(without_wander(setup.rig.sensor.unit)),
-      window_px_(setup.processing.window_px) {}
+      window_px_(setup.processing.window_px),
+      aside_m_(setup.processing.colour_view ? kColourCamera : 0.0) {}
 
 std::optional<SensedPoint> DeviceReader::point_read(const Eigen::Vector2d& pixel, double disparity_px, double reflected,
                                                     double weight) const {
@@ -36,7 +39,7 @@ std::optional<SensedPoint> DeviceReader::point_read(const Eigen::Vector2d& pixel
   const double z = depth_of_disparity(sensor, read_as) - (sensor.quantized ? kCutOff : 0.0);
   const Calibration calibration = sensor.calibration();
   const Eigen::Vector2d across = z / calibration.focal_px * (pixel - calibration.principal_px);
-  return SensedPoint{Eigen::Vector3d(across.x(), across.y(), z).cast<float>(),
+  return SensedPoint{Eigen::Vector3d(across.x() - aside_m_, across.y(), z).cast<float>(),
                      static_cast<float>(radiance_dn(sensor, reflected)), static_cast<float>(weight)};
 }
 

@@ -73,6 +73,7 @@ class DeviceReader {
   Rig rig_;
   UnitError error_;
   double window_px_;
+  double aside_m_;  ///< where the camera stands in whose view points are given
 };
 
 }  // namespace fathom
