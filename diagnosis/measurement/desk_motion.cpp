@@ -12,8 +12,8 @@
 namespace fathom {
 namespace {
 
-constexpr std::size_t kParts = 3;      // of a campaign: one session is cut into as many
-constexpr std::size_t kFewest = 4;     // placements in each
+constexpr std::size_t kParts = 3;      // of a campaign: one session is cut into as many, …
+constexpr std::size_t kFewest = 4;     // … but for what leaves fewer placements in each
 constexpr double kUnexplained = 0.25;  // of the variance that local noise makes: noise reaches across borders
 
 /// Variance of the height of a plane that is fitted to nine thirds of the image, over the mean variance that is left in
@@ -108,10 +108,10 @@ void add_motion(int session, std::span<const Scatter> placements, const Laborato
 
 std::vector<Observation> desk_motion(const std::vector<Observation>& observations, const LaboratoryRig& rig) {
   const std::map<int, Placements> sessions = scatter_by_session(observations);
-  const std::size_t parts = sessions.size() < kParts ? kParts / std::max<std::size_t>(sessions.size(), 1) : 1;
+  const std::size_t wanted = sessions.size() < kParts ? kParts / std::max<std::size_t>(sessions.size(), 1) : 1;
   std::vector<Observation> result;
   for (const auto& [session, placements] : sessions) {
-    if (placements.size() < parts * kFewest) continue;
+    const std::size_t parts = std::min(wanted, placements.size() / kFewest);
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t begin = placements.size() * part / parts, end = placements.size() * (part + 1) / parts;
       add_motion(session, std::span(placements).subspan(begin, end - begin), rig, result);

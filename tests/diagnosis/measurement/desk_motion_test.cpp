@@ -97,6 +97,18 @@ Found found(const char* observable, const Motion& motion) {
   return mean;
 }
 
+/// Of seven placements there are no three parts with four in each.
+TEST(DeskMotion, AShortSessionIsOfOnePart) {
+  std::vector<Observation> observations = observations_of({.noise = 0.1, .along_rows = 0.1}, 7);
+  std::erase_if(observations, [](const Observation& o) { return o.factors.placement >= 7; });
+  const std::vector<Observation> motion = desk_motion(observations, rig());
+  ASSERT_EQ(motion.size(), 2U);
+  EXPECT_EQ(motion[1].observable, "desk_waves_px");
+  EXPECT_GT(motion[1].value / (motion[1].repeat_sd / std::sqrt(motion[1].repeats)), 3.0);
+  std::erase_if(observations, [](const Observation& o) { return o.factors.placement >= 3; });
+  EXPECT_TRUE(desk_motion(observations, rig()).empty());
+}
+
 constexpr double kSure = 5.0, kChance = 3.0;  // σ
 
 TEST(DeskMotion, NoiseAloneIsNone) {

@@ -172,6 +172,45 @@ TEST(Physics, PredictionsWithoutEffectsAreThePredicted) {
   EXPECT_EQ(physics.predict({}), physics.evidence.predicted);
 }
 
+/// Clouds of a device's windows and clouds without any lie one error to either side; wider ones go beyond.
+TEST(Physics, TheUsualWindowsAreAllowedForAndWiderOnesAreAnEffect) {
+  const Physics physics = physics_of(paper_measurement(false));
+  const Evidence& evidence = physics.evidence;
+  const auto windows = std::find_if(evidence.nuisances.begin(), evidence.nuisances.end(),
+                                    [](const Nuisance& nuisance) { return nuisance.name == "matching window"; });
+  ASSERT_NE(windows, evidence.nuisances.end());
+  const auto in_errors = [&](const Eigen::VectorXd& prediction) {
+    return (prediction - evidence.predicted).dot(windows->signature) /
+           (windows->sigma * windows->signature.squaredNorm());
+  };
+  const auto of_width = [&](double px) { return physics.predict({{"window_averaging", {px}}}); };
+  EXPECT_NEAR(in_errors(of_width(9.0)), 1.0, 1e-9);
+  EXPECT_NEAR(in_errors(physics.predictor->predict({})), -1.0, 1e-9);
+  EXPECT_NEAR(in_errors(of_width(1.0)), 0.0, 1e-9) << "which says nothing of windows";
+  EXPECT_GT(in_errors(of_width(17.0)), 4.0);
+  EXPECT_GT(in_errors(of_width(25.0)), 9.0);
+  const Candidate* candidate = find(evidence, "window_averaging");
+  ASSERT_TRUE(candidate);
+  EXPECT_GT(candidate->leeway.columns.cols(), 0);
+}
+
+/// A cup in such clouds looks as one does that stands there: 25 mm to the left, and as high.
+TEST(Physics, CloudsInTheColourCamerasViewStandBesideTheirPlaces) {
+  Measurement measurement = paper_measurement(false);
+  for (const char* observable : {"cup_x_mm", "cup_y_mm"}) {
+    measurement.observations.push_back(measurement.observations.front());
+    measurement.observations.back().observable = observable;
+    measurement.observations.back().factors.region = "walls";
+  }
+  const Physics physics = physics_of(measurement);
+  const Eigen::VectorXd change = physics.predict({{"colour_registration", {1.0}}}) - physics.evidence.predicted;
+  for (Eigen::Index row = 0; row < change.size(); ++row) {
+    const Observation& o = physics.evidence.observations[row];
+    if (o.observable.starts_with("desk_")) continue;
+    EXPECT_NEAR(change[row], o.observable == "cup_x_mm" ? -25.0 : 0.0, 0.3) << o.observable << ' ' << o.factors.region;
+  }
+}
+
 TEST(Physics, SignaturesAreTheSlopesOfPredictions) {
   const Physics physics = physics_of(paper_measurement(true));
   for (const char* id : {"sensor_height", "baseline", "refractive_index", "fill_scale", "cup_bottom_height"}) {

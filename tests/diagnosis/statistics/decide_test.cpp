@@ -324,6 +324,25 @@ TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationGoesWithIt) {
   EXPECT_NEAR(first.probability + second.probability, 1.0, 1e-9);
 }
 
+/// What is likeliest with others beside it stands before what is likelier with those alone.
+TEST(AmbiguitySet, IsInTheOrderOfProbabilities) {
+  const auto option = [](std::vector<int> effects, bool has_unknown, double log_posterior, double prediction) {
+    const auto count = static_cast<Eigen::Index>(effects.size());
+    return Option{std::move(effects), Eigen::VectorXd::Zero(count), has_unknown, log_posterior,
+                  Eigen::VectorXd::Constant(1, prediction)};
+  };
+  AmbiguitySet set = ambiguity_set({option({0, 1}, false, 0.0, 9.0), option({0}, false, -0.5, 5.0),
+                                    option({0, 2}, false, -0.6, 12.0), option({}, true, -3.0, 0.0)},
+                                   {0, 1, 2}, 7.0);
+  ASSERT_EQ(set.classes.size(), 3U);
+  EXPECT_EQ(set.classes[0].options[0].effects, std::vector<int>{0});
+  EXPECT_EQ(set.classes[1].options[0].effects, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(set.classes[2].options[0].is_unknown_alone());
+  set.put_unknown_first();
+  EXPECT_TRUE(set.classes[0].options[0].is_unknown_alone());
+  EXPECT_EQ(set.classes[1].options[0].effects, std::vector<int>{0});
+}
+
 TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {
   const World world(small_design());
   Evidence evidence = world.measure({{"radial_distortion", {1.5}}}, {0.0, false, true}, 1);

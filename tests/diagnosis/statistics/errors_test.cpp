@@ -178,6 +178,34 @@ TEST(Covariance, WhitensWhatItIsTheCovarianceOf) {
   EXPECT_NEAR(mean, 1.0, 0.1);
 }
 
+/// Of 30 placements half a region's errors are of 100 pixels, half of 900: they go with 1/√pixels, and a thing that
+/// both show is known by the errors of the latter.
+TEST(VarianceComponents, GoWithTheNumberOfPixels) {
+  constexpr double kSigma_mm = 0.3;  // of 100 pixels
+  constexpr int kSets = 40, kPlacements = 60;
+  double of_few = 0.0, of_many = 0.0;
+  for (int set = 0; set < kSets; ++set) {
+    Rng rng(set, 77);
+    Evidence evidence;
+    for (int placement = 0; placement < kPlacements; ++placement) {
+      Observation o;
+      o.observable = "height_mm";
+      o.factors.placement = placement;
+      o.factors.region = placement % 2 == 0 ? "near" : "far";
+      o.pixels = placement % 2 == 0 ? 100.0 : 900.0;
+      o.value = kSigma_mm * std::sqrt(100.0 / o.pixels) * rng.normal();
+      evidence.observations.push_back(std::move(o));
+    }
+    evidence.predicted = Eigen::VectorXd::Zero(kPlacements);
+    const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
+    of_few += covariance.total(0, 0) / kSets;
+    of_many += covariance.total(1, 1) / kSets;
+  }
+  // 29 degrees of freedom count for either size, 58 together, in 40 sets: 3 % of a variance, three times that allowed.
+  EXPECT_NEAR(of_few / (kSigma_mm * kSigma_mm), 1.0, 0.1);
+  EXPECT_NEAR(of_few / of_many, 9.0, 0.1);
+}
+
 TEST(RepeatVariances, PoolWithoutOutliers) {
   std::vector<Observation> observations(9, {"height_mm", {}, 0.0, 0.2, 10});
   observations[4].repeat_sd = 20.0;
