@@ -14,10 +14,17 @@ constexpr double kFarthest = 0.032;                   ///< [m] the bound of cup_
 
 }  // namespace
 
-OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis)
+double inner_wall_from(const LaboratoryRig& rig, double fill) {
+  constexpr double kBelowRim = 0.035;   // [m] however little is written: notes may be wrong
+  constexpr double kAboveFill = 0.006;  // [m] a meniscus, the fill's error or half a matcher's window
+  return std::max(rig.cup_height_m - kBelowRim, rig.bottom_m + fill + kAboveFill);
+}
+
+OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis, double fill)
     : inner_radius_(rig.inner_radius_m),
       outer_radius_(rig.outer_radius_m),
       rim_(rig.cup_height_m),
+      inner_from_(inner_wall_from(rig, fill)),
       to_sensor_(-axis.normalized()) {}
 
 void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double weight) {
@@ -28,8 +35,7 @@ void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double wei
 /// Nothing of a point that is no wall's, or farther than `gate` [m] from it.
 std::optional<OutlineFit::NearWall> OutlineFit::near_wall(const Sensed& sensed, const CupOutline& outline,
                                                           double gate) const {
-  constexpr double kInnerBelow = 0.035;  // [m] the rim: what stands in a cup is deeper
-  constexpr double kFacing = 0.25;       // least cosine between the wall's normal and the sensor's direction
+  constexpr double kFacing = 0.25;  // least cosine between the wall's normal and the sensor's direction
   const Eigen::Vector2d off = sensed.from_axis - outline.off;
   const double distance = off.norm();
   if (!(distance > 0.0)) return std::nullopt;
@@ -37,7 +43,7 @@ std::optional<OutlineFit::NearWall> OutlineFit::near_wall(const Sensed& sensed, 
   const double facing = outward.dot(to_sensor_);
   if (std::abs(facing) < kFacing) return std::nullopt;
   const bool is_inside = facing < 0.0;
-  if (is_inside && sensed.height < rim_ - kInnerBelow) return std::nullopt;
+  if (is_inside && sensed.height < inner_from_) return std::nullopt;
   const double excess = distance - outline.wider - (is_inside ? inner_radius_ : outer_radius_);
   if (std::abs(excess) > gate) return std::nullopt;
   return NearWall{outward, excess, is_inside};

@@ -14,12 +14,16 @@ struct CupOutline {
   double wider;         ///< [m] radius less the rig's, of outer and inner wall alike
 };
 
+/// [m] above the desk: the inner wall is looked at from there on, clear of a liquid of that fill.
+double inner_wall_from(const LaboratoryRig& rig, double fill);
+
 /// Takes points one by one, in the frame of the desk. Those count that lie near the wall that the sensor can see there:
-/// on its own side the outer one, clear of the desk, on the far side the inner one, below the rim.
+/// on its own side the outer one, clear of the desk, on the far side the inner one, between the rim and what stands in
+/// the cup: there a surface's edge, or what is seen through it, lies near the wall and is none.
 class OutlineFit {
  public:
-  /// `axis` [m]: from the foot of the camera to where the cup should stand.
-  OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis);
+  /// `axis` [m]: from the foot of the camera to where the cup should stand; `fill` [m]: of what should stand in it.
+  OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis, double fill);
 
   /// `from_axis`, `height` [m].
   void add(const Eigen::Vector2d& from_axis, double height, double weight);
@@ -50,8 +54,8 @@ class OutlineFit {
   double weaker_wall(const Eigen::Vector2d& off) const;
   Eigen::Vector2d place_of_walls() const;
 
-  double inner_radius_, outer_radius_, rim_;  // [m]
-  Eigen::Vector2d to_sensor_;                 // unit
+  double inner_radius_, outer_radius_, rim_, inner_from_;  // [m]
+  Eigen::Vector2d to_sensor_;                              // unit
   std::vector<Sensed> sensed_;
 };
 

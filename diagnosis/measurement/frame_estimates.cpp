@@ -138,7 +138,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   Sums desk_intensity;
   std::vector<CupPoint> around;
   std::optional<OutlineFit> outline;
-  if (cup) outline.emplace(rig, cup->centre);
+  if (cup) outline.emplace(rig, cup->centre, view.fill_m);
   const double walls_reach = cup ? outline->reach() : 0.0;
   std::complex<double> comb;
   std::array<std::complex<double>, 2> coarse, coarse_of_plane;

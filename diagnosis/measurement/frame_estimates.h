@@ -51,6 +51,7 @@ struct FrameEstimates {
 /// How the points are looked at.
 struct FrameView {
   std::optional<Eigen::Vector2d> cup;  ///< [m] world: where the cup should stand; nothing on a bare desk
+  double fill_m = 0.0;                 ///< of what should stand in it
   double soft_m = 0.0;                 ///< width of the regions' borders
 };
 

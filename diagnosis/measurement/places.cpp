@@ -106,7 +106,7 @@ StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const Labo
     FrameRecord other = frame;
     apply(kReadings[i], rig, other);
     const Eigen::Vector2d place(other.lateral_m, other.distance_m);
-    const std::optional<FrameEstimates> there = estimate_frame(points, rig, {place, 0.0});
+    const std::optional<FrameEstimates> there = estimate_frame(points, rig, {place, frame.fill_m});
     stands[i] = shows_cup_of(rig, points, there, place) || (shows_bottom(there) && !shows_bottom(as_written));
   }
   return stands;

@@ -93,7 +93,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   if (cloud.height <= 1) weigh_by_sampling(points, rig.focal_px);
   reading.print = print_of(points, rig.focal_px);
   FrameView view;
-  if (!frame.bare_desk()) view.cup = Eigen::Vector2d(frame.lateral_m, frame.distance_m);
+  if (!frame.bare_desk()) view = {Eigen::Vector2d(frame.lateral_m, frame.distance_m), frame.fill_m};
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
   reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);

@@ -132,6 +132,15 @@ void correct(const Reading& reading, Measurement& measurement) {
   for (Observation& observation : measurement.observations) observation.factors = reading(observation.factors);
 }
 
+/// Walls were looked for above the fills as written: what stands higher than that has been taken for some.
+void leave_out_walls_below(const Reading& reading, Measurement& measurement) {
+  const auto from = [&](const Factors& f) { return inner_wall_from(measurement.rig, metres_from_mm(f.fill_mm)); };
+  std::erase_if(measurement.observations, [&](const Observation& observation) {
+    const Factors& written = observation.factors;
+    return written.region == "walls" && from(reading(written)) > from(written);
+  });
+}
+
 void put_units_right(const Heights& heights, Measurement& measurement) {
   struct Unit {
     const char* name;
@@ -145,7 +154,9 @@ void put_units_right(const Heights& heights, Measurement& measurement) {
     };
     const std::set<Filling> wrong = heights.fillings_that_fit_far_better(in_unit);
     if (wrong.empty()) continue;
-    correct([&](const Factors& f) { return wrong.contains(filling_of(f)) ? in_unit(f) : f; }, measurement);
+    const Reading put_right = [&](const Factors& f) { return wrong.contains(filling_of(f)) ? in_unit(f) : f; };
+    leave_out_walls_below(put_right, measurement);
+    correct(put_right, measurement);
     measurement.mistakes.push_back({"unit_error", fmt::format("Fills{} were written down in {}, not in millimetres.",
                                                               whose(wrong, heights.fillings()), unit.name)});
     return;

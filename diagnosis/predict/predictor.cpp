@@ -34,7 +34,7 @@ std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector
   std::vector<Condition> conditions;
   for (auto& [key, condition] : found) {
     condition.factors.region.clear();
-    condition.pixels = sample_pixels(rig, place_of(condition.factors));
+    condition.pixels = sample_pixels(rig, view_of(condition.factors));
     conditions.push_back(std::move(condition));
   }
   return conditions;
@@ -91,8 +91,8 @@ void Predictor::look_at_nominal() {
   parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
     for (int group = begin; group < end; ++group) {
       const Condition& first = conditions_[groups[group].front()];
-      const auto frame = std::make_shared<const SurrogateFrame>(
-          surrogate_frame(setup(first), model_.laboratory, place_of(first.factors), first.pixels));
+      const auto frame =
+          std::make_shared<const SurrogateFrame>(surrogate_frame(setup(first), model_.laboratory, first.pixels));
       for (const std::size_t i : groups[group]) conditions_[i].nominal = frame;
     }
   });
@@ -118,9 +118,7 @@ std::vector<bool> Predictor::near_shadows() const {
   std::vector<bool> shadowed(observables_.size(), false);
   for (const std::vector<std::size_t>& group : alike({}, all_conditions())) {
     const Condition& first = conditions_[group.front()];
-    const std::optional<Eigen::Vector2d> place = place_of(first.factors);
-    if (!place) continue;
-    const std::array<double, 5> shares = shares_near_shadows(*first.nominal, model_.laboratory, *place, first.pixels);
+    const std::array<double, 5> shares = shares_near_shadows(*first.nominal, model_.laboratory, first.pixels);
     for (const std::size_t condition : group)
       for (const std::size_t row : conditions_[condition].rows)
         for (std::size_t i = 0; i < shares.size(); ++i)
@@ -171,8 +169,7 @@ double Predictor::value_of(std::size_t row, const Condition& condition, const Fo
   const std::string& observable = observables_[row];
   if (observable == "desk_wander_mm") return wander_mm(foreseen.shot.rig.sensor, foreseen.estimates.desk);
   if (observable == "desk_waves_px") return 0.0;
-  if (observable == "liquid_motion_mm")
-    return scatter_by_waves_mm(foreseen.shot, model_.laboratory, place_of(condition.factors).value(), condition.pixels);
+  if (observable == "liquid_motion_mm") return scatter_by_waves_mm(foreseen.shot, model_.laboratory, condition.pixels);
   if (observable == "height_mm" && regions_[row] == kWholeInterior) return interior_height_mm(foreseen.estimates);
   for (const NamedValue& value : foreseen.named)
     if (value.observable == observable && value.region == regions_[row]) return value.value;
@@ -199,9 +196,7 @@ void Predictor::predict_alike(const Look& look, const Change& change, const std:
 
 Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
   const Look by_few_rays = [this](const Setup& shot, const Condition& condition) {
-    return surrogate_frame(shot, model_.laboratory, place_of(condition.factors), condition.pixels,
-                           condition.nominal.get())
-        .estimates;
+    return surrogate_frame(shot, model_.laboratory, condition.pixels, condition.nominal.get()).estimates;
   };
   const std::vector<std::vector<std::size_t>> groups = alike(change, conditions);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
@@ -220,9 +215,10 @@ Eigen::VectorXd Predictor::predict_by(const Look& look, const Change& change,
 
 Eigen::VectorXd Predictor::predict(const Change& change) const { return predict(change, all_conditions()); }
 
-std::optional<Eigen::Vector2d> place_of(const Factors& factors) {
-  if (factors.liquid == "none") return std::nullopt;
-  return Eigen::Vector2d(metres_from_mm(factors.lateral_mm), metres_from_mm(factors.distance_mm));
+FrameView view_of(const Factors& factors) {
+  if (factors.liquid == "none") return {};
+  return {Eigen::Vector2d(metres_from_mm(factors.lateral_mm), metres_from_mm(factors.distance_mm)),
+          metres_from_mm(factors.fill_mm)};
 }
 
 Change switch_on(const std::vector<EffectValue>& effects) {

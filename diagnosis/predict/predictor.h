@@ -85,8 +85,8 @@ class Predictor {
   std::vector<Condition> conditions_;
 };
 
-/// Where the cup of a condition should stand in the world [m]; nothing on a bare desk.
-std::optional<Eigen::Vector2d> place_of(const Factors& factors);
+/// How clouds of a condition are looked at.
+FrameView view_of(const Factors& factors);
 
 /// Switches effects on, each named as in effect_name.h. Values outside their bounds are taken at the bound. Throws
 /// Error on an unknown id.

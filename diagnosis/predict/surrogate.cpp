@@ -228,39 +228,40 @@ void look_about(const LaboratoryRig& rig, const Eigen::Vector2d& place, const Ei
 }
 
 /// The pixels; of a cup that stands so far beside its place that they would miss some of its walls, those about it.
-SampledPixels following(SampledPixels pixels, const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& place,
-                        const std::optional<CupOptics>& cup) {
+SampledPixels following(SampledPixels pixels, const LaboratoryRig& rig, const std::optional<CupOptics>& cup) {
   constexpr double kSpare = 0.003;  // [m] of 4 mm that are looked at around the walls
+  const std::optional<Eigen::Vector2d> place = pixels.view.cup;
   if (place && cup && (cup->body.axis - *place).norm() > kSpare) look_about(rig, *place, cup->body.axis, pixels);
   return pixels;
 }
 
 }  // namespace
 
-SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup) {
+SampledPixels sample_pixels(const LaboratoryRig& rig, const FrameView& written) {
   constexpr int kDeskColumns = 24, kDeskRows = 18;
   SampledPixels pixels;
+  pixels.view = written;
   for (int row = 0; row < kDeskRows; ++row)
     for (int column = 0; column < kDeskColumns; ++column)
       pixels.desk.emplace_back((column + 0.5) * kImageWidth_px / kDeskColumns,
                                (row + 0.5) * kImageHeight_px / kDeskRows);
   pixels.desk_weight = kImageWidth_px * kImageHeight_px / (kDeskColumns * kDeskRows);
-  if (!cup) return pixels;
+  if (!written.cup) return pixels;
 
-  look_about(rig, *cup, *cup, pixels);
-  pixels.soft_m =
-      kStride * pixels_about(rig, believed_pose(rig).inverse(), *cup, half_of_inside(rig)).depth / rig.focal_px;
+  look_about(rig, *written.cup, *written.cup, pixels);
+  pixels.view.soft_m =
+      kStride * pixels_about(rig, believed_pose(rig).inverse(), *written.cup, half_of_inside(rig)).depth / rig.focal_px;
   pixels.cup_weight = kStride * kStride;
   pixels.wall_weight = kWallStride * kWallStride;
   return pixels;
 }
 
 std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
-                                          const Eigen::Vector2d& place, const SampledPixels& pixels) {
+                                          const SampledPixels& pixels) {
   constexpr double kReach = 0.006;  // [m] half a window of 9 pixels, 0.75 m away
   std::array<double, 5> all{}, dark{};
   const std::optional<CupOptics>& cup = frame.view.cup;
-  if (!cup || !frame.estimates) return all;
+  if (!cup || !pixels.view.cup || !frame.estimates) return all;
   const double height = frame.estimates->interior.mean;  // where pixels seem to look
   const double radius = rig.inner_radius_m - kInteriorMargin;
   const Rig& sensor = frame.view.reader.rig();
@@ -269,7 +270,7 @@ std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const Lab
     const Ray sight{camera, sensor.direction_in_world(pixel.x(), pixel.y())};
     if (sight.direction.z() >= 0.0) continue;
     const Eigen::Vector3d point = camera + (height - camera.z()) / sight.direction.z() * sight.direction;
-    const Eigen::Vector2d from_axis = point.head<2>() - place;
+    const Eigen::Vector2d from_axis = point.head<2>() - *pixels.view.cup;
     const std::array<double, 5> own = shares_of_regions(from_axis, radius, 0.0);
     for (std::size_t i = 0; i < own.size(); ++i) all[i] += own[i];
     if (look_into(*cup, sight, projector)) continue;
@@ -285,8 +286,7 @@ std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const Lab
   return dark;
 }
 
-double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& place,
-                           const SampledPixels& pixels) {
+double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {
   const SurrogateView view = view_of(setup);
   if (!view.cup || !is_clear(*view.cup)) return 0.0;
   const std::vector<CupOptics> moments = moments_of(*view.cup);
@@ -296,7 +296,7 @@ double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const E
   for (const CupOptics& moment : moments) {
     std::vector<SensedPoint> points = points_through(view, std::span(&moment, 1), pixels, pixels.cup_weight);
     points.insert(points.end(), desk.begin(), desk.end());
-    const auto estimates = estimate_frame(points, rig, {place, pixels.soft_m});
+    const auto estimates = estimate_frame(points, rig, pixels.view);
     for (std::size_t region = 0; estimates && region < heights.size(); ++region)
       if (estimates->height[region].weight >= kFewestInRegion) heights[region].add(estimates->height[region].mean);
   }
@@ -309,12 +309,11 @@ double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const E
   return regions > 0.0 ? mm_from_metres(std::sqrt(variance / regions)) : 0.0;
 }
 
-SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
-                               const std::optional<Eigen::Vector2d>& place, const SampledPixels& fixed,
+SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& fixed,
                                const SurrogateFrame* known) {
   SurrogateFrame frame{view_of(setup), {}, {}, {}, {}};
   const SurrogateView& view = frame.view;
-  const SampledPixels pixels = following(fixed, rig, place, view.cup);
+  const SampledPixels pixels = following(fixed, rig, view.cup);
   const bool same_desk = known && desk_looks_alike(view, known->view);
   const bool same_inside = same_desk && inside_looks_alike(view, known->view);
   const bool same_walls = same_desk && walls_look_alike(view, known->view);
@@ -327,7 +326,7 @@ SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig,
   std::vector<SensedPoint> points = frame.desk;
   points.insert(points.end(), frame.inside.begin(), frame.inside.end());
   points.insert(points.end(), frame.walls.begin(), frame.walls.end());
-  frame.estimates = estimate_frame(points, rig, {place, pixels.soft_m});
+  frame.estimates = estimate_frame(points, rig, pixels.view);
   if (frame.estimates)
     set_combs(frame.desk, view.reader.rig().sensor, view.step_phase - SensorModel().step_phase, *frame.estimates);
   return frame;

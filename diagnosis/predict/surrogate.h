@@ -11,11 +11,11 @@ namespace fathom {
 struct SampledPixels {
   std::vector<Eigen::Vector2d> desk, cup, walls;
   double desk_weight = 0.0, cup_weight = 0.0, wall_weight = 0.0;  ///< pixels that each stands for
-  double soft_m = 0.0;                                            ///< distance of the cup's on the desk
+  FrameView view;                                                 ///< as soft as the cup's are apart on the desk
 };
 
-/// `cup` is where the cup should stand in the world [m]; nothing on a bare desk.
-SampledPixels sample_pixels(const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup);
+/// `written` as the laboratory looks at its clouds.
+SampledPixels sample_pixels(const LaboratoryRig& rig, const FrameView& written);
 
 /// All of a set-up that its points depend on.
 struct SurrogateView {
@@ -36,16 +36,15 @@ struct SurrogateFrame {
 /// light). Of waves the mean over phases and directions is predicted, through water as windows read it that span a
 /// wave. Combs are those of even mixtures of steps. What looks the same in a `known` frame of these pixels is taken
 /// from there. Throws Error for a clear cup or one of a glTF file.
-SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const std::optional<Eigen::Vector2d>& cup,
-                               const SampledPixels& pixels, const SurrogateFrame* known = nullptr);
+SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels,
+                               const SurrogateFrame* known = nullptr);
 
 /// By how much waves on a clear liquid let the height of a region differ between shots, 1 σ; 0 without waves.
-double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const Eigen::Vector2d& cup,
-                           const SampledPixels& pixels);
+double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels);
 
 /// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
 /// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.
 std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
-                                          const Eigen::Vector2d& cup, const SampledPixels& pixels);
+                                          const SampledPixels& pixels);
 
 }  // namespace fathom

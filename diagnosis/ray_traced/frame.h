@@ -12,7 +12,7 @@ namespace fathom {
 /// measurement's own estimators. The light is that of a measurement (measured_light), the unit one without wander.
 /// Equal seeds give equal noise, so that set-ups that differ a little differ in nothing else. Nothing when no desk is
 /// seen.
-std::optional<FrameEstimates> ray_traced_frame(const Setup& setup, const LaboratoryRig& rig,
-                                               const std::optional<Eigen::Vector2d>& cup, std::uint64_t seed);
+std::optional<FrameEstimates> ray_traced_frame(const Setup& setup, const LaboratoryRig& rig, const FrameView& view,
+                                               std::uint64_t seed);
 
 }  // namespace fathom

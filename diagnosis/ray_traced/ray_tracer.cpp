@@ -66,7 +66,7 @@ RayTracer::Cost RayTracer::cost(const std::vector<EffectValue>& effects) const {
 
 Eigen::VectorXd RayTracer::trace(const std::vector<EffectValue>& effects) {
   const Look look = [this](const Setup& shot, const Condition& condition) {
-    auto estimates = ray_traced_frame(shot, predictor_->model().laboratory, place_of(condition.factors),
+    auto estimates = ray_traced_frame(shot, predictor_->model().laboratory, view_of(condition.factors),
                                       Rng(seed_, condition.equal).bits());
     traced_();
     return estimates;

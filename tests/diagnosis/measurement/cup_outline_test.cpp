@@ -15,7 +15,7 @@ constexpr double kNear = -0.5 * std::numbers::pi, kFar = 0.5 * std::numbers::pi;
 /// The paper's cup, 200 mm in front of a sensor.
 struct Outline : testing::Test {
   const LaboratoryRig rig;
-  OutlineFit fit{rig, {0.0, 0.200}};
+  OutlineFit fit{rig, {0.0, 0.200}, 0.0};
 
   /// Points 3° apart, 70° to either side of `towards`, on a circle of `radius` about `axis`, from `low` to `high`.
   void add_wall(double towards, double radius, const Eigen::Vector2d& axis, double low, double high) {
@@ -43,7 +43,7 @@ TEST_F(Outline, OfACupFarBesideItsPlace) {
   for (int eighth = 0; eighth < 8; ++eighth)
     for (const double far : {0.012, 0.020, 0.030}) {
       const Eigen::Vector2d off = Eigen::Rotation2Dd(0.25 * std::numbers::pi * eighth) * Eigen::Vector2d(far, 0.0);
-      fit = OutlineFit(rig, {0.0, 0.200});
+      fit = OutlineFit(rig, {0.0, 0.200}, 0.0);
       add_wall(kNear, rig.outer_radius_m, off, 0.015, 0.075);
       add_wall(kFar, rig.inner_radius_m, off, 0.055, 0.075);
       for (double radius = 0.002; radius < rig.inner_radius_m; radius += 0.002)
@@ -53,6 +53,23 @@ TEST_F(Outline, OfACupFarBesideItsPlace) {
       EXPECT_LT((outline->off - off).norm(), 0.001) << off.transpose();  // the liquid's edge draws the outer wall
       EXPECT_LT(std::abs(outline->wider), 0.001) << off.transpose();
     }
+}
+
+/// A surface's edge is as near the wall as the wall itself, and where noise or light lets points of walls fall out
+/// there is more of it.
+TEST_F(Outline, HoldsNothingOfALiquidNearTheRim) {
+  for (const double fill : {0.050, 0.060}) {
+    const double level = rig.bottom_m + fill;
+    fit = OutlineFit(rig, {0.0, 0.200}, fill);
+    add_wall(kNear, rig.outer_radius_m, {0.0, 0.0}, 0.015, 0.075);
+    for (const double above : {0.002, 0.004}) add_wall(kFar, rig.inner_radius_m, {0.0, 0.0}, level + above, 0.080);
+    for (double radius = 0.002; radius < rig.inner_radius_m; radius += 0.001)
+      add_wall(kFar, radius, {0.0, 0.0}, level, level + 0.001);
+    const auto outline = fit.solve();
+    ASSERT_TRUE(outline) << fill;
+    EXPECT_NEAR(outline->wider, 0.0, 1e-5) << fill;
+    EXPECT_LT(outline->off.norm(), 1e-5) << fill;
+  }
 }
 
 /// A radius and a place that belong to each other fit one side alike.

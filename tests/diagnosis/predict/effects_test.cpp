@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "diagnosis/measurement/named_values.h"
-#include "diagnosis/predict/surrogate.h"
+#include "diagnosis/predict/predictor.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 #include "tests/core/expect_error.h"
@@ -34,8 +34,7 @@ std::optional<double> value_of(const Scenery& scenery, const Json& effect, std::
   Json effects = Json::parse(scenery.effects);
   if (!effect.is_null()) effects.push_back(effect);
   const fathom::Setup setup = paper_setup(factors, std::move(effects));
-  const Eigen::Vector2d place(0.0, 1e-3 * scenery.distance_mm);
-  const auto estimates = surrogate_frame(setup, rig, place, sample_pixels(rig, place)).estimates;
+  const auto estimates = surrogate_frame(setup, rig, sample_pixels(rig, view_of(factors))).estimates;
   if (!estimates) return std::nullopt;
   for (const NamedValue& value : named_values(*estimates))
     if (value.observable == observable && value.region == region) return value.value;

@@ -9,6 +9,7 @@
 
 #include "core/estimate.h"
 #include "diagnosis/measurement/named_values.h"
+#include "diagnosis/predict/predictor.h"
 #include "sim/sensor/capture.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 
@@ -35,10 +36,10 @@ TEST_P(SurrogateAgainstFrames, SaysWhatTheFrameSays) {
   const LaboratoryRig rig = paper_laboratory();
   const Factors factors = paper_shot(c.liquid, c.fill_mm, c.distance_mm, c.lateral_mm);
   const fathom::Setup setup = paper_setup(factors, c.effects);
-  const Eigen::Vector2d place(metres_from_mm(c.lateral_mm), metres_from_mm(c.distance_mm));
+  const FrameView view = view_of(factors);
   Camera camera(setup, CaptureMode::geometric, 1, 1);
-  const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {place, 0.0});
-  const auto few = surrogate_frame(setup, rig, place, sample_pixels(rig, place)).estimates;
+  const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, view);
+  const auto few = surrogate_frame(setup, rig, sample_pixels(rig, view)).estimates;
   ASSERT_TRUE(frame && few);
   // Heights: the task of the surrogate. A region's border cuts pixels of 1.3 mm, and a wall's shadow as well.
   constexpr double kHeightMm = 0.05;
@@ -65,6 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"empty", 0, 200, 0, {}}, Case{"empty", 0, 400, 0, {}}, Case{"water", 10, 300, 0, {}},
                     Case{"water", 30, 200, 0, {}}, Case{"water", 30, 400, 0, {}}, Case{"water", 30, 500, 0, {}},
                     Case{"water", 20, 400, 150, {}}, Case{"milk", 20, 300, 0, {}}, Case{"milk", 30, 500, -100, {}},
+                    Case{"milk", 50, 300, 0, {}}, Case{"milk", 50, 450, 100, {}},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "sensor_pitch", "pitch_deg": 0.5}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "baseline", "baseline_mm": 0.5}])")},
                     Case{"water", 30, 300, 0, Json::parse(R"([{"name": "focal_length", "focal_px": 3}])")},
@@ -87,15 +89,14 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Surrogate, SaysOfWavesWhatFramesSayInTheMean) {
   const LaboratoryRig rig = paper_laboratory();
   const Factors factors = paper_shot("water", 20.0, 300.0);
-  const Eigen::Vector2d place(0.0, 0.3);
-  const SampledPixels pixels = sample_pixels(rig, place);
+  const SampledPixels pixels = sample_pixels(rig, view_of(factors));
   const fathom::Setup still = paper_setup(factors, Json::parse(R"([{"name": "window_averaging", "window_px": 9}])"));
   const auto shot_mm = [&](const fathom::Setup& setup) {
     const Image<CloudPoint> cloud = Camera(setup, CaptureMode::geometric, 1, 1).shoot(0).cloud;
-    return mm_from_metres(estimate_frame(points_of(cloud), rig, {place, 0.0}).value().height[0].mean);
+    return mm_from_metres(estimate_frame(points_of(cloud), rig, view_of(factors)).value().height[0].mean);
   };
   const auto few_mm = [&](const fathom::Setup& setup) {
-    return mm_from_metres(surrogate_frame(setup, rig, place, pixels).estimates.value().height[0].mean);
+    return mm_from_metres(surrogate_frame(setup, rig, pixels).estimates.value().height[0].mean);
   };
   const double level = shot_mm(still);
   double few = 0.0;
@@ -114,20 +115,18 @@ TEST(Surrogate, SaysOfWavesWhatFramesSayInTheMean) {
   EXPECT_LT(few, -0.05);         // waves deepen what they show
   EXPECT_NEAR(few, mean, 0.02);  // pixels at a region's border come and go
   EXPECT_GT(scatter, 0.05);
-  EXPECT_NEAR(scatter_by_waves_mm(moved, rig, place, pixels) / scatter, 1.0, 0.5);
-  EXPECT_EQ(scatter_by_waves_mm(still, rig, place, pixels), 0.0);
+  EXPECT_NEAR(scatter_by_waves_mm(moved, rig, pixels) / scatter, 1.0, 0.5);
+  EXPECT_EQ(scatter_by_waves_mm(still, rig, pixels), 0.0);
 }
 
 // Of their slope's second order, whatever its size: rays that steep waves throw aside neither stick nor turn the sign.
 TEST(Surrogate, DeepensWhatWavesShowByTheirMeanSquareSlope) {
   const LaboratoryRig rig = paper_laboratory();
   const Factors factors = paper_shot("water", 30.0, 200.0);
-  const Eigen::Vector2d place(0.0, 0.2);
-  const SampledPixels pixels = sample_pixels(rig, place);
+  const SampledPixels pixels = sample_pixels(rig, view_of(factors));
   const auto height_mm = [&](double mean_square_slope) {
     const Json waves = {{{"name", "ripples"}, {"mean_square_slope", mean_square_slope}}};
-    return mm_from_metres(
-        surrogate_frame(paper_setup(factors, waves), rig, place, pixels).estimates.value().height[0].mean);
+    return mm_from_metres(surrogate_frame(paper_setup(factors, waves), rig, pixels).estimates.value().height[0].mean);
   };
   const double still = height_mm(0.0), per_slope = (height_mm(0.0025) - still) / 0.0025;
   EXPECT_LT(per_slope, -50.0);
@@ -139,19 +138,18 @@ TEST(Surrogate, DeepensWhatWavesShowByTheirMeanSquareSlope) {
 TEST(Surrogate, KnowsOnWhichCodesDepthsStand) {
   const LaboratoryRig rig = paper_laboratory();
   const Factors factors = paper_shot("water", 20.0, 300.0);
-  const Eigen::Vector2d place(0.0, 0.3);
-  const SampledPixels pixels = sample_pixels(rig, place);
+  const SampledPixels pixels = sample_pixels(rig, view_of(factors));
   const auto quantized = [&](const Json& effects) {
     fathom::Setup setup = paper_setup(factors, effects);
     setup.rig.sensor.quantized = true;
     return setup;
   };
-  const SurrogateFrame nominal = surrogate_frame(quantized(Json::array()), rig, place, pixels);
+  const SurrogateFrame nominal = surrogate_frame(quantized(Json::array()), rig, pixels);
   const double strength = nominal.estimates.value().step_comb.x();
   ASSERT_GT(strength, 0.4);
   for (const double phase : {0.25, 0.5}) {
     const Json moved = {{{"name", "depth_step_phase"}, {"phase_steps", phase}}};
-    const FrameEstimates seen = surrogate_frame(quantized(moved), rig, place, pixels, &nominal).estimates.value();
+    const FrameEstimates seen = surrogate_frame(quantized(moved), rig, pixels, &nominal).estimates.value();
     EXPECT_NEAR(seen.step_comb.x(), strength * std::cos(2.0 * std::numbers::pi * phase), 1e-12);
     EXPECT_EQ(seen.height[0].mean, nominal.estimates->height[0].mean);
   }
@@ -161,10 +159,9 @@ TEST(Surrogate, KnowsOnWhichCodesDepthsStand) {
 Eigen::Vector3d moved_by(const Json& effects, double distance_mm, double lateral_mm) {
   const LaboratoryRig rig = paper_laboratory();
   const Factors factors = paper_shot("empty", 0.0, distance_mm, lateral_mm);
-  const Eigen::Vector2d place(metres_from_mm(lateral_mm), metres_from_mm(distance_mm));
   const auto seen = [&](const Json& those) -> Eigen::Vector3d {
     const FrameEstimates frame =
-        surrogate_frame(paper_setup(factors, those), rig, place, sample_pixels(rig, place)).estimates.value();
+        surrogate_frame(paper_setup(factors, those), rig, sample_pixels(rig, view_of(factors))).estimates.value();
     const CupOutline& outline = frame.outline.value();
     return 1e3 * Eigen::Vector3d(outline.off.x(), outline.off.y(), outline.wider);
   };
@@ -180,6 +177,35 @@ TEST(CupsOutline, GoesWithTheCup) {
     EXPECT_NEAR(moved.y(), -mm, kWalls);
     EXPECT_NEAR(moved.z(), 0.0, kWalls);
   }
+}
+
+/// The same frame, of whose walls every third point has fallen out.
+std::vector<SensedPoint> with_gaps_in_walls(std::vector<SensedPoint> points, const LaboratoryRig& rig,
+                                            const Eigen::Vector2d& place) {
+  const Eigen::Isometry3d to_desk = desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad}));
+  int walls = 0;
+  std::erase_if(points, [&](const SensedPoint& sensed) {
+    const Eigen::Vector3d point = to_desk * sensed.point.cast<double>();
+    const double radius = (point.head<2>() - axis_from_camera(rig, place)).norm();
+    const bool is_wall = radius > rig.inner_radius_m - 0.0005 && radius < rig.outer_radius_m + 0.0005;
+    return is_wall && ++walls % 3 == 0;
+  });
+  return points;
+}
+
+// An opaque surface that stands near the rim has an edge that is no wall, however few of the wall's own points remain.
+TEST(CupsOutline, IsTheRigsAboveAnyFillOfALiquid) {
+  const LaboratoryRig rig = paper_laboratory();
+  for (const double fill_mm : {30.0, 40.0, 50.0, 60.0})
+    for (const double distance_mm : {300.0, 450.0}) {
+      const Factors factors = paper_shot("milk", fill_mm, distance_mm);
+      const FrameView view = view_of(factors);
+      Camera camera(paper_setup(factors, Json::array()), CaptureMode::geometric, 1, 1);
+      const auto points = with_gaps_in_walls(points_of(camera.shoot(0).cloud), rig, *view.cup);
+      const FrameEstimates frame = estimate_frame(points, rig, view).value();
+      ASSERT_TRUE(frame.outline) << fill_mm << " mm, seen from " << distance_mm;
+      EXPECT_NEAR(mm_from_metres(frame.outline->wider), 0.0, 0.1) << fill_mm << " mm, seen from " << distance_mm;
+    }
 }
 
 TEST(CupsOutline, WidensWithTheCup) {
@@ -207,7 +233,7 @@ std::pair<FrameEstimates, FrameEstimates> desk_with(const Json& effects) {
   const fathom::Setup setup = paper_setup(factors, effects);
   Camera camera(setup, CaptureMode::geometric, 1, 1);
   const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {});
-  const auto few = surrogate_frame(setup, rig, std::nullopt, sample_pixels(rig, std::nullopt)).estimates;
+  const auto few = surrogate_frame(setup, rig, sample_pixels(rig, {})).estimates;
   return {frame.value(), few.value()};
 }
 

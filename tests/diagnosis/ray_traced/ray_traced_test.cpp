@@ -96,7 +96,7 @@ TEST(RayTraced, LightThatEntersALiquidReadsTooLow) {
   const Factors factors = paper_shot("milk", 30.0, 300.0);
   const Eigen::Vector2d place(0.0, 0.3);
   const auto height_mm = [&](const Json& effects) {
-    const auto frame = ray_traced_frame(paper_setup(factors, effects), rig, place, 1);
+    const auto frame = ray_traced_frame(paper_setup(factors, effects), rig, {place}, 1);
     return frame ? mm_from_metres(frame->interior.mean) : NAN;
   };
   const double surface_mm = height_mm(Json::array());
