@@ -3,9 +3,22 @@
 #include <optional>
 
 #include "detector/desk_view.h"
+#include "diagnosis/measurement/sampling.h"
 
 namespace fathom {
 namespace {
+
+/// Of a cloud without rows the desk is sought as if it were sampled everywhere alike: a desk of few points has a cup's
+/// bottom, a few millimetres higher and of many points, in its fit.
+std::optional<DeskView> view_of_desk(const Cloud& cloud, const LaboratoryRig& rig) {
+  const PlaneSearch search;
+  Points points = finite_points(cloud);
+  const std::vector<PlaneFit> planes =
+      find_planes(cloud.height > 1 ? points : thinned_evenly(points, rig.focal_px), search);
+  const auto desk = choose_desk(planes, DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}, search);
+  if (!desk) return std::nullopt;
+  return view_over(*desk, std::move(points));
+}
 
 /// The candidate nearest to where the cup stands, if it is nearer than the cup's outer radius.
 std::optional<CupCandidate> candidate_at(const DeskView& view, const Eigen::Vector2d& place, double within_m) {
@@ -34,8 +47,7 @@ std::string_view name_of(NoHeight reason) {
 
 std::variant<InteriorHeight, NoHeight> height_in_cup(const Cloud& cloud, const LaboratoryRig& rig,
                                                      const Eigen::Vector2d& cup_in_world) {
-  const auto found = view_of_desk(cloud, DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}, PlaneSearch{});
-  const DeskView* view = std::get_if<DeskView>(&found);
+  const std::optional<DeskView> view = view_of_desk(cloud, rig);
   if (!view) return NoHeight::no_desk;
   // The world's origin is below the middle of the baseline, the desk frame's below the camera at its left end.
   const Eigen::Vector2d cup_in_desk = cup_in_world + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);

@@ -1,7 +1,9 @@
 #include "diagnosis/measurement/sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <vector>
 
 namespace fathom {
@@ -35,22 +37,61 @@ class Counts {
   std::vector<int> sums_;
 };
 
+/// Far outside of the image for points that none shows.
+Eigen::Vector2i pixel_of(const Eigen::Vector3f& point, double focal_px) {
+  constexpr int kFar = 1'000'000;
+  if (!(point.z() > 0.0f)) return {kFar, kFar};
+  const Eigen::Vector2d tangent = point.head<2>().cast<double>() / point.z();
+  const Eigen::Vector2d pixel = focal_px * tangent + 0.5 * Eigen::Vector2d(kImageWidth_px, kImageHeight_px);
+  const auto number = [](double at) { return static_cast<int>(std::floor(std::clamp<double>(at, -kFar, kFar))); };
+  return {number(pixel.x()), number(pixel.y())};
+}
+
+/// [px] of each from the second nearest other, along rows and columns.
+std::vector<int> distances_px(std::span<const Eigen::Vector2i> pixels) {
+  const Counts counts(pixels);
+  std::vector<int> distances;
+  distances.reserve(pixels.size());
+  for (const Eigen::Vector2i& pixel : pixels) {
+    int reach = 1;
+    while (reach < kFarthest_px && counts.within(pixel, reach) <= kNeighbours) ++reach;
+    distances.push_back(reach);
+  }
+  return distances;
+}
+
+/// Half of the area that points stand for has them as near each other as that, or nearer.
+int median_by_area(std::span<const int> distances) {
+  std::array<double, kFarthest_px + 1> areas{};
+  double half = 0.0;
+  for (const int distance : distances) areas[distance] += distance * distance, half += 0.5 * distance * distance;
+  int median = 1;
+  for (double area = areas[median]; area < half; area += areas[median]) ++median;
+  return median;
+}
+
 }  // namespace
 
 void weigh_by_sampling(std::span<SensedPoint> points, double focal_px) {
   std::vector<Eigen::Vector2i> pixels;
   pixels.reserve(points.size());
-  for (const SensedPoint& sensed : points) {
-    const Eigen::Vector2d tangent = sensed.point.head<2>().cast<double>() / sensed.point.z();
-    const Eigen::Vector2d pixel = focal_px * tangent + 0.5 * Eigen::Vector2d(kImageWidth_px, kImageHeight_px);
-    pixels.emplace_back(static_cast<int>(std::floor(pixel.x())), static_cast<int>(std::floor(pixel.y())));
-  }
-  const Counts counts(pixels);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    int reach = 1;
-    while (reach < kFarthest_px && counts.within(pixels[i], reach) <= kNeighbours) ++reach;
-    points[i].weight = static_cast<float>(reach * reach);
-  }
+  for (const SensedPoint& sensed : points) pixels.push_back(pixel_of(sensed.point, focal_px));
+  const std::vector<int> distances = distances_px(pixels);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].weight = static_cast<float>(distances[i] * distances[i]);
+}
+
+Points thinned_evenly(Points points, double focal_px) {
+  std::vector<Eigen::Vector2i> pixels;
+  pixels.reserve(points.size());
+  for (const Eigen::Vector3f& point : points) pixels.push_back(pixel_of(point, focal_px));
+  const int width = median_by_area(distances_px(pixels));
+  if (width == 1) return points;
+  std::set<std::pair<int, int>> squares;
+  std::erase_if(points, [&](const Eigen::Vector3f& point) {
+    const Eigen::Vector2i pixel = pixel_of(point, focal_px);
+    return !squares.emplace(pixel.x() / width, pixel.y() / width).second;
+  });
+  return points;
 }
 
 }  // namespace fathom

@@ -61,6 +61,19 @@ TEST_F(MeasureCommand, FillsTheHeightsOfEveryFrameWithACup) {
   EXPECT_EQ(run.err, "warning: 1 frames have no height because no cup is seen where it should stand: 3\n");
 }
 
+// A desk of which few points are left stays the desk, though a bottom 7 mm above it has more of them.
+TEST_F(MeasureCommand, CloudsThinnedOnTheDeskHaveTheHeightsOfWholeOnes) {
+  synthetic::write_thinned_cup(folder / "clouds/empty.pcd", 0.007);
+  synthetic::write_thinned_cup(folder / "clouds/filled.pcd", 0.0097);
+  const ProgramRun run = measure(
+      "0,0,0,0,0,0,empty,0,400,-37.5,clouds/empty.pcd\n"
+      "1,0,1,1,0,5,water,10,400,-37.5,clouds/filled.pcd\n");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Table table = read_table(folder / "heights.csv");
+  EXPECT_NEAR(table.number(0, "height_mm"), 7.0, 0.1);
+  EXPECT_NEAR(table.number(1, "height_mm"), 9.7, 0.1);
+}
+
 TEST_F(MeasureCommand, AFolderForTheResultsKeepsTheMeasurementsAsTheyAre) {
   write_text(folder / "frames.csv", std::string(kHeader) + "\n0,0,0,0,0,0,empty,0,400,-37.5,clouds/empty.pcd\n");
   ASSERT_EQ(run_fathom("measure " + folder.string() + " -o " + (folder / "out").string()).exit_code, 0);

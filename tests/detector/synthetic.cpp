@@ -1,5 +1,6 @@
 #include "tests/detector/synthetic.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -130,6 +131,25 @@ void write_cup(const std::filesystem::path& path, double floor_m) {
   Image<CloudPoint> image(cloud.width, cloud.height);
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     image.pixels()[i] = {cloud.points[i].x(), cloud.points[i].y(), cloud.points[i].z(), 0.0f};
+  write_pcd(path, image);
+}
+
+void write_thinned_cup(const std::filesystem::path& path, double floor_m) {
+  Scene scene;
+  scene.cups = {OpenCup{}};
+  scene.cups[0].floor_m = floor_m;
+  scene.width = 640, scene.height = 480, scene.focal_px = 570.342;
+  const Cloud cloud = cast(scene);
+  std::vector<CloudPoint> kept;
+  for (int row = 0; row < cloud.height; row += 2)
+    for (int column = 0; column < cloud.width; column += 2) {
+      const bool is_about_cup = std::max(std::abs(column - 320), std::abs(row - 240)) <= 60;
+      if (!is_about_cup && (row % 16 != 0 || column % 16 != 0)) continue;
+      const Eigen::Vector3f& point = cloud.points[static_cast<std::size_t>(row) * cloud.width + column];
+      if (point.allFinite()) kept.push_back({point.x(), point.y(), point.z(), 0.0f});
+    }
+  Image<CloudPoint> image(static_cast<int>(kept.size()), 1);
+  std::copy(kept.begin(), kept.end(), image.pixels().begin());
   write_pcd(path, image);
 }
 
