@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "diagnosis/predict/predictor.h"
 #include "tests/diagnosis/predict/paper_measurement.h"
@@ -15,9 +16,10 @@ void leave_out_unseen(Measurement& measurement) {
   std::erase_if(measurement.observations, [](const Observation& o) { return !std::isfinite(o.value); });
 }
 
-/// What the model itself predicts was measured, apart from 0.1 mm up and down.
-Measurement measured() {
+/// What the model itself predicts was measured, apart from 0.1 mm up and down, of fills so many times as deep.
+Measurement measured(double deeper = 1.0) {
   Measurement measurement = paper_measurement(false);
+  for (Observation& o : measurement.observations) o.factors.fill_mm *= deeper;
   const Eigen::VectorXd values = Predictor(measurement.rig, measurement.observations).predict({});
   for (std::size_t i = 0; i < measurement.observations.size(); ++i)
     measurement.observations[i].value = values[static_cast<Eigen::Index>(i)] + (i % 2 ? 0.1 : -0.1);
@@ -42,6 +44,23 @@ TEST(Bookkeeping, FillsInCentimetresAreFound) {
   const Measurement truth = measured();
   for (std::size_t i = 0; i < truth.observations.size(); ++i)
     EXPECT_NEAR(measurement.observations[i].factors.fill_mm, truth.observations[i].factors.fill_mm, 1e-9);
+}
+
+// Above 5.4 mm there should be wall alone; a liquid that in truth stands at 54 mm was taken for some.
+TEST(Bookkeeping, WallsSoughtBelowALiquidDoNotCount) {
+  Measurement measurement = measured(1.8);
+  for (const Observation& height : measured(1.8).observations) {
+    if (height.factors.region != "centre") continue;
+    Observation wall = height;
+    wall.observable = "cup_radius_mm", wall.factors.region = "walls", wall.value = 0.0;
+    measurement.observations.push_back(wall);
+  }
+  for (Observation& o : measurement.observations) o.factors.fill_mm *= 0.1;
+  put_right(measurement);
+  std::set<double> fills_mm;
+  for (const Observation& o : measurement.observations)
+    if (o.factors.region == "walls") fills_mm.insert(std::round(o.factors.fill_mm));
+  EXPECT_EQ(fills_mm, (std::set<double>{0.0, 18.0}));
 }
 
 TEST(Bookkeeping, FillsInInchesInOneOfTwoSessionsAreFoundThere) {
