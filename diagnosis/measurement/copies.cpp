@@ -29,16 +29,55 @@ std::vector<Pair> equal_clouds(std::span<const CloudPrint> prints) {
   return pairs;
 }
 
-std::vector<Pair> equal_numbers(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& placement) {
+using Placements = std::map<PlacementKey, std::vector<std::size_t>>;  // rows of each
+
+/// The rows of a placement that stand in the table alone, without clouds.
+std::vector<std::size_t> with_numbers(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& rows) {
+  std::vector<std::size_t> with;
+  for (const std::size_t row : rows)
+    if (const FrameRecord& f = frames[row]; f.cloud.empty() && f.height_mm && f.height_sd_mm && f.points)
+      with.push_back(row);
+  return with;
+}
+
+std::vector<Pair> equal_numbers(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& rows) {
   std::map<std::tuple<double, double, double>, std::size_t> first;
   std::vector<Pair> pairs;
-  for (const std::size_t row : placement) {
+  for (const std::size_t row : rows) {
     const FrameRecord& frame = frames[row];
-    if (!frame.cloud.empty() || !frame.height_mm || !frame.height_sd_mm || !frame.points) continue;
     const auto [known, is_new] = first.emplace(std::tuple(*frame.height_mm, *frame.height_sd_mm, *frame.points), row);
     if (!is_new) pairs.push_back({row, known->second});
   }
-  return pairs.size() < kFewestRows ? std::vector<Pair>{} : pairs;
+  return pairs;
+}
+
+/// Rows that have the spread and one more number of an earlier one of their placement, but not the third.
+std::size_t coincidences(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& rows) {
+  std::set<std::pair<double, double>> with_height, with_points;  // spreads
+  std::set<std::tuple<double, double, double>> known;
+  std::size_t count = 0;
+  for (const std::size_t row : rows) {
+    const double height = *frames[row].height_mm, spread = *frames[row].height_sd_mm, points = *frames[row].points;
+    const bool has_height = !with_height.emplace(spread, height).second;
+    const bool has_points = !with_points.emplace(spread, points).second;
+    const bool is_new = known.emplace(height, spread, points).second;
+    count += is_new && (has_height || has_points);
+  }
+  return count;
+}
+
+/// Few points on the steps of depth have few different heights and spreads, so that rows are alike by chance: then
+/// rows are nearly alike as well.
+std::vector<Pair> equal_rows(const std::vector<FrameRecord>& frames, const Placements& placements) {
+  constexpr std::size_t kOftener = 10;  // at most, rows are alike by chance than they are but nearly alike
+  std::vector<Pair> pairs;
+  std::size_t by_chance = 0;
+  for (const auto& [key, all] : placements) {
+    const std::vector<std::size_t> rows = with_numbers(frames, all);
+    by_chance += coincidences(frames, rows);
+    for (const Pair& pair : equal_numbers(frames, rows)) pairs.push_back(pair);
+  }
+  return pairs.size() >= kFewestRows && pairs.size() > kOftener * by_chance ? pairs : std::vector<Pair>{};
 }
 
 bool are_of_one_condition(const FrameRecord& a, const FrameRecord& b) {
@@ -84,11 +123,10 @@ bool does_desk_scatter(const std::vector<FrameRecord>& frames, std::span<const C
 }  // namespace
 
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints) {
-  std::map<PlacementKey, std::vector<std::size_t>> placements;
+  Placements placements;
   for (std::size_t row = 0; row < frames.size(); ++row) placements[placement_of(frames[row])].push_back(row);
   std::vector<Pair> pairs = equal_clouds(prints);
-  for (const auto& [key, rows] : placements)
-    for (const Pair& pair : equal_numbers(frames, rows)) pairs.push_back(pair);
+  for (const Pair& pair : equal_rows(frames, placements)) pairs.push_back(pair);
 
   const bool may_be_without = !does_desk_scatter(frames, prints);
   const bool is_without_noise =

@@ -18,7 +18,7 @@ struct Copies {
 /// these, none: nobody knows which it was. Where all trials repeat the first of their placement, or all frames the
 /// first of their condition, nothing is a copy if nothing scatters: if the desk around the cups is the same to the bit
 /// in other clouds. `prints`: one of each frame. Of rows without clouds height, spread and points tell, within a
-/// placement.
+/// placement, where many more are alike than have all of another but the height or the points.
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints);
 
 }  // namespace fathom

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -222,6 +223,21 @@ TEST_F(MeasurementFolder, CopiedRowsOfATableAreFoundWhereChanceWouldNotMakeThem)
   ASSERT_EQ(twice.mistakes.size(), 1u);
   EXPECT_EQ(twice.mistakes[0].sentence, "3 of 6 frames are copies of others.");
   EXPECT_EQ(twice.observations.back().repeats, 3);
+}
+
+TEST_F(MeasurementFolder, RowsOfFewPointsOnTheStepsOfDepthAreNoCopies) {
+  // Six points on two or three steps of depth: the desk moves the height, which is rounded, and not the spread.
+  constexpr std::array kSpreads{0.027, 0.592, 0.586, 0.108, 0.702};
+  std::string rows;
+  for (int i = 0; i < 100; ++i) {
+    Rng rng(3, i);
+    const double spread = kSpreads[static_cast<std::size_t>(kSpreads.size() * rng.uniform())];
+    const double height = 9.2 + 0.5 * spread + i / 10 + 0.1 * (rng.uniform() - 0.5);
+    rows += fmt::format("{0},0,0,{1},{2},0,water,20,300,0,,{3:.1f},{4:.3f},6\n", i, i / 10, i % 10, height, spread);
+  }
+  const Measurement measurement = read(rows, std::string(kHeader) + ",height_mm,height_sd_mm,points");
+  EXPECT_TRUE(measurement.mistakes.empty());
+  EXPECT_EQ(measurement.observations.front().repeats, 10);
 }
 
 TEST_F(MeasurementFolder, AMirroredAxisIsPutRight) {
