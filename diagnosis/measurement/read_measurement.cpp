@@ -19,6 +19,7 @@
 #include "diagnosis/measurement/frame_cloud.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/places.h"
+#include "diagnosis/measurement/rounding.h"
 #include "diagnosis/measurement/sampling.h"
 
 namespace fathom {
@@ -226,6 +227,13 @@ void leave_out_misplaced(const Table& table, std::vector<FrameReading>& readings
   }
 }
 
+/// Clouds have heights of regions, tables of the whole interior.
+void note_rounding(Measurement& measurement) {
+  const double rounding = rounding_mm(measurement.frames);
+  for (Observation& o : measurement.observations)
+    if (o.observable == "height_mm" && o.factors.region == kWholeInterior) o.rounding = rounding;
+}
+
 }  // namespace
 
 Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
@@ -246,6 +254,7 @@ Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
   for (std::size_t row = 0; row < measurement.frames.size(); ++row)
     if (!copies.left_out[row]) placements[placement_of(measurement.frames[row])].push_back(row);
   for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
+  note_rounding(measurement);
   for (Observation& motion : desk_motion(measurement.observations, measurement.rig))
     measurement.observations.push_back(std::move(motion));
   return measurement;

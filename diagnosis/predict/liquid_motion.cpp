@@ -22,22 +22,33 @@ constexpr double kOutlier = 4.5;  // times the median of absolute deviations: 3 
 /// Squares about the means of groups, of which outliers count as far as such go.
 struct Squares {
   double sum = 0.0, dof = 0.0;
+  double rounding = 0.0;  ///< 1 σ: what scatters by less than this is seen to scatter more, or not at all
   double variance() const { return sum / dof; }
-  double error() const { return variance() * std::sqrt(2.0 / dof); }
+  double error() const { return std::hypot(variance() * std::sqrt(2.0 / dof), rounding * rounding); }
 };
 
 using Observations = std::vector<Observation>;
 
 double cut_to(double most, double value) { return std::clamp(value, -most, most); }
 
+double rounding_of(const Observations& heights) {
+  double rounding = 0.0;
+  for (const Observation& o : heights) rounding = std::max(rounding, o.rounding);
+  return rounding;
+}
+
+double most_of(const std::vector<double>& deviations, double rounding) {
+  return kOutlier * std::max(median(deviations), rounding);
+}
+
 /// Between trials of a placement.
 Squares between_trials(const Observations& heights) {
   std::vector<double> deviations;
   for (const Observation& o : heights)
     if (o.repeats > 1) deviations.push_back(o.repeat_sd);
-  Squares squares;
+  Squares squares{.rounding = rounding_of(heights)};
   if (deviations.empty()) return squares;
-  const double most = kOutlier * median(deviations);
+  const double most = most_of(deviations, squares.rounding);
   for (const Observation& o : heights) {
     squares.dof += o.repeats - 1;
     squares.sum += (o.repeats - 1) * std::pow(cut_to(most, o.repeat_sd), 2);
@@ -58,12 +69,12 @@ Squares between_placements(const Observations& heights) {
   }
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(means);
   const Eigen::VectorXd left = values - means * decomposition.solve(values);
-  Squares squares{.sum = 0.0, .dof = static_cast<double>(n - decomposition.rank())};
+  Squares squares{.dof = static_cast<double>(n - decomposition.rank()), .rounding = rounding_of(heights)};
   std::vector<double> deviations;
   for (const double value : left)
     if (std::abs(value) > 1e-9) deviations.push_back(std::abs(value));
   if (deviations.empty()) return squares;
-  const double most = kOutlier * median(deviations);
+  const double most = most_of(deviations, squares.rounding);
   for (const double value : left) squares.sum += std::pow(cut_to(most, value), 2);
   return squares;
 }

@@ -25,7 +25,8 @@ struct Observation {
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
   int repeats = 1;
-  double pixels = 0.0;  ///< of one repeat, that the value is the mean of; 0: of no certain number
+  double pixels = 0.0;    ///< of one repeat, that the value is the mean of; 0: of no certain number
+  double rounding = 0.0;  ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
 };
 
 /// Something uncertain that is no effect: a calibrated length, the fill of one pour, the place of one placement.

@@ -240,6 +240,19 @@ TEST_F(MeasurementFolder, RowsOfFewPointsOnTheStepsOfDepthAreNoCopies) {
   EXPECT_EQ(measurement.observations.front().repeats, 10);
 }
 
+TEST_F(MeasurementFolder, HeightsKnowWhatTheyAreRoundedTo) {
+  const auto rounding = [&](std::initializer_list<const char*> heights) {
+    std::string rows;
+    int next = 0;
+    for (const char* height : heights) rows += fmt::format("{0},0,0,0,{0},{0},water,20,300,0,,{1}\n", next++, height);
+    return read(rows, std::string(kHeader) + ",height_mm").observations.front().rounding;
+  };
+  EXPECT_DOUBLE_EQ(rounding({"15", "16", "15"}), 1.0 / std::sqrt(12.0));
+  EXPECT_DOUBLE_EQ(rounding({"15.5", "16.0", "15.0"}), 0.5 / std::sqrt(12.0));
+  EXPECT_DOUBLE_EQ(rounding({"15.3", "16.0", "15.2"}), 0.1 / std::sqrt(12.0));
+  EXPECT_EQ(rounding({"15.31", "16.02", "15.27"}), 0.0);
+}
+
 TEST_F(MeasurementFolder, AMirroredAxisIsPutRight) {
   // The disc stands at 75 mm: 37.5 mm of it is the camera's place.
   const auto at = [](double lateral) {

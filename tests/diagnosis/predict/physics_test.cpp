@@ -167,6 +167,29 @@ TEST(Physics, WavesShowInHowHeightsOfClearLiquidsScatter) {
   EXPECT_EQ(find(evidence, "refractive_index")->signature(row, 0), 0.0);
 }
 
+// Trials of one noise, in whole millimetres: where a height is near one, none of them scatters.
+TEST(Physics, ScatterBelowWhatHeightsAreRoundedToIsNoMotion) {
+  constexpr double kNoise_mm = 0.2;
+  Measurement measurement = paper_measurement(false);
+  std::erase_if(measurement.observations, [](const Observation& o) { return o.observable != "height_mm"; });
+  for (Observation& o : measurement.observations) {
+    const double height_mm = o.factors.liquid == "water" ? 12.45 : 12.1;
+    double sum = 0.0, squares = 0.0;
+    for (int trial = 0; trial < o.repeats; ++trial) {
+      Rng rng(1, trial, o.factors.placement);
+      const double rounded_mm = std::round(height_mm + kNoise_mm * rng.normal());
+      sum += rounded_mm, squares += rounded_mm * rounded_mm;
+    }
+    o.value = sum / o.repeats;
+    o.repeat_sd = std::sqrt((squares - sum * sum / o.repeats) / (o.repeats - 1));
+    o.rounding = 1.0 / std::sqrt(12.0);
+  }
+  for (const Observation& o : physics_of(measurement).evidence.observations) {
+    if (o.observable != "liquid_motion_mm") continue;
+    EXPECT_LT(std::abs(o.value), 3.0 * o.repeat_sd / std::sqrt(o.repeats)) << o.factors.liquid;
+  }
+}
+
 TEST(Physics, PredictionsWithoutEffectsAreThePredicted) {
   const Physics physics = physics_of(paper_measurement(true));
   EXPECT_EQ(physics.predict({}), physics.evidence.predicted);
