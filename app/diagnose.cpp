@@ -85,6 +85,24 @@ void add_inverses(const Diagnosis& diagnosis, Json& report) {
           {"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
 }
 
+bool has_heights(const std::vector<Observation>& observations) {
+  return std::any_of(observations.begin(), observations.end(),
+                     [](const Observation& o) { return o.observable == "height_mm"; });
+}
+
+/// Why no height in a cup was compared, and what would help; nothing where some were, or where there are no cups.
+std::string on_missing_heights(const Measurement& measurement, const std::vector<Observation>& compared) {
+  const bool has_cups = std::any_of(measurement.frames.begin(), measurement.frames.end(),
+                                    [](const FrameRecord& f) { return !f.bare_desk(); });
+  if (!has_cups || has_heights(compared)) return {};
+  return fmt::format(
+      "No height in a cup could be compared: {}. Cups that stand nearer to the sensor's foot, more in the middle, or "
+      "are fuller show more of their inside.",
+      has_heights(measurement.observations)
+          ? "all that is seen in cups lies in the shadows of their walls or near these, as the model has them"
+          : "too few pixels show the inside of a cup");
+}
+
 std::string rows_text(const Diagnosis& diagnosis, const std::vector<std::string>& notes, const fs::path& output,
                       bool as_json) {
   if (as_json) return json_from(diagnosis).dump(2) + "\n";
@@ -119,6 +137,8 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   const std::string rig_file = (options.folders.front() / "rig.json").string();
   put_bookkeeping_right(had, rig_file, measurement);
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
+  if (std::string note = on_missing_heights(measurement, physics.evidence.observations); !note.empty())
+    measurement.notes.push_back(std::move(note));
   make_directory(common.output);  // what cannot be written shows before the long work
   remove_leftovers(common.output);
   const std::vector<std::string> not_looked_for = leave_out(options.without, physics.evidence.candidates);

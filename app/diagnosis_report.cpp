@@ -67,7 +67,7 @@ std::string gap_html(const Diagnosis& diagnosis) {
                                     fmt::format("{:.3f}", gap.after_rms_mm), fmt::format("{:.3f}", gap.noise_floor_mm)};
   };
   std::string html = html_table(
-      {"heights, root mean square [mm]", "before", "after", "expected of errors alone"},
+      {heights_words(diagnosis) + ", root mean square [mm]", "before", "after", "expected of errors alone"},
       {row("all conditions", diagnosis.train), row("each group of conditions, fitted without it", diagnosis.held_out)},
       true);
   Rows rows;
@@ -76,7 +76,7 @@ std::string gap_html(const Diagnosis& diagnosis) {
                     fmt::format("{:.3f}", stratum.train.after_rms_mm),
                     fmt::format("{:.3f}", stratum.held_out.after_rms_mm),
                     fmt::format("{:.3f}", stratum.train.noise_floor_mm)});
-  return html + html_table({"heights in the cup where", "before", "after", "held out", "errors"}, rows, true);
+  return html + html_table({heights_words(diagnosis) + " where", "before", "after", "held out", "errors"}, rows, true);
 }
 
 /// "a; b; 5 more"

@@ -15,6 +15,11 @@
 namespace fathom {
 namespace {
 
+bool compares(const Diagnosis& diagnosis, std::string_view observable) {
+  return std::any_of(diagnosis.budget.begin(), diagnosis.budget.end(),
+                     [&](const ConditionBudget& line) { return line.observable == observable; });
+}
+
 std::string spaced(std::string_view words) {
   std::string text(words);
   std::replace(text.begin(), text.end(), '_', ' ');
@@ -86,7 +91,9 @@ std::string named_sentence(const Diagnosis& diagnosis) {
                         joined(values, "and"));
     text += &effect == &diagnosis.effects.back() ? "" : "helps. ";
   }
-  return text + fmt::format("leaves {} of the heights' differences. ", gap_words(diagnosis.train));
+  return text + fmt::format("leaves {} of the {}. ", gap_words(diagnosis.train),
+                            compares(diagnosis, "height_mm") ? "heights' differences"
+                                                             : "differences of the sensor's heights above the desk");
 }
 
 /// "foam from surface tilt"
@@ -198,10 +205,23 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
 }
 
 std::string agreement(const Diagnosis& diagnosis) {
-  return fmt::format(
-      "Model and measurement agree within their errors (p = {:.2g}): the heights differ by {:.2f} mm, {:.2f} mm are to "
-      "be expected.",
-      diagnosis.p_gap, diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
+  constexpr double kHardly = 0.05;
+  const std::string agree =
+      diagnosis.p_gap < kHardly
+          ? fmt::format(
+                "Model and measurement differ a little more than their errors let expect (p = {:.2g}), but "
+                "nothing is sure enough to be named",
+                diagnosis.p_gap)
+          : fmt::format("Model and measurement agree within their errors (p = {:.2g})", diagnosis.p_gap);
+  return fmt::format("{}: the {} differ by {:.2f} mm, {:.2f} mm are to be expected.", agree, heights_words(diagnosis),
+                     diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
+}
+
+/// Where cups are seen, but nothing in them.
+std::string what_is_not_compared(const Diagnosis& diagnosis) {
+  const bool sees_cups = compares(diagnosis, "log_brightness") || compares(diagnosis, "cup_x_mm");
+  if (compares(diagnosis, "height_mm") || !sees_cups) return {};
+  return "No height in a cup could be compared: what a liquid does to heights is not seen here.";
 }
 
 std::string answer_of_physics(const Diagnosis& diagnosis) {
@@ -224,6 +244,10 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+std::string heights_words(const Diagnosis& diagnosis) {
+  return compares(diagnosis, "height_mm") ? "heights" : "heights of the sensor above the desk";
+}
 
 std::string effect_words(const std::string& name) {
   if (name == "unknown") return "something unknown";
@@ -262,7 +286,9 @@ std::string answer(const Diagnosis& diagnosis) {
   std::string text;
   for (const Mistake& mistake : diagnosis.mistakes) text += mistake.sentence + " ";
   if (!text.empty()) text += "With that put right: ";
-  return text + answer_of_physics(diagnosis);
+  text += answer_of_physics(diagnosis);
+  const std::string not_compared = what_is_not_compared(diagnosis);
+  return not_compared.empty() || text.ends_with(' ') ? text + not_compared : text + " " + not_compared;
 }
 
 }  // namespace fathom

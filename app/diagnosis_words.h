@@ -8,7 +8,8 @@
 
 namespace fathom {
 
-std::string effect_words(const std::string& name);           ///< "subsurface scattering of milk tea"
+std::string effect_words(const std::string& name);      ///< "subsurface scattering of milk tea"
+std::string heights_words(const Diagnosis& diagnosis);  ///< which heights were compared: "heights" where cups' were
 std::string effects_words(const std::vector<std::string>&);  ///< "foam and surface tilt", "nothing"
 std::string stratum_words(const GapLocation& where);         ///< "height in the cup where liquid is milk tea"
 /// As people know them: where a parameter's inverse has a name, that.

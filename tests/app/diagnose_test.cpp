@@ -83,6 +83,21 @@ TEST_F(DiagnoseCommand, SaysWhatItWasToldNotToLookForAndNothingElse) {
   EXPECT_NE(some.find(words + ": foam."), std::string::npos) << some;
 }
 
+TEST_F(DiagnoseCommand, SpeaksOfNoHeightsInCupsWhoseWallsHideWhatIsInThem) {
+  Json spec = kSpec;
+  spec["sensor"]["aim_mm"] = {0, 550, 0};
+  spec["distance_mm"] = {600};
+  spec["fillings"] = {{{"liquid", "water"}, {"fill_mm", 10}}, {{"liquid", "water"}, {"fill_mm", 15}}};
+  write_json(folder / "spec.json", spec);
+  ASSERT_EQ(run_fathom("campaign " + path("spec.json") + " -o " + path("campaign")).exit_code, 0);
+  const Json report = diagnosis("out");
+  const std::string answer = report["answer"], words = "No height in a cup could be compared";
+  EXPECT_NE(answer.find(words), std::string::npos) << answer;
+  EXPECT_EQ(answer.find("the heights differ"), std::string::npos) << answer;
+  EXPECT_NE(report["notes"].dump().find(words), std::string::npos) << report["notes"];
+  EXPECT_EQ(read_text(folder / "out" / "report.html").find("heights in the cup"), std::string::npos);
+}
+
 TEST_F(DiagnoseCommand, FindsASensorThatIsTurned) { expect_found("sensor_roll", "roll_deg", 0.8); }
 
 TEST_F(DiagnoseCommand, FindsCupsThatHoldMore) { expect_found("fill_scale", "scale", 0.15); }
