@@ -110,11 +110,24 @@ std::string rivals_html(const Diagnosis& diagnosis) {
   return html_table({"explanation", "cannot be told from", "may be there as well", "probability", "alone"}, rows);
 }
 
+/// Whether a parameter cannot depart from its nominal value any farther than this.
+bool is_beyond_bounds(const UpperLimit& limit, double departure) {
+  const Effect* effect = find_effect(effect_name(limit.effect).id);
+  if (!effect) return false;
+  const auto p = std::find_if(effect->parameters.begin(), effect->parameters.end(),
+                              [&](const EffectParameter& parameter) { return parameter.name == limit.parameter; });
+  return p != effect->parameters.end() && departure >= std::max(p->upper - p->nominal, p->nominal - p->lower);
+}
+
+std::string departure_words(const UpperLimit& limit, double departure) {
+  return is_beyond_bounds(limit, departure) ? "not visible here" : fmt::format("{:.3g}", departure);
+}
+
 std::string limits_html(const Diagnosis& diagnosis) {
   Rows rows;
   for (const UpperLimit& limit : diagnosis.upper_limits)
-    rows.push_back({effect_words(limit.effect), limit.parameter, fmt::format("{:.3g}", limit.limit95),
-                    fmt::format("{:.3g}", limit.smallest_seen)});
+    rows.push_back({effect_words(limit.effect), limit.parameter, departure_words(limit, limit.limit95),
+                    departure_words(limit, limit.smallest_seen)});
   return html_table({"effect", "parameter", "departs by less than (95 %)", "would be named half the time at"}, rows);
 }
 

@@ -46,8 +46,23 @@ std::string joined(const std::vector<std::string>& words, std::string_view last)
   return text;
 }
 
-/// "liquid is milk tea and distance is 400 mm"; nothing where it is everywhere.
+/// "time=early" → "in the first third of the session"; nothing of what is no time.
+std::string third_words(std::string_view stratum) {
+  struct Words {
+    std::string_view key, words;
+  };
+  constexpr Words kSpans[] = {{"time=", "the session"}, {"time_since_pour=", "the time since the pour"}};
+  constexpr Words kThirds[] = {{"early", "first"}, {"middle", "middle"}, {"late", "last"}};
+  for (const Words& span : kSpans)
+    for (const Words& third : kThirds)
+      if (stratum.starts_with(span.key) && stratum.substr(span.key.size()) == third.key)
+        return fmt::format("in the {} third of {}", third.words, span.words);
+  return {};
+}
+
+/// "where liquid is milk tea and distance is 400 mm"; nothing where it is everywhere.
 std::string place_words(std::string_view stratum) {
+  if (std::string third = third_words(stratum); !third.empty()) return third;
   std::vector<std::string> factors;
   while (!stratum.empty() && stratum != "all") {
     const std::size_t comma = stratum.find(", ");
@@ -61,7 +76,7 @@ std::string place_words(std::string_view stratum) {
     const auto [name, unit] = without_unit(factor.substr(0, equals));
     factors.push_back(fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit));
   }
-  return fmt::format("{}", fmt::join(factors, " and "));
+  return factors.empty() ? "" : fmt::format("where {}", fmt::join(factors, " and "));
 }
 
 /// "The height in the cup, where liquid is milk tea, is 1.40 mm lower than the model has it.": where the gap is
@@ -72,7 +87,7 @@ std::string where_sentence(const Diagnosis& diagnosis) {
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
   return fmt::format("The {}{} is {:.3g}{} {} than the model has it. ", words.name,
-                     place.empty() ? "" : fmt::format(", where {},", place), std::abs(where.mean), words.unit,
+                     place.empty() ? "" : fmt::format(", {},", place), std::abs(where.mean), words.unit,
                      where.mean < 0 ? words.less : words.more);
 }
 
@@ -102,11 +117,13 @@ std::string pair_words(const NextMeasurement& next) {
 }
 
 std::string next_sentences(const std::vector<NextMeasurement>& all) {
+  constexpr std::size_t kMostOpen = 3;  // pairs, likeliest first
   std::map<std::string, std::vector<std::string>> settled;
   std::vector<std::string> order, open, unsettled;
   for (const NextMeasurement& next : all) {
     if (!next.settles()) {
       open.push_back(pair_words(next));
+      if (open.size() > kMostOpen) continue;
       for (const std::vector<std::string>& set : next.separates)
         for (const std::string& name : set)
           if (std::find(unsettled.begin(), unsettled.end(), name) == unsettled.end()) unsettled.push_back(name);
@@ -120,6 +137,9 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
   for (const std::string& measurement : order)
     text += fmt::format("Measuring {} would tell {}. ", measurement, joined(settled[measurement], "and"));
   if (open.empty()) return text;
+  const std::size_t more = open.size() > kMostOpen ? open.size() - kMostOpen : 0;
+  open.resize(open.size() - more);
+  if (more > 0) open.push_back(fmt::format("{} more pairs", more));
   text += fmt::format("None of the measurements that were considered will tell {}. ", joined(open, "or"));
   for (const std::string& name : unsettled)
     if (const Effect* effect = find_effect(effect_name(name).id))
@@ -264,7 +284,7 @@ std::string effects_words(const std::vector<std::string>& effects) {
 
 std::string stratum_words(const GapLocation& where) {
   const std::string place = place_words(where.stratum);
-  return fmt::format("{}{}{}", observable_words(where.observable).name, place.empty() ? "" : " where ", place);
+  return fmt::format("{}{}{}", observable_words(where.observable).name, place.empty() ? "" : " ", place);
 }
 
 std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {

@@ -19,17 +19,17 @@ constexpr std::array kWords{
     ObservableWords{"desk_pitch_deg", "pitch of the camera", "°", "steeper", "flatter"},
     ObservableWords{"desk_roll_deg", "roll of the camera", "°", "larger", "smaller"},
     ObservableWords{"desk_residual_mm", "height of the desk above its plane", " mm", "higher", "lower"},
-    ObservableWords{"liquid_motion_mm", "movement of what is seen through a liquid, from shot to shot,", " mm", "wider",
-                    "narrower"},
+    ObservableWords{"liquid_motion_mm", "extra scatter from shot to shot of heights read through a liquid", " mm",
+                    "wider", "narrower"},
     ObservableWords{"desk_wander_mm", "wander of the desk from shot to shot", " mm", "wider", "narrower"},
     ObservableWords{"desk_waves_px", "waves across the desk from shot to shot", " px", "higher", "lower"},
     ObservableWords{"desk_rows_px", "scatter of the image's rows", " px", "wider", "narrower"},
     ObservableWords{"desk_columns_px", "scatter of the image's columns", " px", "wider", "narrower"},
-    ObservableWords{"comb_strength", "grip of steps of 1/8 px on disparities", "", "stronger", "weaker"},
+    ObservableWords{"comb_strength", "degree to which disparities keep to steps of 1/8 px", "", "higher", "lower"},
     ObservableWords{"comb_phase", "place of disparities between steps", " steps", "further on", "further back"},
-    ObservableWords{"comb_quarter", "grip of steps of 1/4 px on disparities", "", "stronger", "weaker"},
-    ObservableWords{"comb_half", "grip of steps of 1/2 px on disparities", "", "stronger", "weaker"},
-    ObservableWords{"millimetre_comb", "grip of whole millimetres on depths", "", "stronger", "weaker"}};
+    ObservableWords{"comb_quarter", "degree to which disparities keep to steps of 1/4 px", "", "higher", "lower"},
+    ObservableWords{"comb_half", "degree to which disparities keep to steps of 1/2 px", "", "higher", "lower"},
+    ObservableWords{"millimetre_comb", "degree to which depths keep to whole millimetres", "", "higher", "lower"}};
 
 }  // namespace
 

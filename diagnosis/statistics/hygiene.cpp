@@ -132,9 +132,10 @@ void check_other_cup(const Evidence& evidence, std::vector<std::string>& warning
   for (int pour = 0; pour < pours.count; ++pour) {
     const Factors& factors = evidence.observations[members[pour][0]].factors;
     if (std::abs(shifts[pour] - middle) > kOtherCup_mm)
-      warnings.push_back(
-          fmt::format("pour {} ({} {} mm) reads {:+.1f} mm where the others read {:+.1f}: another cup or filling?",
-                      factors.pour, factors.liquid, factors.fill_mm, shifts[pour], middle));
+      warnings.push_back(fmt::format(
+          "pour {} of session {} ({} {} mm) reads {:+.1f} mm off what the model has, where the middle of all "
+          "pours is {:+.1f} mm off: another cup or filling?",
+          factors.pour, factors.session, factors.liquid, factors.fill_mm, shifts[pour], middle));
   }
 }
 

@@ -65,6 +65,25 @@ TEST(Hygiene, SeesACopiedPlacement) {
                           [](const std::string& w) { return w.find("identical") != std::string::npos; }));
 }
 
+TEST(Hygiene, APourThatIsFarOffIsNamedWithItsSessionAndAgainstTheModel) {
+  Evidence evidence;
+  evidence.predicted = Eigen::VectorXd::Constant(4, 12.0);
+  for (int session = 0; session < 4; ++session) {
+    Observation observation;
+    observation.observable = "height_mm";
+    observation.value = session == 2 ? 33.5 : 12.0;
+    observation.factors.session = session;
+    observation.factors.liquid = "water";
+    observation.factors.fill_mm = 30.0;
+    evidence.observations.push_back(observation);
+  }
+  const auto found = warnings(evidence);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0],
+            "pour 0 of session 2 (water 30 mm) reads +21.5 mm off what the model has, where the middle of all pours is "
+            "+0.0 mm off: another cup or filling?");
+}
+
 /// Walls of four cups that stand so far beside their places.
 Evidence cups_beside(double x_mm, double y_mm) {
   Evidence evidence;

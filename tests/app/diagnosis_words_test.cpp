@@ -1,0 +1,46 @@
+// What a diagnosis promises to say, whatever it was of.
+#include "app/diagnosis_words.h"
+
+#include <gtest/gtest.h>
+
+namespace fathom {
+namespace {
+
+bool says(const Diagnosis& diagnosis, std::string_view words) {
+  return answer(diagnosis).find(words) != std::string::npos;
+}
+
+Diagnosis agreement(double p) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::none;
+  diagnosis.p_gap = p;
+  diagnosis.budget.push_back({"water, 20 mm, at (0, 300) mm", "height_mm"});
+  return diagnosis;
+}
+
+TEST(DiagnosisWords, AgreementThatHardlyHoldsIsSaidLessRoundly) {
+  EXPECT_TRUE(says(agreement(0.2), "agree within their errors"));
+  EXPECT_FALSE(says(agreement(0.005), "agree within their errors"));
+  EXPECT_TRUE(says(agreement(0.005), "nothing is sure enough to be named"));
+}
+
+TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {
+  EXPECT_EQ(stratum_words({"height_mm", "time=early"}), "height in the cup in the first third of the session");
+  EXPECT_EQ(stratum_words({"height_mm", "time_since_pour=late"}),
+            "height in the cup in the last third of the time since the pour");
+  EXPECT_EQ(stratum_words({"height_mm", "liquid=milk_tea, fill_mm=20"}),
+            "height in the cup where liquid is milk tea and fill is 20 mm");
+}
+
+TEST(DiagnosisWords, OfManyPairsThatNothingTellsApartTheLikeliestAreNamed) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::ambiguous;
+  diagnosis.ambiguity_set = {{{"foam"}, {}, {}, 0.6}, {{"baseline"}, {}, {}, 0.4}};
+  for (const char* other : {"baseline", "meniscus", "ripples", "absorption", "fill_scale"})
+    diagnosis.next.push_back({"bare desk", {{"foam"}, {other}}, 1.0});
+  EXPECT_TRUE(says(diagnosis, "foam from baseline, foam from meniscus, foam from ripples or 2 more pairs. "));
+  EXPECT_FALSE(says(diagnosis, "absorption"));
+}
+
+}  // namespace
+}  // namespace fathom
