@@ -22,9 +22,6 @@ namespace fathom {
 namespace {
 
 constexpr double kLikelyUnknown = 0.25;
-/// Probability below which some effect is said to be needed. Of what bench/blind hides, one null set in 400 comes below
-/// it, and of sets that hold an effect which no test confirms one in 15.
-constexpr double kLeastNothing = 0.2;
 
 /// Of the likeliest option that has these effects, with something unknown or without.
 double log_posterior_with(const std::vector<Option>& options, const std::vector<int>& effects) {
@@ -64,7 +61,8 @@ Verdict verdict_of_named(const Case& c, const Weighed& weighed, const AmbiguityS
 Verdict verdict_of_unnamed(const Case& c, bool is_rest, const AmbiguitySet& set) {
   if (is_rest || set.classes.front().options.front().has_unknown) return Verdict::unknown;
   if (!c.evidence.mistakes.empty()) return Verdict::named;
-  return probability_of_nothing(set) > kLeastNothing ? Verdict::none : Verdict::ambiguous;
+  // Some effect may still be needed: then nothing at all is no explanation any more.
+  return kSureOdds * probability_of_nothing(set) > 1.0 ? Verdict::none : Verdict::ambiguous;
 }
 
 /// What the evidence says before any effect is weighed.
@@ -73,7 +71,7 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   diagnosis.warnings = hygiene_warnings(c.evidence);
   if (!c.covariance.errors.from_replicates)
     diagnosis.warnings.emplace_back(
-        "hardly any condition was measured twice: errors are taken from what a smooth model leaves");
+        "hardly any condition was poured or placed anew: errors are taken from what a smooth model leaves");
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
   diagnosis.confusable = confusable_pairs(c.evidence, c.problem);
   diagnosis.near_null = near_null_directions(c.evidence, c.problem);
