@@ -307,8 +307,9 @@ std::string answer(const Diagnosis& diagnosis) {
   for (const Mistake& mistake : diagnosis.mistakes) text += mistake.sentence + " ";
   if (!text.empty()) text += "With that put right: ";
   text += answer_of_physics(diagnosis);
+  while (text.ends_with(' ')) text.pop_back();
   const std::string not_compared = what_is_not_compared(diagnosis);
-  return not_compared.empty() || text.ends_with(' ') ? text + not_compared : text + " " + not_compared;
+  return not_compared.empty() ? text : text + " " + not_compared;
 }
 
 }  // namespace fathom

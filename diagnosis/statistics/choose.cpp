@@ -94,7 +94,7 @@ bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
   });
 }
 
-/// Squared norm of what each effect changes and no other can: its square in standard errors.
+/// Squared norm of what each effect changes and no other can: of one parameter, its square in standard errors.
 std::vector<double> own_changes(const Case& c, const Refit& fit) {
   std::vector<double> own;
   Eigen::Index first = 0;

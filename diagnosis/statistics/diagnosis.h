@@ -20,7 +20,7 @@ enum class Anew { nothing, pours, sessions };
 /// A part of the observations that departs from the prediction.
 struct GapLocation {
   std::string observable, stratum;  ///< "height_mm", "liquid=milk_tea, distance_mm=400"
-  double mean = 0.0, sigma = 0.0;   ///< in the observable's unit
+  double mean = 0.0, sigma = 0.0;   ///< in the observable's unit, beside the other parts'
   double share_of_gap = 0.0;        ///< of the squared gap in units of its error
   double p = 1.0;                   ///< with all strata that were looked at
 };

@@ -1,5 +1,6 @@
 #include "diagnosis/statistics/scan.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,6 +64,17 @@ std::vector<Stratum> strata_by_time(const std::vector<Observation>& observations
   return result;
 }
 
+/// Means of strata, each beside the others'.
+void estimate_together(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
+                       std::vector<GapLocation>& locations) {
+  const Eigen::MatrixXd covariance = (columns.transpose() * columns).inverse();
+  const Eigen::VectorXd means = covariance * (columns.transpose() * residual);
+  for (std::size_t k = 0; k < locations.size(); ++k) {
+    locations[k].mean = means[static_cast<Eigen::Index>(k)];
+    locations[k].sigma = std::sqrt(covariance.diagonal()[static_cast<Eigen::Index>(k)]);
+  }
+}
+
 }  // namespace
 
 std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
@@ -96,29 +108,33 @@ Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covari
 }
 
 std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                const Eigen::VectorXd& dof, Eigen::VectorXd residual, const MaximumTail& tail,
+                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
                                 double level) {
   std::vector<GapLocation> result;
+  std::vector<Eigen::Index> found;
+  Eigen::VectorXd rest = residual;
   Eigen::MatrixXd left = columns;
   const Eigen::VectorXd full = columns.colwise().squaredNorm();
   const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
   while (static_cast<int>(result.size()) < kMostLocations) {
     const Eigen::VectorXd squares = left.colwise().squaredNorm();
-    Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
+    Eigen::VectorXd z = (left.transpose() * rest).array() / squares.array().max(1e-300).sqrt();
     z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
     const Eigen::ArrayXd scores = z.binaryExpr(dof, &normal_score).array();
     const Eigen::ArrayXd p = scores.unaryExpr([&](double score) { return tail.p(score); });
     // Of what chance does not explain the largest, though it may be known by fewer degrees of freedom.
     Eigen::Index best = 0;
     if ((p < level).select(z.array().abs(), 0.0).maxCoeff(&best) == 0.0) break;
-    const Stratum& stratum = strata[best];
-    const double sigma = 1.0 / std::sqrt(squares[best]);
+    found.push_back(best);
     result.push_back(
-        {stratum.observable, stratum.name, z[best] * sigma, sigma, std::min(1.0, z[best] * z[best] / gap), p[best]});
+        {strata[best].observable, strata[best].name, 0.0, 0.0, std::min(1.0, z[best] * z[best] / gap), p[best]});
     const Eigen::VectorXd direction = left.col(best).normalized();
-    residual -= direction * direction.dot(residual);
+    rest -= direction * direction.dot(rest);
     left -= direction * (direction.transpose() * left);
   }
+  estimate_together(columns(Eigen::all, found), residual, result);
+  std::stable_sort(result.begin(), result.end(),
+                   [](const GapLocation& a, const GapLocation& b) { return a.share_of_gap > b.share_of_gap; });
   return result;
 }
 

@@ -28,9 +28,9 @@ Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covari
 
 /// Strata with a significant mean, one after the other: the most significant is taken out before the next is sought
 /// (so a main effect does not return as ten interactions), until none has p < `level` by `tail`. `dof` is that of the
-/// columns' variances.
+/// columns' variances. Given in the order of their shares of the gap, with the means that all of them have together.
 std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                const Eigen::VectorXd& dof, Eigen::VectorXd residual, const MaximumTail& tail,
+                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
                                 double level);
 
 }  // namespace fathom

@@ -38,7 +38,7 @@ TEST(DiagnosisWords, OfManyPairsThatNothingTellsApartTheLikeliestAreNamed) {
   diagnosis.ambiguity_set = {{{"foam"}, {}, {}, 0.6}, {{"baseline"}, {}, {}, 0.4}};
   for (const char* other : {"baseline", "meniscus", "ripples", "absorption", "fill_scale"})
     diagnosis.next.push_back({"bare desk", {{"foam"}, {other}}, 1.0});
-  EXPECT_TRUE(says(diagnosis, "foam from baseline, foam from meniscus, foam from ripples or 2 more pairs. "));
+  EXPECT_TRUE(says(diagnosis, "foam from baseline, foam from meniscus, foam from ripples or 2 more pairs."));
   EXPECT_FALSE(says(diagnosis, "absorption"));
 }
 

@@ -11,6 +11,7 @@
 #include "diagnosis/statistics/diagnosis_json.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/options.h"
+#include "diagnosis/statistics/scan.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {
@@ -227,6 +228,22 @@ TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
   const Diagnosis diagnosis = sunken(0.8);
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
   EXPECT_EQ(diagnosis.where.at(0).stratum, "time_since_pour=early");
+}
+
+TEST(Locate, PutsFirstWhereMostOfTheGapIsThoughItShowsOnlyWithoutTheRest) {
+  const std::vector<Stratum> strata{{"height_mm", "fill_mm=20", true, {0}}, {"height_mm", "fill_mm=40", true, {0, 1}}};
+  // Whitened: errors that both share hide the second.
+  const Eigen::MatrixXd columns{{1.0, 0.8}, {0.0, -0.6}};
+  const Eigen::Vector2d residual(6.0, 7.0);
+  const std::vector<GapLocation> where =
+      locate(strata, columns, Eigen::Vector2d(50, 50), residual, MaximumTail{}, 0.01);
+  ASSERT_EQ(where.size(), 2U);
+  EXPECT_EQ(where[0].stratum, "fill_mm=40");
+  EXPECT_NEAR(where[0].share_of_gap, 49.0 / (85 - 2), 1e-12);
+  EXPECT_NEAR(where[1].share_of_gap, 36.0 / (85 - 2), 1e-12);
+  // Together they are all of the difference.
+  const Eigen::VectorXd both = columns.col(0) * where[1].mean + columns.col(1) * where[0].mean;
+  EXPECT_LT((both - residual).norm(), 1e-12);
 }
 
 TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
