@@ -94,38 +94,14 @@ bool all_have(const Case& c, const std::vector<Option>& options, int effect) {
   });
 }
 
-/// Squared norm of what each effect changes and no other can: of one parameter, its square in standard errors.
-std::vector<double> own_changes(const Case& c, const Refit& fit) {
-  std::vector<double> own;
-  Eigen::Index first = 0;
-  for (const int effect : fit.hypothesis.effects) {
-    const auto count = static_cast<Eigen::Index>(c.problem.columns[effect].size());
-    Eigen::MatrixXd others = fit.jacobian;
-    others.middleCols(first, count).setZero();
-    const Eigen::MatrixXd span = orthonormal(others);
-    const Eigen::VectorXd change =
-        fit.jacobian.middleCols(first, count) * fit.hypothesis.parameters.segment(first, count);
-    own.push_back((change - span * (span.transpose() * change)).squaredNorm());
-    first += count;
-  }
-  return own;
-}
-
-/// Whether no effect may just as well be absent: tests by slopes say little of what bends as it fades.
-bool all_are_there(const Case& c, const Refit& fit) {
-  constexpr double kLeastErrors = 2.0;
-  const std::vector<double> own = own_changes(c, fit);
-  return *std::min_element(own.begin(), own.end()) > kLeastErrors * kLeastErrors;
-}
-
 /// Squared z of the stratum in which most is left.
 double most_left(const Case& c, const Rest& rest) {
   const Eigen::MatrixXd& columns = c.shapes.stratum_columns;
   double most = 0.0;
-  for (const GapLocation& location :
-       locate(c.shapes.strata, columns - rest.explained * (rest.explained.transpose() * columns), c.shapes.stratum_dof,
-              rest.residual, c.gap.scan_tail, c.settings.p_gap))
-    most = std::max(most, std::pow(location.mean / location.sigma, 2));
+  for (const SignificantStratum& one :
+       significant_strata(columns - rest.explained * (rest.explained.transpose() * columns), c.shapes.stratum_dof,
+                          rest.residual, c.gap.scan_tail, c.settings.p_gap))
+    most = std::max(most, one.z * one.z);
   return most;
 }
 
@@ -142,10 +118,8 @@ std::optional<Choice> choose(const Case& c, const std::vector<Refit>& fits) {
   });
   for (const Refit* fit : nested) {
     if (fit->hypothesis.effects.empty() || fit->hypothesis.log_evidence < std::log(kSureOdds)) continue;
-    auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, *fit));
-    if (!effects) continue;
-    Choice choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, *fit), std::move(*effects)};
-    if (all_are_there(c, choice.fit)) return choice;
+    if (auto effects = verified(c, with_chords(c.evidence, c.predict, c.covariance, c.problem, *fit)))
+      return Choice{with_differences(c.evidence, c.predict, c.covariance, c.problem, *fit), std::move(*effects)};
   }
   return std::nullopt;
 }
@@ -183,11 +157,20 @@ std::optional<Choice> common_to_all(const Case& c, const std::vector<Refit>& fit
 
 std::vector<int> parts_of_rest(const Case& c, const Choice& choice, const Rest& rest) {
   constexpr double kShare = 1.0 / 3.0;  // of its square: hardly ever more, if it is any of some ten directions
-  const std::vector<double> own = own_changes(c, choice.fit);
+  const Hypothesis& h = choice.fit.hypothesis;
   const double left = most_left(c, rest);
   std::vector<int> parts;
-  for (std::size_t e = 0; e < own.size(); ++e)
-    if (own[e] < kShare * (own[e] + left)) parts.push_back(choice.fit.hypothesis.effects[e]);
+  Eigen::Index first = 0;
+  for (const int effect : h.effects) {
+    const auto count = static_cast<Eigen::Index>(c.problem.columns[effect].size());
+    Eigen::MatrixXd others = choice.fit.jacobian;
+    others.middleCols(first, count).setZero();
+    const Eigen::MatrixXd span = orthonormal(others);
+    const Eigen::VectorXd change = choice.fit.jacobian.middleCols(first, count) * h.parameters.segment(first, count);
+    const double own = (change - span * (span.transpose() * change)).squaredNorm();
+    if (own < kShare * (own + left)) parts.push_back(effect);
+    first += count;
+  }
   return parts;
 }
 

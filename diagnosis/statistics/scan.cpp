@@ -64,17 +64,6 @@ std::vector<Stratum> strata_by_time(const std::vector<Observation>& observations
   return result;
 }
 
-/// Means of strata, each beside the others'.
-void estimate_together(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
-                       std::vector<GapLocation>& locations) {
-  const Eigen::MatrixXd covariance = (columns.transpose() * columns).inverse();
-  const Eigen::VectorXd means = covariance * (columns.transpose() * residual);
-  for (std::size_t k = 0; k < locations.size(); ++k) {
-    locations[k].mean = means[static_cast<Eigen::Index>(k)];
-    locations[k].sigma = std::sqrt(covariance.diagonal()[static_cast<Eigen::Index>(k)]);
-  }
-}
-
 }  // namespace
 
 std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
@@ -107,32 +96,45 @@ Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covari
   return covariance.whiten(columns);
 }
 
-std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
-                                double level) {
-  std::vector<GapLocation> result;
-  std::vector<Eigen::Index> found;
-  Eigen::VectorXd rest = residual;
+std::vector<SignificantStratum> significant_strata(const Eigen::MatrixXd& columns, const Eigen::VectorXd& dof,
+                                                   Eigen::VectorXd residual, const MaximumTail& tail, double level) {
+  std::vector<SignificantStratum> result;
   Eigen::MatrixXd left = columns;
   const Eigen::VectorXd full = columns.colwise().squaredNorm();
-  const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
   while (static_cast<int>(result.size()) < kMostLocations) {
     const Eigen::VectorXd squares = left.colwise().squaredNorm();
-    Eigen::VectorXd z = (left.transpose() * rest).array() / squares.array().max(1e-300).sqrt();
+    Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
     z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
     const Eigen::ArrayXd scores = z.binaryExpr(dof, &normal_score).array();
     const Eigen::ArrayXd p = scores.unaryExpr([&](double score) { return tail.p(score); });
     // Of what chance does not explain the largest, though it may be known by fewer degrees of freedom.
     Eigen::Index best = 0;
     if ((p < level).select(z.array().abs(), 0.0).maxCoeff(&best) == 0.0) break;
-    found.push_back(best);
-    result.push_back(
-        {strata[best].observable, strata[best].name, 0.0, 0.0, std::min(1.0, z[best] * z[best] / gap), p[best]});
+    result.push_back({best, z[best], p[best]});
     const Eigen::VectorXd direction = left.col(best).normalized();
-    rest -= direction * direction.dot(rest);
+    residual -= direction * direction.dot(residual);
     left -= direction * (direction.transpose() * left);
   }
-  estimate_together(columns(Eigen::all, found), residual, result);
+  return result;
+}
+
+std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
+                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
+                                double level) {
+  const std::vector<SignificantStratum> found = significant_strata(columns, dof, residual, tail, level);
+  const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
+  std::vector<Eigen::Index> numbers;
+  for (const SignificantStratum& one : found) numbers.push_back(one.number);
+  const Eigen::MatrixXd together = columns(Eigen::all, numbers);
+  const Eigen::MatrixXd covariance = (together.transpose() * together).inverse();
+  const Eigen::VectorXd means = covariance * (together.transpose() * residual);
+  std::vector<GapLocation> result;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Stratum& stratum = strata[found[k].number];
+    const auto column = static_cast<Eigen::Index>(k);
+    result.push_back({stratum.observable, stratum.name, means[column], std::sqrt(covariance(column, column)),
+                      std::min(1.0, found[k].z * found[k].z / gap), found[k].p});
+  }
   std::stable_sort(result.begin(), result.end(),
                    [](const GapLocation& a, const GapLocation& b) { return a.share_of_gap > b.share_of_gap; });
   return result;

@@ -230,6 +230,21 @@ TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
   EXPECT_EQ(diagnosis.where.at(0).stratum, "time_since_pour=early");
 }
 
+/// As foam hides what is below it, however thin it is.
+TEST(Decide, NamesWhatShowsHoweverLittleThereIsOfIt) {
+  const World world(small_design());
+  const double jump = world.at_strength("foam", 30.0, 1.0).values[0];
+  const Predict predict = [&, smooth = world.predict()](const std::vector<EffectValue>& effects) {
+    std::vector<EffectValue> jumped = effects;
+    for (EffectValue& effect : jumped)
+      if (effect.effect == "foam" && effect.values[0] > 0.0) effect.values[0] += jump;
+    return smooth(jumped);
+  };
+  const Diagnosis diagnosis = decide(world.measure({{"foam", {0.99 * jump}}}, {}, 8), predict);
+  ASSERT_EQ(diagnosis.effects.size(), 1U);
+  EXPECT_EQ(diagnosis.effects[0].name, "foam");
+}
+
 TEST(Locate, PutsFirstWhereMostOfTheGapIsThoughItShowsOnlyWithoutTheRest) {
   const std::vector<Stratum> strata{{"height_mm", "fill_mm=20", true, {0}}, {"height_mm", "fill_mm=40", true, {0, 1}}};
   // Whitened: errors that both share hide the second.
