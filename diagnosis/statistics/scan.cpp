@@ -122,6 +122,7 @@ std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen:
                                 const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
                                 double level) {
   const std::vector<SignificantStratum> found = significant_strata(columns, dof, residual, tail, level);
+  if (found.empty()) return {};
   const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
   std::vector<Eigen::Index> numbers;
   for (const SignificantStratum& one : found) numbers.push_back(one.number);
