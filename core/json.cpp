@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -109,12 +110,39 @@ std::size_t JsonReader::choice(std::span<const std::string> choices, std::string
   return static_cast<std::size_t>(found - choices.begin());
 }
 
+void require_modest_json(std::string_view text, const std::string& file, std::size_t bytes_per_value) {
+  constexpr int kDeepest = 100;
+  std::uint64_t values = 1;
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) switch (text[i]) {
+      case '"':  // to the end of the string
+        for (++i; i < text.size() && text[i] != '"'; ++i)
+          if (text[i] == '\\') ++i;
+        break;
+      case '[':
+      case '{':
+        if (++depth > kDeepest) throw Error(file, fmt::format("is nested more than {} deep", kDeepest));
+        [[fallthrough]];
+      case ',':
+      case ':':
+        ++values;
+        break;
+      case ']':
+      case '}':
+        --depth;
+        break;
+      default:
+        break;
+    }
+  require_within_limit(file, "", bytes_of({values, bytes_per_value}), "values");
+}
+
 Json read_json(const std::filesystem::path& path) {
+  constexpr std::size_t kBytesPerValue = 100;  // of objects' members, with the keys that are kept to find doubles
   const std::string text = read_text(path);
+  require_modest_json(text, path.string(), kBytesPerValue);
   std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto check_event = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    constexpr int kDeepest = 100;  // taking a value apart again is recursive
-    if (depth > kDeepest) throw Error(path.string(), fmt::format("is nested more than {} deep", kDeepest));
+  const auto check_event = [&](int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)

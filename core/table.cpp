@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 
 namespace fathom {
 namespace {
@@ -145,11 +146,18 @@ Table read_table(const std::filesystem::path& path) {
   if (text.find_first_not_of(kBlank) == std::string_view::npos) throw Error(file, "is empty, expected a header line");
   const std::string_view header = take_line(text);
   const char separator = separator_of(header);
+  const auto ends_cell = [&](char c) { return c == separator || c == '\n' || c == '\r'; };
+  const auto most_cells = static_cast<std::uint64_t>(std::count_if(text.begin(), text.end(), ends_cell));
+  require_within_limit(file, "", bytes_of({most_cells, sizeof(std::string)}), "cells");
+  constexpr std::ptrdiff_t kMostColumns = 1000;
+  if (std::count(header.begin(), header.end(), separator) >= kMostColumns)
+    throw Error(file, "line 1", fmt::format("has more than {} columns", kMostColumns));
   Table table(split_line(header, separator, file, 1), file);
   for (auto column = table.columns().begin(); column != table.columns().end(); ++column)
     if (!column->empty() && std::find(std::next(column), table.columns().end(), *column) != table.columns().end())
       throw Error(file, "line 1", fmt::format("has the column '{}' twice", *column));
-  for (std::size_t number = 2; text.find_first_not_of(kBlank) != std::string_view::npos; ++number) {
+  const char* const end = text.data() + (text.find_last_not_of(kBlank) + 1);  // npos + 1 is 0
+  for (std::size_t number = 2; text.data() < end; ++number) {
     const std::string_view line = take_line(text);
     if (line.find_first_not_of(kBlank) == std::string_view::npos) continue;
     std::vector<std::string> cells = split_line(line, separator, file, number);
