@@ -86,7 +86,8 @@ Facts read_facts(HeaderBytes bytes) {
   if (bytes.left() < 4 || bytes.number<std::int32_t>() != kMagic) bytes.fail("it does not begin as such a file");
   const auto version = bytes.number<std::uint32_t>();
   if ((version & kVersion) != 2) bytes.fail("it is of another version than 2");
-  if (version & (kTiled | kDeep | kParts)) bytes.fail("it has tiles, deep pixels or several parts; one part in scanlines is read");
+  if (version & (kTiled | kDeep | kParts))
+    bytes.fail("it has tiles, deep pixels or several parts; one part in scanlines is read");
   Facts facts;
   for (std::string_view name = bytes.name(); !name.empty(); name = bytes.name()) {
     const std::string_view type = bytes.name();

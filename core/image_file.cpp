@@ -237,8 +237,9 @@ Image<std::uint16_t> read_png_grey(const std::filesystem::path& path) {
                       row_bytes = png_get_rowbytes(from.png, from.info);
   require_within_limit(path.string(), "header", bytes_of({width, height, sizeof(std::uint16_t)}), "pixels");
   if (bytes_of({row_bytes, height}) > bytes_of({content.size(), kMostPacked}))
-    throw Error(path.string(), "header",
-                fmt::format("is truncated: {} × {} pixels cannot be packed in {} bytes", width, height, content.size()));
+    throw Error(
+        path.string(), "header",
+        fmt::format("is truncated: {} × {} pixels cannot be packed in {} bytes", width, height, content.size()));
   Image<std::uint16_t> image(static_cast<int>(width), static_cast<int>(height));
   std::vector<std::uint8_t> row(row_bytes);
   if (!read_rows(from, image, row)) fail();
