@@ -13,6 +13,7 @@
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rows.h"
+#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/effects/effects_json.h"
 #include "sim/scene/setup.h"
@@ -88,9 +89,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_json(common.output / "run.json", record);  // last: its presence says that the capture is complete
   if (without_depth > 0)
-    fmt::print(stderr,
-               "warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
-               options.scene.string(), without_depth, options.frames);
+    say(fmt::format("warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
+                    options.scene.string(), without_depth, options.frames));
   fmt::print("{}", format_rows(rows, common.json));
 }
 

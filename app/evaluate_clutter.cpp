@@ -11,6 +11,7 @@
 #include "app/trial_picture.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rng.h"
@@ -26,7 +27,8 @@ constexpr double kInSight = 0.3;
 /// The folder that keeps the trials; without one nothing is kept.
 class Keeper {
  public:
-  Keeper(const ClutterEvaluation& evaluation, const CommonOptions& common) : folder_(common.output) {
+  Keeper(const ClutterEvaluation& evaluation, const CommonOptions& common)
+      : folder_(common.output), clutter_file_(evaluation.clutter.file) {
     if (folder_.empty()) return;
     const Json identity = {{"fathom", FATHOM_VERSION},
                            {"seed", common.seed},
@@ -56,9 +58,12 @@ class Keeper {
   }
 
   /// The trial's own file last: a trial with it is complete.
-  void keep(const std::string& name, const Json& scene, const TrialShot& shot, const Trial& trial) const {
+  void keep(const std::string& name, Json scene, const TrialShot& shot, const Trial& trial) const {
     if (folder_.empty()) return;
     if (const std::string why = failure_of(trial.result); !why.empty()) {
+      for (Json& cup : scene["cups"])  // what lay beside the clutter file does not lie here
+        if (cup["shape"].is_string() && names_gltf(cup["shape"].get<std::string>()))
+          cup["shape"] = fs::absolute(path_named_in(clutter_file_, "/cups", cup["shape"].get<std::string>())).string();
       write_json(folder_ / "failures" / fmt::format("{}_{}.json", name, why), scene);
       write_png(folder_ / "failures" / fmt::format("{}_{}.png", name, why), trial_picture(shot, trial));
     }
@@ -67,6 +72,7 @@ class Keeper {
 
  private:
   fs::path folder_;
+  std::string clutter_file_;
 };
 
 std::string trial_name(std::size_t number) { return fmt::format("{:06}", number); }
@@ -104,7 +110,7 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
       std::optional<TrialResult> result = keeper.kept(name);
       if (!result) {
         const Json scene = random_scene(clutter, common.seed, number);
-        const TrialShot shot = shoot_trial(scene, Rng(common.seed, number).bits());
+        const TrialShot shot = shoot_trial(scene, clutter.file, Rng(common.seed, number).bits());
         const Trial trial = search_trial(shot, *evaluation.method, evaluation.detector);
         keeper.keep(name, scene, shot, trial);
         result = trial.result;

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/json.h"
 #include "core/progress.h"
+#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/layer_light.h"
@@ -80,8 +81,8 @@ void verify_slab(const VerifyOptions& options, const CommonOptions& common) {
   if (light.absorptance) estimates.emplace_back("absorptance", *light.absorptance);
   print_results(common, "slab", ".txt", text_of(estimates, common.json));
   if (!light.reached)
-    fmt::print(stderr, "note: gave up after {} walks, before the standard errors were 0.2 % of the values\n",
-               light.walks);
+    say(fmt::format("note: gave up after {} walks, before the standard errors were 0.2 % of the values\n",
+                    light.walks));
 }
 
 void verify_fresnel(const VerifyOptions& options, const CommonOptions& common) {

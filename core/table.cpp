@@ -126,7 +126,11 @@ void Table::set(std::size_t row, std::string_view column, std::string value) {
 }
 
 void Table::fail(std::size_t row, std::string_view column, std::string_view what) const {
-  throw Error(file_, fmt::format("line {}, column '{}'", lines_.at(row), column), what);
+  throw Error(file_, place(row, column), what);
+}
+
+std::string Table::place(std::size_t row, std::string_view column) const {
+  return fmt::format("line {}, column '{}'", lines_.at(row), column);
 }
 
 std::string Table::csv() const {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/image_file.h"
+#include "core/input_policy.h"
+#include "core/lengths.h"
 #include "core/units.h"
 #include "sim/scene/library.h"
 
@@ -15,7 +17,7 @@ namespace {
 
 /// A grey PNG, a pixel for each position of the grid; relative to the file that names it.
 void read_pattern_image(const JsonReader& json, PatternModel& pattern) {
-  pattern.image_file = (std::filesystem::path(json.file()).parent_path() / json.text()).string();
+  pattern.image_file = path_named_in(json.file(), json.pointer(), json.text()).string();
   const Image<std::uint16_t> grey = read_png_grey(pattern.image_file);
   const std::uint16_t brightest = *std::max_element(grey.pixels().begin(), grey.pixels().end());
   if (brightest == 0) json.fail("is black all over; a pattern needs bright pixels");
@@ -80,8 +82,8 @@ Eigen::Vector2i size_from_json(const JsonReader& json) {
 
 /// Everything but the pose.
 void read_model(const JsonReader& json, SensorModel& sensor) {
-  sensor.baseline = json.metres_or("baseline_mm", sensor.baseline, kPositive);
-  sensor.wavelength_nm = json.number_or("wavelength_nm", sensor.wavelength_nm, kPositive);
+  sensor.baseline = json.metres_or("baseline_mm", sensor.baseline, kLengthMm);
+  sensor.wavelength_nm = json.number_or("wavelength_nm", sensor.wavelength_nm, {100.0, 1e5});
   if (json.has("ir_size_px")) {
     const Eigen::Vector2i size = size_from_json(json.at("ir_size_px"));
     sensor.ir_width = size.x(), sensor.ir_height = size.y();
@@ -97,11 +99,11 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
         fmt::format("ir_size_px must be twice depth_size_px in width and at least twice, by an even number, in height; "
                     "got {}×{} and {}×{}",
                     sensor.ir_width, sensor.ir_height, sensor.width, sensor.height));
-  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, kPositive);
-  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2();
-  sensor.reference = json.metres_or("reference_mm", sensor.reference, kPositive);
-  sensor.near = json.metres_or("near_mm", sensor.near, kPositive);
-  sensor.far = json.metres_or("far_mm", sensor.far, kPositive);
+  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, {1.0, 1e6});
+  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2({-1e6, 1e6});
+  sensor.reference = json.metres_or("reference_mm", sensor.reference, kLengthMm);
+  sensor.near = json.metres_or("near_mm", sensor.near, kLengthMm);
+  sensor.far = json.metres_or("far_mm", sensor.far, kLengthMm);
   if (sensor.far <= sensor.near) json.fail_at("far_mm", "must be above near_mm");
   sensor.radiant_dn_mm2 = json.number_or("radiant_dn_mm2", sensor.radiant_dn_mm2, kPositive);
   if (json.has("noise")) sensor.noise = noise_from_json(json.at("noise"));
@@ -116,13 +118,13 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
 }
 
 Pose pose_from_json(const JsonReader& json, double baseline) {
-  const double height = json.metres("height_mm", kPositive);
+  const double height = json.metres("height_mm", kLengthMm);
   const Eigen::Vector3d midpoint(0.0, 0.0, height);
   const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, {-180.0, 180.0}));
   if (json.has("aim_mm") == json.has("pitch_deg")) json.fail("needs either aim_mm or pitch_deg beside height_mm");
   if (json.has("pitch_deg"))
     return camera_pose(midpoint, radians_from_deg(json.number("pitch_deg", {-90.0, 90.0})), 0.0, roll, baseline);
-  const Eigen::Vector3d forward = json.at("aim_mm").vector3() * kMetresPerMm - midpoint;
+  const Eigen::Vector3d forward = json.at("aim_mm").vector3(kPlaceMm) * kMetresPerMm - midpoint;
   if (forward.norm() == 0.0) json.fail_at("aim_mm", "must not be the sensor's own place");
   const double horizontal = std::hypot(forward.x(), forward.y());
   const double yaw = horizontal > 0.0 ? std::atan2(-forward.x(), forward.y()) : 0.0;
