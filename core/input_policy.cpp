@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <system_error>
 
@@ -19,8 +20,11 @@ InputPolicy& in_force() {
 }
 
 std::string size_text(std::uint64_t bytes) {
-  const auto size = static_cast<double>(bytes);
-  return size < 1e9 ? fmt::format("{:.3g} MB", size / 1e6) : fmt::format("{:.3g} GB", size / 1e9);
+  constexpr std::array kUnits{"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
+  auto size = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1000.0;
+  return fmt::format("{:.3g} {}", size, kUnits[unit]);
 }
 
 /// Names come from files: what would break a line is not shown.
