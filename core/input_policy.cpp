@@ -77,7 +77,7 @@ fs::path path_named_in(const std::string& file, std::string_view where, const st
   if (fs::path(name).is_absolute()) refuse("is an absolute path");
   // Absolute first: of a path that does not exist weakly_canonical() leaves the beginning out.
   std::error_code problem;
-  const fs::path real_folder = fs::weakly_canonical(fs::absolute(folder), problem);
+  const fs::path real_folder = fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder), problem);
   const fs::path real_path = problem ? fs::path() : fs::weakly_canonical(fs::absolute(path), problem);
   if (problem) throw Error(file, where, fmt::format("names '{}': {}", shown(name), problem.message()));
   if (!is_below(real_path, real_folder)) refuse("lies outside the folder of the file that names it");

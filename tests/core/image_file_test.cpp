@@ -98,6 +98,7 @@ struct ExrBytes {
 TEST(Exr, AHeaderClaimsNoMoreThanTheLimitAndTheFileAllow) {
   const TemporaryFolder folder;
   const auto expect = [&](const ExrBytes& bytes, const std::string& message) {
+    SCOPED_TRACE(message);
     write_text(folder / "a.exr", bytes.text());
     expect_error([&] { read_exr(folder / "a.exr"); }, {"a.exr: ", message});
   };
@@ -112,7 +113,6 @@ TEST(Exr, AHeaderClaimsNoMoreThanTheLimitAndTheFileAllow) {
   expect({.channels = 0}, "no channels");
   for (const int flag : {0x200, 0x800, 0x1000}) expect({.version = 2 | flag}, "one part in scanlines is read");
   expect({.version = 3}, "another version");
-  expect({}, "cannot read as OpenEXR");  // whose 20 pixels are not there
 
   const std::string endless = joined({"comment", kZero, "string", kZero, raw(2'000'000'000)});
   expect({.more = endless}, "header: cannot read as OpenEXR: it is cut short");
