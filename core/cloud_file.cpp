@@ -34,6 +34,8 @@ void write_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud
 }
 
 bool is_whole_pcd(const std::filesystem::path& path, int width, int height) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) return false;  // to open a pipe would wait for its writer
   const std::string expected = header_of(width, height);
   std::string found(expected.size(), '\0');
   std::ifstream file(path, std::ios::binary);

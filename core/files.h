@@ -19,8 +19,7 @@ void remove_leftovers(const std::filesystem::path& folder);
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-/// The whole file; the one way by which input comes in. Throws Error, at once, when it is missing, no regular file (a
-/// folder, a pipe, a device), unreadable, or larger than the InputPolicy allows, even if it grows meanwhile.
+/// The whole file. Throws Error, at once, when it is missing, no regular file, unreadable or beyond the InputPolicy.
 std::string read_text(const std::filesystem::path& path);
 
 /// Creates the directory (and its parents). Throws Error when it cannot, or when a file stands in its place.

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/input_policy.h"
+#include "core/json_text.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -108,33 +108,6 @@ std::size_t JsonReader::choice(std::span<const std::string> choices, std::string
   const auto found = std::find(choices.begin(), choices.end(), name);
   if (found == choices.end()) fail(unknown_name(kind, name, choices));
   return static_cast<std::size_t>(found - choices.begin());
-}
-
-void require_modest_json(std::string_view text, const std::string& file, std::size_t bytes_per_value) {
-  constexpr int kDeepest = 100;
-  std::uint64_t values = 1;
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) switch (text[i]) {
-      case '"':  // to the end of the string
-        for (++i; i < text.size() && text[i] != '"'; ++i)
-          if (text[i] == '\\') ++i;
-        break;
-      case '[':
-      case '{':
-        if (++depth > kDeepest) throw Error(file, fmt::format("is nested more than {} deep", kDeepest));
-        [[fallthrough]];
-      case ',':
-      case ':':
-        ++values;
-        break;
-      case ']':
-      case '}':
-        --depth;
-        break;
-      default:
-        break;
-    }
-  require_within_limit(file, "", bytes_of({values, bytes_per_value}), "values");
 }
 
 Json read_json(const std::filesystem::path& path) {

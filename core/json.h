@@ -72,11 +72,6 @@ class JsonReader {
   std::string pointer_;
 };
 
-/// To be asked of JSON before any parser is given it. Throws Error when `text` is nested too deep for code that takes
-/// it apart by recursion, or when its values, of `bytes_per_value` at most, would take more memory than the
-/// InputPolicy allows. Whether it is JSON does not matter.
-void require_modest_json(std::string_view text, const std::string& file, std::size_t bytes_per_value);
-
 /// Parses the file; a syntax error names line and column. The value outlives the readers made from it.
 Json read_json(const std::filesystem::path& path);
 void write_json(const std::filesystem::path& path, const Json& value);

@@ -19,6 +19,7 @@
 #include "core/files.h"
 #include "core/input_policy.h"
 #include "core/json.h"
+#include "core/json_text.h"
 #include "core/lengths.h"
 #include "core/units.h"
 #include "sim/scene/mesh_memory.h"
