@@ -109,7 +109,10 @@ class Parser {
     const bool text = header_.encoding == PlyEncoding::text;  // whose last line needs no end
     need_body(file_, header_.body.size() + (text ? 1 : 0), needed);
     constexpr std::uint64_t kBytes = 4 * sizeof(float);  // of a point and its intensity
-    require_within_limit(file_, "header", bytes_of({vertex->count, kBytes}), "points");
+    std::uint64_t points = vertex->count;
+    for (const PlyElement& element : header_.elements)
+      if (element.name == "range_grid") points += element.count;
+    require_within_limit(file_, "header", bytes_of({points, kBytes}), "points");
   }
 
   const std::string& file_;

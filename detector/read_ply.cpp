@@ -11,6 +11,8 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "detector/cloud_text.h"
@@ -97,7 +99,7 @@ class TextNumbers {
   std::uint64_t values_ = 0;
 };
 
-/// Calls `visit(property's index, value)` for every property of one item that is no list.
+/// Calls `visit(property's index, value)` for every property of one item, of lists with their first value if any.
 template <class Numbers, class Visit>
 void read_item(const std::string& file, const PlyElement& element, Numbers& numbers, Visit visit) {
   numbers.begin_item();
@@ -111,62 +113,114 @@ void read_item(const std::string& file, const PlyElement& element, Numbers& numb
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     if (!(length >= 0.0 && length <= kMost))
       throw Error(file, fmt::format("has a list '{}' of {} values", printable(property.name), length));
-    numbers.skip_numbers(property.type, static_cast<std::uint64_t>(length));
+    if (length < 1.0) continue;
+    visit(i, numbers.number(property.type));
+    numbers.skip_numbers(property.type, static_cast<std::uint64_t>(length) - 1);
   }
 }
 
-std::optional<std::size_t> index_of(const PlyElement& element, std::string_view name) {
+/// Of the property of that name.
+std::optional<std::size_t> index_of(const PlyElement& element, std::string_view name, bool is_list) {
   for (std::size_t i = 0; i < element.properties.size(); ++i)
-    if (element.properties[i].name == name && !element.properties[i].length_type) return i;
+    if (element.properties[i].name == name && element.properties[i].length_type.has_value() == is_list) return i;
   return std::nullopt;
 }
 
 template <class Numbers>
-void read_vertices(const std::string& file, const PlyElement& element, Numbers& numbers, Cloud& cloud) {
-  const std::array<std::size_t, 3> xyz{*index_of(element, "x"), *index_of(element, "y"), *index_of(element, "z")};
-  const std::optional<std::size_t> intensity = index_of(element, "intensity");
-  cloud.points.reserve(element.count);
-  if (intensity) cloud.intensity.reserve(element.count);
-  for (std::uint64_t i = 0; i < element.count; ++i) {
-    Eigen::Vector3f& point = cloud.points.emplace_back();
-    read_item(file, element, numbers, [&](std::size_t property, double value) {
-      for (int axis = 0; axis < 3; ++axis)
-        if (property == xyz[static_cast<std::size_t>(axis)]) point[axis] = static_cast<float>(value);
-      if (intensity && property == *intensity) cloud.intensity.push_back(static_cast<float>(value));
-    });
-  }
-}
+class Body {
+ public:
+  Body(const std::string& file, const PlyHeader& header, Numbers numbers)
+      : file_(file), numbers_(std::move(numbers)), columns_(header.columns), rows_(header.rows) {}
 
-template <class Numbers>
-Cloud read_body(const std::string& file, const PlyHeader& header, Numbers numbers) {
-  Cloud cloud;
-  std::uint64_t columns = header.columns, rows = header.rows;
-  for (const PlyElement& element : header.elements) {
-    if (element.properties.empty()) continue;
-    if (element.name == "vertex") {
-      read_vertices(file, element, numbers, cloud);
-      continue;
+  Cloud read(const PlyHeader& header) {
+    for (const PlyElement& element : header.elements) {
+      if (element.properties.empty()) continue;
+      if (element.name == "vertex")
+        read_vertices(element);
+      else if (element.name == "range_grid")
+        read_grid(element);
+      else
+        read_other(element);
     }
-    const std::optional<std::size_t> across = index_of(element, "viewportx"), down = index_of(element, "viewporty");
+    if (grid_) lay_on_grid();
+    const bool organised = columns_ * rows_ == cloud_.points.size();
+    cloud_.width = static_cast<int>(organised ? columns_ : cloud_.points.size());
+    cloud_.height = static_cast<int>(organised ? rows_ : 1);
+    return std::move(cloud_);
+  }
+
+ private:
+  static constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+  void read_vertices(const PlyElement& element) {
+    const std::array xyz{index_of(element, "x", false), index_of(element, "y", false), index_of(element, "z", false)};
+    const std::optional<std::size_t> intensity = index_of(element, "intensity", false);
+    cloud_.points.reserve(element.count);
+    if (intensity) cloud_.intensity.reserve(element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      Eigen::Vector3f& point = cloud_.points.emplace_back();
+      read_item(file_, element, numbers_, [&](std::size_t property, double value) {
+        for (std::size_t axis = 0; axis < xyz.size(); ++axis)
+          if (property == xyz[axis]) point[static_cast<Eigen::Index>(axis)] = static_cast<float>(value);
+        if (property == intensity) cloud_.intensity.push_back(static_cast<float>(value));
+      });
+    }
+  }
+
+  /// An organised cloud of which only what was measured is written: of each place its vertex, or none.
+  void read_grid(const PlyElement& element) {
+    const std::optional<std::size_t> indices = index_of(element, "vertex_indices", true);
+    grid_.emplace();
+    grid_->reserve(element.count);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::optional<double>& vertex = grid_->emplace_back();
+      read_item(file_, element, numbers_, [&](std::size_t property, double value) {
+        if (property == indices) vertex = value;
+      });
+    }
+  }
+
+  void read_other(const PlyElement& element) {
+    const bool camera = element.name == "camera";
+    const auto across = index_of(element, "viewportx", false), down = index_of(element, "viewporty", false);
     for (std::uint64_t i = 0; i < element.count; ++i)
-      read_item(file, element, numbers, [&](std::size_t property, double value) {
-        const bool size = element.name == "camera" && value >= 0.0 && value <= 1e9;
-        if (size && property == across) columns = static_cast<std::uint64_t>(value);
-        if (size && property == down) rows = static_cast<std::uint64_t>(value);
+      read_item(file_, element, numbers_, [&](std::size_t property, double value) {
+        if (!camera || !(value >= 0.0 && value <= 1e9)) return;
+        if (property == across) columns_ = static_cast<std::uint64_t>(value);
+        if (property == down) rows_ = static_cast<std::uint64_t>(value);
       });
   }
-  const bool organised = columns * rows == cloud.points.size();
-  cloud.width = static_cast<int>(organised ? columns : cloud.points.size());
-  cloud.height = static_cast<int>(organised ? rows : 1);
-  return cloud;
-}
+
+  void lay_on_grid() {
+    const Cloud vertices = std::move(cloud_);
+    cloud_ = {};
+    cloud_.points.assign(grid_->size(), Eigen::Vector3f::Constant(kNaN));
+    if (!vertices.intensity.empty()) cloud_.intensity.assign(grid_->size(), kNaN);
+    for (std::size_t i = 0; i < grid_->size(); ++i) {
+      const std::optional<double>& vertex = (*grid_)[i];
+      if (!vertex) continue;
+      if (!(*vertex >= 0.0 && *vertex < static_cast<double>(vertices.points.size())))
+        throw Error(file_, fmt::format("has the vertex {} in its range_grid, but only {} vertices", *vertex,
+                                       vertices.points.size()));
+      const auto index = static_cast<std::size_t>(*vertex);
+      cloud_.points[i] = vertices.points[index];
+      if (!vertices.intensity.empty()) cloud_.intensity[i] = vertices.intensity[index];
+    }
+  }
+
+  const std::string& file_;
+  Numbers numbers_;
+  std::uint64_t columns_, rows_;
+  Cloud cloud_;
+  std::optional<std::vector<std::optional<double>>> grid_;
+};
 
 }  // namespace
 
 Cloud read_ply(const std::string& file, std::string_view content) {
   const PlyHeader header = read_ply_header(file, content);
-  return header.encoding == PlyEncoding::text ? read_body(file, header, TextNumbers(file, header))
-                                              : read_body(file, header, BinaryNumbers(file, header));
+  return header.encoding == PlyEncoding::text ? Body(file, header, TextNumbers(file, header)).read(header)
+                                              : Body(file, header, BinaryNumbers(file, header)).read(header);
 }
 
 }  // namespace fathom

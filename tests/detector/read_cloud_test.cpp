@@ -249,6 +249,21 @@ TEST_F(CloudFiles, PlySaysItsGridByACameraOrByItsInfo) {
       std::pair(2, 2));
 }
 
+TEST_F(CloudFiles, APlyGridHasPlacesWithoutAPoint) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nobj_info num_cols 3\nobj_info num_rows 1\nelement vertex 2\nproperty float x\nproperty "
+      "float y\nproperty float z\nelement range_grid 3\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n4 5 "
+      "6\n";
+  const Cloud cloud = read_cloud(written("a.ply", text + "1 1\n0\n1 0\n"));
+  EXPECT_EQ(cloud.width, 3);
+  EXPECT_EQ(cloud.points.at(0), Eigen::Vector3f(4.0f, 5.0f, 6.0f));
+  EXPECT_TRUE(cloud.points.at(1).array().isNaN().all());
+  EXPECT_EQ(cloud.points.at(2), Eigen::Vector3f(1.0f, 2.0f, 3.0f));
+  for (const char* vertex : {"2", "-1", "nan"})
+    EXPECT_EQ(error_of(text + fmt::format("1 {}\n0\n1 0\n", vertex)),
+              fmt::format("has the vertex {} in its range_grid, but only 2 vertices", vertex));
+}
+
 TEST_F(CloudFiles, PlyListsThatEndTooEarlyAreNamed) {
   const std::string lists =
       "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty list int uchar tags\n"
