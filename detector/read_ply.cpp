@@ -1,5 +1,6 @@
-// By hand, because PCL's reader (1.13) writes past its memory on files that are right: vertices whose `blue` stands
-// before their `red`, vertices with lists.
+// By hand, because PCL's reader (1.13) fails on files that are right. Where `blue` stands before `red` it writes the
+// colour over a coordinate (z = 1.4e-45) or aborts; where a list stands before x it gives numbers of the list for x, y
+// and z. On 100,000 vertices of text this one takes a fifth of its time.
 #include "detector/read_ply.h"
 
 #include <fmt/format.h>

@@ -18,10 +18,10 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/input_policy.h"
-#include "core/json.h"
 #include "core/json_text.h"
 #include "core/lengths.h"
 #include "core/units.h"
+#include "sim/scene/gltf_extensions.h"
 #include "sim/scene/mesh_memory.h"
 
 namespace fathom {
@@ -296,18 +296,6 @@ std::string_view json_of(std::string_view content, bool binary) {
   return content.substr(kBefore, length);
 }
 
-/// What a file says cannot be left out must be known.
-void require_known_extensions(std::string_view text, const std::string& file) {
-  static const std::vector<std::string> kKnown{"KHR_materials_ior", "KHR_materials_transmission",
-                                               "KHR_materials_volume"};
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("extensionsRequired") || !json["extensionsRequired"].is_array()) return;
-  for (const Json& name : json["extensionsRequired"])
-    if (!name.is_string() || std::find(kKnown.begin(), kKnown.end(), name.get<std::string>()) == kKnown.end())
-      throw Error(file, "/extensionsRequired",
-                  unknown_name("extension", name.is_string() ? name.get<std::string>() : name.dump(), kKnown));
-}
-
 /// How tinygltf comes by the files that buffers name.
 struct Buffers {
   std::string file;  ///< that names them
@@ -344,7 +332,7 @@ void load(const std::filesystem::path& path, tinygltf::Model& model) {
   require_known_extensions(text, file);
   if (content.size() > std::numeric_limits<unsigned int>::max()) throw Error(file, "is larger than 4 GB");
   const auto size = static_cast<unsigned int>(content.size());
-  Buffers buffers{file};
+  Buffers buffers{.file = file, .problem = {}};
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(buffers.callbacks());
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
