@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_text.h"
+#include "core/modest_json.h"
 #include "core/units.h"
 
 namespace fathom {

@@ -13,7 +13,7 @@
 
 #include "core/files.h"
 #include "core/json.h"
-#include "core/json_text.h"
+#include "core/modest_json.h"
 #include "core/table.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "core/json_text.h"
+#include "core/modest_json.h"
 
 #include <fmt/format.h>
 
