@@ -4,12 +4,31 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
+#include <string>
+
+#include "core/decimal.h"
 
 namespace fathom::blind {
 
+/// Whole numbers are refused that are none, which CLI11 takes for 0, or too large, which it cuts.
+inline void require_whole_numbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; }))
+    if (const std::string type = option->get_type_name(); type.starts_with("INT") || type.starts_with("UINT"))
+      option->transform(CLI::Validator(
+          [](std::string& text) {
+            if (!decimal<std::int64_t>(text) && !decimal<std::uint64_t>(text))
+              return fmt::format("must be a whole number, got '{}'", text);
+            return std::string();
+          },
+          ""));
+  for (CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) require_whole_numbers(*below);
+}
+
 /// The exit code: 2 for a command line that `app` does not take, 1 for a run that fails, with one line that says why.
 inline int run_program(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
+  require_whole_numbers(app);
   try {
     app.parse(argc, argv);
     run();
