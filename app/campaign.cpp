@@ -8,6 +8,7 @@
 #include "app/campaign_spec.h"
 #include "app/commands.h"
 #include "app/nominal_rig.h"
+#include "app/output_size.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
@@ -27,6 +28,7 @@ struct CampaignOptions {
   fs::path spec;
   fs::path truth, model;
   int spp = kDefaultSamplesPerPixel;
+  bool yes = false;
 };
 
 /// What randomness is for, so that no two uses share a stream.
@@ -228,6 +230,7 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   if (!options.model.empty())
     for (const Json& effect : identity["model_effects"] = effects_of_model(options.model)) effects.push_back(effect);
   for (const Json& error : rig_errors(spec, common.seed)) effects.push_back(error);
+  const std::string size = require_space(common, {spec.frames(), cloud_bytes(spec.rig.sensor)}, options.yes);
   const std::vector<Placement> placements = plan(spec, common.seed);
   const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
   with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
@@ -236,6 +239,7 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
     if (options.truth.has_parent_path()) make_directory(options.truth.parent_path());
     write_json(options.truth, truth_json(placements, effects));
   }
+  announce(common, size);
   claim_folder(common.output, identity);
   write_json(common.output / "rig.json", json_from_laboratory_rig(spec.nominal));
   Progress progress("placement", placements.size(), common.quiet);
@@ -264,6 +268,7 @@ std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
+  app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
   return [options, &common] {
     require_output(common);
     run_campaign(*options, common);
