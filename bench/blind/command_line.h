@@ -12,17 +12,22 @@
 
 namespace fathom::blind {
 
-/// Whole numbers are refused that are none, which CLI11 takes for 0, or too large, which it cuts.
+/// Puts a whole number as CLI11 reads it, or says what is wrong: CLI11 takes an empty text for 0, cuts numbers that are
+/// too large, and reads 010 as 8.
+inline std::string whole_number(std::string& text) {
+  if (const auto number = decimal<std::int64_t>(text))
+    text = fmt::to_string(*number);
+  else if (const auto large = decimal<std::uint64_t>(text))
+    text = fmt::to_string(*large);
+  else
+    return fmt::format("must be a whole number, got '{}'", text);
+  return {};
+}
+
 inline void require_whole_numbers(CLI::App& app) {
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; }))
     if (const std::string type = option->get_type_name(); type.starts_with("INT") || type.starts_with("UINT"))
-      option->transform(CLI::Validator(
-          [](std::string& text) {
-            if (!decimal<std::int64_t>(text) && !decimal<std::uint64_t>(text))
-              return fmt::format("must be a whole number, got '{}'", text);
-            return std::string();
-          },
-          ""));
+      option->transform(CLI::Validator(whole_number, ""));
   for (CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) require_whole_numbers(*below);
 }
 
