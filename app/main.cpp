@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/number_option.h"
 #include "core/error.h"
 #include "core/input_policy.h"
 #include "core/memory.h"
@@ -48,11 +49,7 @@ int bad_usage(const std::string& what) {
 
 void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
   app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR");
-  app.add_option("--seed", common.seed, "Seed of everything random")
-      ->check([](const std::string& text) {
-        return text.starts_with('-') ? std::string("must be at least 0") : std::string();
-      })
-      ->capture_default_str();
+  app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
   app.add_flag("--json", common.json, "Results as JSON on stdout");
@@ -80,6 +77,7 @@ int main(int argc, char** argv) {
     sub->callback([&run, body = command.define(*sub, common)] { run = body; });
     add_common_options(*sub, common);
   }
+  fathom::require_numbers(app);
 
   try {
     check_command(argc, argv);

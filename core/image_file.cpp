@@ -58,6 +58,22 @@ class BytesOfFile : public Imf::IStream {
   std::size_t at_ = 0;
 };
 
+/// The content, once its header was checked: OpenEXR trusts it.
+std::string read_checked_exr(const std::filesystem::path& path) {
+  std::string content = read_text(path);
+  check_exr_header(path.string(), content);
+  return content;
+}
+
+struct ExrFile {
+  explicit ExrFile(const std::filesystem::path& path)
+      : content(read_checked_exr(path)), bytes(path.string(), content), file(bytes) {}
+
+  std::string content;
+  BytesOfFile bytes;
+  Imf::InputFile file;
+};
+
 /// A PNG file and libpng's state of it. libpng leaves on errors by longjmp, so the functions that call setjmp hold no
 /// objects with destructors of their own, and its messages are kept here instead of going to stderr.
 class PngFile {
@@ -178,11 +194,29 @@ void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>&
   });
 }
 
+void check_exr(const std::filesystem::path& path, int width, int height) try {
+  ExrFile exr(path);
+  const Imath::Box2i window = exr.file.header().dataWindow();
+  const std::int64_t wide = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t high = std::int64_t{window.max.y} - window.min.y + 1;
+  if (wide != width || high != height)
+    throw Error(path.string(), fmt::format("is {} × {} pixels, expected {} × {}", wide, high, width, height));
+  std::vector<float> line(static_cast<std::size_t>(width));
+  Imf::FrameBuffer frame;
+  const auto channel = exr.file.header().channels().begin();  // a checked header has one
+  frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(line.data() - window.min.x),
+                                          sizeof(float), 0));  // the same line for every y
+  exr.file.setFrameBuffer(frame);
+  exr.file.readPixels(window.max.y);
+} catch (const Error&) {
+  throw;
+} catch (const std::exception& problem) {
+  throw Error(path.string(), std::string("cannot read as OpenEXR: ") + problem.what());
+}
+
 std::vector<ExrChannel> read_exr(const std::filesystem::path& path) try {
-  const std::string content = read_text(path);
-  check_exr_header(path.string(), content);
-  BytesOfFile bytes(path.string(), content);
-  Imf::InputFile file(bytes);
+  ExrFile exr(path);
+  Imf::InputFile& file = exr.file;
   const Imath::Box2i window = file.header().dataWindow();
   const int width = window.max.x - window.min.x + 1;
   const int height = window.max.y - window.min.y + 1;

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
+#include "core/decimal.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/input_policy.h"
@@ -102,11 +101,8 @@ double Table::number(std::size_t row, std::string_view column) const {
 std::optional<double> Table::number_if_any(std::size_t row, std::string_view column) const {
   const std::string& cell = text(row, column);
   if (cell.empty()) return std::nullopt;
-  double value = 0.0;
-  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  const auto [end, problem] = std::from_chars(begin, cell.data() + cell.size(), value);
-  if (problem != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    fail(row, column, fmt::format("must be a finite number, got '{}'", cell));
+  const std::optional<double> value = decimal<double>(cell);
+  if (!value) fail(row, column, fmt::format("must be a finite number, got '{}'", cell));
   return value;
 }
 
