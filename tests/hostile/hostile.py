@@ -26,8 +26,8 @@ def environment(program, folder):
     for name in ("home", "tmp"):
         (folder / name).mkdir(parents=True, exist_ok=True)
     libraries = Path(program).resolve().parent.parent / "lib" / "fathom"
-    keep = {name: value for name, value in os.environ.items() if name.endswith("SAN_OPTIONS") or name.startswith("LC_")}
-    return {**keep, "PATH": os.environ["PATH"], "HOME": str(folder / "home"), "TMPDIR": str(folder / "tmp"), "LD_LIBRARY_PATH": str(libraries)}
+    keep = {name: value for name, value in os.environ.items() if name.endswith("SAN_OPTIONS")}
+    return {**keep, "PATH": os.environ["PATH"], "HOME": str(folder / "home"), "TMPDIR": str(folder / "tmp"), "LC_ALL": "C.UTF-8", "LD_LIBRARY_PATH": str(libraries)}
 
 
 def try_one(program, seed, number, seeds, root, limits):
@@ -36,7 +36,7 @@ def try_one(program, seed, number, seeds, root, limits):
     here, out, cwd = root / "in", root / "out", root / "in"
     here.mkdir(parents=True)
     env = environment(program, root)
-    kind, arguments, shell = kinds.make(seed, number, seeds, here)
+    kind, arguments, shell, env["LC_ALL"] = kinds.make(seed, number, seeds, here)
     full = [program, *arguments, "-o", str(out), "--quiet", "--threads", "1"]
     before = judge.snapshot(root, {out})
     alive = (lambda: any((out / "clouds").glob("*.pcd"))) if arguments[0] == "campaign" else None
@@ -44,10 +44,10 @@ def try_one(program, seed, number, seeds, root, limits):
     wrong = judge.ending(run, limits)
     if not shell:
         wrong += judge.words(run) + judge.said(run)
-    wrong += judge.strays(before, judge.snapshot(root, {out}), root) + judge.leftovers(out, run) + judge.pwned(root, out, env)
+    wrong += judge.strays(before, judge.snapshot(root, {out}), root) + (judge.leftovers(out, run, arguments[0]) if not kind.startswith("resumed") else []) + judge.pwned(root, out, env)
     if run.code == 0 and out.is_dir():
         wrong += results.problems(out)
-    return kind, [*full[1:], *([shell] if shell else [])], run, wrong
+    return kind, [*full[1:], *([shell] if shell else []), *(["LC_ALL=C"] if env["LC_ALL"] == "C" else [])], run, wrong
 
 
 class Report:
@@ -61,11 +61,11 @@ class Report:
         with self.lock:
             self.done += 1
             self.codes["signal" if run.code is None else run.code] += 1
-            self.kinds[kind] += 1
+            self.kinds[kind.split(",")[0]] += 1
             self.slowest, self.largest = max(self.slowest, run.seconds), max(self.largest, run.peak)
             if wrong:
-                self.failed[kind] += 1
-                kept = self.options.keep / f"{self.options.seed}-{number}-{kind}"
+                self.failed[kind.split(",")[0]] += 1
+                kept = self.options.keep / f"{self.options.seed}-{number}-{kind.split(',')[0]}"
                 shutil.rmtree(kept, ignore_errors=True)
                 shutil.copytree(root, kept, symlinks=True, ignore=lambda folder, names: [n for n in names if is_pipe(Path(folder, n))])
                 lines = [f"FAILED: mutant {number} ({kind}): {'; '.join(wrong)[:600]}", f"  fathom {' '.join(arguments)}",
@@ -119,10 +119,13 @@ def main():
                     number = next(wanted, None)
                 if number is None:
                     return
-                kind, arguments, run, wrong = try_one(options.program, options.seed, number, seeds, root, limits)
+                try:
+                    kind, arguments, run, wrong = try_one(options.program, options.seed, number, seeds, root, limits)
+                except Exception as problem:  # of ours: no mutant may end the others
+                    kind, arguments, run, wrong = kinds.kind_of(options.seed, number).__name__, [], judge.Run(), [f"the test itself: {problem!r}"]
                 if options.number is not None:
                     print(f"fathom {' '.join(arguments)}\nexit {run.code} signal {run.signal} {run.stopped} {run.seconds:.2f} s {run.peak / 2**20:.0f} MB\n{run.err.decode('utf-8', 'replace')[:2000]}")
-                    shutil.copytree(root, options.keep / f"{options.seed}-{number}-{kind}", symlinks=True, dirs_exist_ok=True, ignore=lambda folder, names: [n for n in names if is_pipe(Path(folder, n))])
+                    shutil.copytree(root, options.keep / f"{options.seed}-{number}-{kind.split(',')[0]}", symlinks=True, dirs_exist_ok=True, ignore=lambda folder, names: [n for n in names if is_pipe(Path(folder, n))])
                 report.add(number, kind, arguments, run, wrong, root)
         workers = [threading.Thread(target=work, args=(scratch / f"worker{i}",)) for i in range(options.jobs)]
         for worker in workers:

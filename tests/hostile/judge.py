@@ -53,7 +53,7 @@ def run(arguments, cwd, env, limits, shell=None, alive=None):
             if not result.stopped:
                 if resident(process.pid) > limits.memory:
                     result.stopped = "memory"
-                elif now - begin > limits.seconds:
+                elif hangs(now - begin, cpu_s(process.pid), limits.seconds):
                     result.stopped = "time"
                 elif alive and now - looked > 4.0:
                     looked = now
@@ -84,12 +84,25 @@ def resident(pid):
         return 0
 
 
+def hangs(seconds, cpu, most):
+    """A run that works counts by its processor time: others may have the cores. One that waits for what never comes has none."""
+    return cpu > most or seconds > most and cpu < 0.03 * seconds or seconds > 10 * most
+
+
+def cpu_s(pid):
+    try:
+        words = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(words[11]) + int(words[12]) + int(words[13]) + int(words[14])) / os.sysconf("SC_CLK_TCK")
+    except (OSError, IndexError):
+        return 0.0
+
+
 def ending(result, limits):
     """What is wrong with how it ended."""
     if result.stopped == "at work":
         return []
     if result.stopped == "time":
-        return [f"hangs: is not done in {limits.seconds:g} s"]
+        return [f"hangs: is not done in {result.seconds:.0f} s"]
     found = []
     if result.peak > limits.memory:
         found.append(f"takes {result.peak / 2**30:.2f} GB" + (" and more" if result.stopped == "memory" else ""))
@@ -154,13 +167,16 @@ def strays(before, after, root):
             for path in sorted(set(before) | set(after)) if before.get(path) != after.get(path)]
 
 
-def leftovers(out, result):
+MARKERS = {"capture": "run.json", "campaign": "frames.csv", "diagnose": "report.json", "evaluate": "rates.txt", "measure": "heights.csv"}
+
+
+def leftovers(out, result, command):
     """Half files in the output, and a result that is called complete although it failed."""
     if result.stopped or result.signal is not None or not out.is_dir():
         return []
     found = [f"left {path.relative_to(out)}" for path in out.rglob("*") if results.is_leftover(path)]
-    if result.code != 0:
-        found += [f"failed, but wrote {name}" for name in ("run.json", "frames.csv", "report.json", "rates.txt", "heights.csv") if (out / name).exists()]
+    if result.code != 0 and command in MARKERS and (out / MARKERS[command]).exists():
+        found.append(f"failed, but wrote {MARKERS[command]}")
     return found
 
 

@@ -195,10 +195,12 @@ def resumed(rng, seeds, here):
     (here / "spec.json").write_text((seeds.clouds.parent / "spec.json").read_text())
     out = here.parent / "out"
     shutil.copytree(seeds.clouds, out)
-    name = rng.choice(["campaign.json", "campaign.json", "frames.csv", "rig.json", "clouds/000001.pcd"])
-    data = (out / name).read_bytes()
-    (out / name).write_bytes(mutate_bytes.mutate_bytes(rng, data) if name.endswith("pcd") or rng.random() < 0.5 else text_mutant(
-        rng, data.decode(), here, seeds.rig, mutate_text.mutate_csv if name.endswith("csv") else mutate_text.mutate_json))
+    path = rng.choice(sorted(p for p in out.rglob("*") if p.is_file() and p.stat().st_size > 0))
+    data = path.read_bytes()
+    if path.suffix not in (".json", ".csv") or rng.random() < 0.5:
+        path.write_bytes(mutate_bytes.mutate_bytes(rng, data))
+    else:
+        path.write_bytes(text_mutant(rng, data.decode(), here, seeds.rig, mutate_text.mutate_csv if path.suffix == ".csv" else mutate_text.mutate_json))
     return ["campaign", "spec.json"]
 
 
@@ -214,7 +216,7 @@ def kind_of(seed, number):
 
 
 def make(seed, number, seeds, here):
-    """Writes mutant `number` into the empty folder `here`: (kind's name, arguments, redirections)."""
+    """Writes mutant `number` into the empty folder `here`: (kind's name, arguments, redirections, locale)."""
     rng = random.Random(f"{seed}/{number}")
     extremes.special_files(here)
     outside = here.parent / "outside"
@@ -223,17 +225,17 @@ def make(seed, number, seeds, here):
     (outside / "secret.png").write_bytes(mutate_image.grey_png(64, 64))
     kind = kind_of(seed, number)
     arguments = kind(rng, seeds, here)
-    if rng.random() < 0.03:
-        replace_by_special(rng, here)
-    shell = rng.choice(STREAMS) if rng.random() < 0.04 else None
-    return kind.__name__, arguments, shell
+    special = replace_by_special(rng, here) if rng.random() < 0.03 else ""
+    shell = rng.choice(STREAMS) if rng.random() < 0.02 else None
+    locale = "C" if rng.random() < 0.1 else "C.UTF-8"
+    return kind.__name__ + special, arguments, shell, locale
 
 
 def replace_by_special(rng, here):
-    """One of the files is none: a pipe, a device, a folder, a link that leads nowhere or in a circle."""
+    """One of the files is none: a pipe, a device, a folder, a link that leads nowhere or in a circle. Returns which."""
     files = sorted(p for p in here.rglob("*") if p.is_file() and not p.is_symlink())
     if not files:
-        return
+        return ""
     path = rng.choice(files)
     path.unlink()
     what = rng.choice(["fifo", "zero", "folder", "loop", "dangling", "full", "empty"])
@@ -245,3 +247,4 @@ def replace_by_special(rng, here):
         path.write_bytes(b"")
     else:
         path.symlink_to({"zero": "/dev/zero", "loop": path.name, "dangling": "nowhere", "full": "/dev/full"}[what])
+    return f", {path.relative_to(here)} is {what}"

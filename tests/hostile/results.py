@@ -1,4 +1,5 @@
 """What every result must be, whatever the input was: whole, readable, finite."""
+import hashlib
 import json
 import math
 import re
@@ -9,13 +10,14 @@ from itertools import accumulate
 import mutate_image
 
 SOURCES = {"scene", "spec", "clutter", "config", "model", "earlier", "model_effects"}  # of run.json and the like: the user's own text
-NO_NUMBER = re.compile(r"(?<![\w.'\"-])[-+]?(nan|inf|infinity)(?![\w.'\"-])", re.IGNORECASE)
+# As programs print them; those of the mutants have capitals, and may come back as names.
+NO_NUMBER = re.compile(r"(?<![\w.'\"-])[-+]?(nan|inf|infinity)(?![\w.'\"-])")
 MOST_PIXEL_BYTES = 2_000_000  # beyond these the values of an image are not looked at, which takes long here
 
 
 def is_leftover(path):
-    """What a killed write leaves: .NAME.PID.part.EXT."""
-    return re.fullmatch(r"\..*\.\d+\.part(\.\w+)?", path.name) is not None
+    """What a killed write leaves: .NAME.PID.fathom.part.EXT."""
+    return re.fullmatch(r"\..*\.\d+(\.fathom)?\.part(\.[^.]*)?", path.name) is not None
 
 
 def problems(folder):
@@ -27,6 +29,8 @@ def problems(folder):
         try:
             check = CHECKS.get(path.suffix)
             wrong = check(path.read_bytes()) if check else None
+            if path.name == "manifest.jsonl":
+                wrong = check_manifest(path)
         except (ValueError, IndexError, KeyError, struct.error, zlib.error, RecursionError) as problem:
             wrong = f"is not whole: {type(problem).__name__}: {str(problem)[:100]}"
         if wrong:
@@ -88,7 +92,7 @@ def check_csv(data):
         return "is not whole"
     for line in data.decode("utf-8", "replace").splitlines():
         for cell in line.split(","):
-            if re.fullmatch(r"\s*[-+]?(nan|inf|infinity)\s*", cell, re.IGNORECASE):
+            if re.fullmatch(r"\s*[-+]?(nan|inf|infinity)\s*", cell):
                 return f"holds {cell}"
     return None
 
@@ -132,6 +136,16 @@ def unpacked(packed, size):
     result = bytearray(len(raw))
     result[0::2], result[1::2] = raw[:half], raw[half:]
     return bytes(result)
+
+
+def check_manifest(path):
+    """What it notes must stand there as noted; a last line that a kill cut short does not count."""
+    for line in path.read_bytes().split(b"\n")[1:-1]:
+        note = json.loads(line)
+        file = path.parent / note["file"]
+        if not file.is_file() or hashlib.sha256(file.read_bytes()).hexdigest() != note["sha256"]:
+            return f"notes {note['file']}, which is not as it says"
+    return None
 
 
 def check_png(data):

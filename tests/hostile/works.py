@@ -55,6 +55,9 @@ def content(path):
             return json.dumps(without_times(json.loads(path.read_bytes())))
         except ValueError:
             return path.read_bytes()
+    if path.name == "manifest.jsonl":  # results.check_manifest compares its hashes, of files that hold times as well
+        identity, *notes = path.read_text().splitlines()
+        return "\n".join([identity, *(json.loads(note)["file"] for note in notes)])
     if path.name == "rates.txt":
         return "".join(line + "\n" for line in path.read_text().splitlines() if not line.endswith(" s"))
     return path.read_bytes()
