@@ -10,6 +10,9 @@
 #include "app/nominal_rig.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/folder_owner.h"
+#include "core/input_record.h"
+#include "core/manifest.h"
 #include "core/progress.h"
 #include "core/rng.h"
 #include "core/rows.h"
@@ -126,8 +129,10 @@ Json rig_errors(const CampaignSpec& spec, std::uint64_t seed) {
   return errors;
 }
 
-fs::path cloud_file(const Placement& placement, int trial) {
-  return fs::path("clouds") / fmt::format("{:06}.pcd", placement.first_frame + trial);
+constexpr const char* kFramesFile = "frames.csv";
+
+std::string cloud_file(const Placement& placement, int trial) {
+  return fmt::format("clouds/{:06}.pcd", placement.first_frame + trial);
 }
 
 Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json& effects, const std::string& file) {
@@ -147,21 +152,22 @@ Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json&
   return setup;
 }
 
-/// Shoots the trials whose clouds are not there yet, or not whole: somebody may have copied the folder halfway.
+/// Shoots the trials whose clouds are not there yet, or not as they were written.
 int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& setup, const CampaignOptions& options,
-          const CommonOptions& common) {
+          const CommonOptions& common, Manifest& manifest) {
   std::vector<int> missing;
-  const SensorModel& sensor = spec.rig.sensor;
   for (int trial = 0; trial < placement.trials; ++trial)
-    if (!is_whole_pcd(common.output / cloud_file(placement, trial), sensor.width, sensor.height))
-      missing.push_back(trial);
+    if (!manifest.holds(cloud_file(placement, trial))) missing.push_back(trial);
   if (missing.empty()) return 0;
+  fs::remove(common.output / kFramesFile);  // while it is there the campaign counts as complete
   const std::uint64_t seed = placement.filling ? Rng(common.seed, Draw::camera, placement.number).bits()
                                                : Rng(common.seed, Draw::camera, placement.session, -1).bits();
   const Setup shot = with_effects(setup);
   Camera camera(shot, spec.mode, options.spp, seed, measured_light(shot));
-  for (const int trial : missing)
+  for (const int trial : missing) {
     write_pcd(common.output / cloud_file(placement, trial), camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
+    manifest.add(cloud_file(placement, trial));
+  }
   return static_cast<int>(missing.size());
 }
 
@@ -175,7 +181,7 @@ Table frames_table(const CampaignSpec& spec, const std::vector<Placement>& place
                  fmt::format("{:g}", p.time_s + trial * spec.frame_s), p.filling ? p.filling->liquid : "none",
                  fmt::format("{:g}", p.filling ? mm_from_metres(p.filling->fill) : 0.0),
                  fmt::format("{:g}", mm_from_metres(p.nominal_place.y())),
-                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(p, trial).string()});
+                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(p, trial)});
   return table;
 }
 
@@ -193,24 +199,12 @@ Json truth_json(const std::vector<Placement>& placements, const Json& effects) {
   return {{"effects", effects}, {"placements", list}};
 }
 
-/// campaign.json says what the folder belongs to; clouds of anything else are never mixed in.
-void check_folder(const fs::path& folder, const Json& identity) {
-  const fs::path file = folder / "campaign.json";
-  if (fs::exists(file)) {
-    if (read_json(file) != identity)
-      throw Error(file.string(), "is of another spec, seed or program version; choose another folder");
-    return;
-  }
+/// Clouds that nobody can say the origin of are never mixed in.
+void require_own_folder(const fs::path& folder, const Manifest& manifest) {
+  manifest.require_same_run();
+  if (manifest.exists()) return;
   for (const char* name : {"clouds", "frames.csv", "rig.json"})
     if (fs::exists(folder / name)) throw Error((folder / name).string(), "is there already; choose another folder");
-}
-
-/// campaign.json comes first, so that a run cut short at any later moment can go on.
-void claim_folder(const fs::path& folder, const Json& identity) {
-  make_directory(folder);
-  write_json(folder / "campaign.json", identity);
-  make_directory(folder / "clouds");
-  remove_leftovers(folder / "clouds");
 }
 
 void require_truth_outside(const fs::path& truth, const fs::path& folder) {
@@ -222,30 +216,38 @@ void require_truth_outside(const fs::path& truth, const fs::path& folder) {
 
 void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   if (!options.truth.empty()) require_truth_outside(options.truth, common.output);
+  const InputRecord inputs;
   const CampaignSpec spec = read_campaign_spec(options.spec);
-  Json identity = {{"fathom", FATHOM_VERSION}, {"seed", common.seed}, {"spp", options.spp}, {"spec", spec.source}};
   Json effects = spec.effects;
   if (!options.model.empty())
-    for (const Json& effect : identity["model_effects"] = effects_of_model(options.model)) effects.push_back(effect);
+    for (const Json& effect : effects_of_model(options.model)) effects.push_back(effect);
   for (const Json& error : rig_errors(spec, common.seed)) effects.push_back(error);
   const std::vector<Placement> placements = plan(spec, common.seed);
   const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
   with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
-  check_folder(common.output, identity);
+  with_effects(setup(placements.back()));   // and an effect of cups reads its files
+  const RunIdentity identity{"campaign", {{"seed", common.seed}, {"spp", options.spp}}, inputs.files()};
+
+  const FolderOwner owner(common.output);
+  Manifest manifest(common.output, identity);
+  require_own_folder(common.output, manifest);
   if (!options.truth.empty()) {
     if (options.truth.has_parent_path()) make_directory(options.truth.parent_path());
     write_json(options.truth, truth_json(placements, effects));
   }
-  claim_folder(common.output, identity);
+  manifest.begin();  // first, so that a run cut short at any later moment can go on
+  make_directory(common.output / "clouds");
+  remove_leftovers(common.output / "clouds");
   write_json(common.output / "rig.json", json_from_laboratory_rig(spec.nominal));
   Progress progress("placement", placements.size(), common.quiet);
   int shot = 0;
   for (const Placement& placement : placements) {
-    shot += shoot(spec, placement, setup(placement), options, common);
+    shot += shoot(spec, placement, setup(placement), options, common, manifest);
     progress.step();
   }
+  manifest.finish();
   const Table frames = frames_table(spec, placements);
-  write_table(common.output / "frames.csv", frames);  // last: its presence says that the campaign is complete
+  write_table(common.output / kFramesFile, frames);  // last: its presence says that the campaign is complete
   fmt::print("{}", format_rows({{"placements", static_cast<double>(placements.size()), ""},
                                 {"frames", static_cast<double>(frames.rows()), ""},
                                 {"frames_shot_now", static_cast<double>(shot), ""}},

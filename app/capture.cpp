@@ -10,6 +10,10 @@
 
 #include "app/commands.h"
 #include "core/files.h"
+#include "core/folder_owner.h"
+#include "core/image_file.h"
+#include "core/input_record.h"
+#include "core/manifest.h"
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rows.h"
@@ -22,8 +26,10 @@
 namespace fathom {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct CaptureOptions {
-  std::filesystem::path scene, model;
+  fs::path scene, model;
   std::string mode = "photometric", light = "direct";
   int spp = kDefaultSamplesPerPixel;
   int frames = 1;
@@ -53,29 +59,89 @@ std::vector<Row> summary(const Frame& frame, const Image<TruePixel>& truth) {
   return rows;
 }
 
+bool has_depth(const Image<float>& depth) {
+  return std::any_of(depth.pixels().begin(), depth.pixels().end(), [](float metres) { return metres > 0.0f; });
+}
+
+/// The folder of a capture, which goes on where an earlier run of the same capture stopped.
+class CaptureFolder {
+ public:
+  CaptureFolder(const fs::path& folder, const RunIdentity& identity, int frames, std::vector<std::string> names)
+      : folder_(folder), owner_(folder), manifest_(folder, identity), frames_(frames), names_(std::move(names)) {
+    if (manifest_.difference() || !manifest_.exists()) remove_capture(folder_);
+    fs::remove(folder_ / kRecord);
+    manifest_.begin();
+  }
+
+  fs::path frame(int number) const { return frame_folder(folder_, number, frames_); }
+
+  /// Whether all files of the frame stand there as they were written.
+  bool holds(int number) const {
+    return std::all_of(names_.begin(), names_.end(),
+                       [&](const std::string& name) { return manifest_.holds(noted(number, name)); });
+  }
+
+  void note(int number) {
+    for (const std::string& name : names_) manifest_.add(noted(number, name));
+  }
+
+  /// Last: the presence of run.json says that the capture is complete.
+  void finish(const Json& record) {
+    manifest_.add("truth.exr");
+    manifest_.finish();
+    write_json(folder_ / kRecord, record);
+  }
+
+ private:
+  static constexpr const char* kRecord = "run.json";
+
+  std::string noted(int number, const std::string& name) const {
+    return (frame(number) / name).lexically_relative(folder_).string();
+  }
+
+  fs::path folder_;
+  FolderOwner owner_;
+  Manifest manifest_;
+  int frames_;
+  std::vector<std::string> names_;
+};
+
 void run(const CaptureOptions& options, const CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
+  const InputRecord inputs;
   Setup setup = read_setup(options.scene);
   if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
   const LightModel light = options.light == "full" ? LightModel::full : LightModel::direct;
   Camera camera(setup, mode, options.spp, common.seed, light);
-  make_directory(common.output);
-  remove_capture(common.output);
+  CaptureFolder folder(common.output,
+                       {"capture",
+                        {{"seed", common.seed},
+                         {"mode", options.mode},
+                         {"light", options.light},
+                         {"spp", options.spp},
+                         {"frames", options.frames},
+                         {"device_outputs", options.device_outputs}},
+                        inputs.files()},
+                       options.frames, frame_files(mode == CaptureMode::photometric, options.device_outputs));
   write_truth(common.output, camera.truth());
   Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
   int without_depth = 0;
-  for (int i = 0; i < options.frames; ++i) {
-    const std::filesystem::path folder = frame_folder(common.output, i, options.frames);
-    make_directory(folder);
+  for (int i = 0; i < options.frames; ++i, progress.step()) {
+    const fs::path place = folder.frame(i);
+    if (i > 0 && folder.holds(i)) {  // the first is shot in any case: its summary is printed
+      without_depth += !has_depth(read_exr_channel(place / "depth.exr", "Z"));
+      continue;
+    }
+    make_directory(place);
+    remove_leftovers(place);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
-    write_frame(folder, frame, camera.truth(), setup.rig.sensor.noise.bits);
-    if (options.device_outputs) write_device_outputs(folder, setup.rig.sensor, frame);
-    const auto& depths = frame.depth.pixels();
-    without_depth += std::none_of(depths.begin(), depths.end(), [](float depth) { return depth > 0.0f; });
+    write_frame(place, frame, camera.truth(), setup.rig.sensor.noise.bits);
+    if (options.device_outputs) write_device_outputs(place, setup.rig.sensor, frame);
+    folder.note(i);
+    without_depth += !has_depth(frame.depth);
     if (i == 0) rows = summary(frame, camera.truth());
-    progress.step();
   }
   Json record = run_record(camera);
   record["fathom"] = FATHOM_VERSION;
@@ -86,7 +152,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["frames"] = options.frames;
   record["seed"] = common.seed;
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_json(common.output / "run.json", record);  // last: its presence says that the capture is complete
+  folder.finish(record);
   if (without_depth > 0)
     fmt::print(stderr,
                "warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",

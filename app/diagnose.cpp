@@ -14,6 +14,7 @@
 #include "app/next_campaign.h"
 #include "app/ray_traced_report.h"
 #include "core/files.h"
+#include "core/folder_owner.h"
 #include "core/rows.h"
 #include "diagnosis/measurement/joined.h"
 #include "diagnosis/predict/bookkeeping.h"
@@ -139,8 +140,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
   if (std::string note = on_missing_heights(measurement, physics.evidence.observations); !note.empty())
     measurement.notes.push_back(std::move(note));
-  make_directory(common.output);  // what cannot be written shows before the long work
-  remove_leftovers(common.output);
+  const FolderOwner owner(common.output);  // what cannot be written shows before the long work
   const std::vector<std::string> not_looked_for = leave_out(options.without, physics.evidence.candidates);
   DecisionSettings settings;
   settings.seed = common.seed;

@@ -18,6 +18,7 @@
 #include "app/results.h"
 #include "app/share_rows.h"
 #include "core/files.h"
+#include "core/input_record.h"
 #include "core/median.h"
 #include "core/rows.h"
 #include "core/units.h"
@@ -99,6 +100,7 @@ void keep_templates(const std::filesystem::path& folder, const ClutterEvaluation
 
 void run_experiment(const Experiment& experiment, const EvaluateOptions& options, const CommonOptions& common) {
   if (options.desk.given) throw UsageError("--height-mm and --pitch-deg stand in the clutter file of random desks");
+  const InputRecord inputs;
   const std::filesystem::path file =
       options.clutter.empty() ? data_directory() / "clutter" / experiment.clutter : options.clutter;
   ClutterEvaluation evaluation{.clutter = read_clutter_spec(file),
@@ -109,9 +111,15 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
                                .detector = detector_settings(options.config)};
   const bool own_templates = !evaluation.config.contains("templates");
   if (own_templates) evaluation.detector.templates = templates_of(evaluation.clutter);
-  if (!common.output.empty()) require_gnuplot();
-  const std::vector<TrialResult> trials = run_trials(evaluation, common);
+  std::optional<TrialFolder> folder;
   if (!common.output.empty()) {
+    require_gnuplot();
+    folder.emplace(
+        common.output,
+        RunIdentity{"evaluate " + options.what, {{"seed", common.seed}, {"method", options.method}}, inputs.files()});
+  }
+  const std::vector<TrialResult> trials = run_trials(evaluation, common, folder ? &*folder : nullptr);
+  if (folder) {
     write_table(common.output / "cups.csv", cups_table(trials));
     write_table(common.output / "fillings.csv", fillings_table(trials));
     write_reliability(common.output, trials);
@@ -128,8 +136,9 @@ void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
   DetectorSettings settings = detector_settings(options.config);
   settings.prior = options.desk.prior();
   const LabelledResult result = evaluate_folder(options.what, method, settings, common.quiet);
+  std::optional<FolderOwner> owner;
   if (!common.output.empty()) {
-    make_directory(common.output);
+    owner.emplace(common.output);
     write_table(common.output / "containers.csv", containers_table(result));
   }
   print_results(common, "evaluation", ".txt", format_rows(summary(result), common.json));

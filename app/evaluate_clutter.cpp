@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/failure_gallery.h"
 #include "app/liquid_rates.h"
 #include "app/share_rows.h"
-#include "app/trial_picture.h"
-#include "core/error.h"
-#include "core/files.h"
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rng.h"
@@ -18,56 +14,8 @@
 namespace fathom {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Cups of which less is in sight are not asked for.
 constexpr double kInSight = 0.3;
-
-/// The folder that keeps the trials; without one nothing is kept.
-class Keeper {
- public:
-  Keeper(const ClutterEvaluation& evaluation, const CommonOptions& common) : folder_(common.output) {
-    if (folder_.empty()) return;
-    const Json identity = {{"fathom", FATHOM_VERSION},
-                           {"seed", common.seed},
-                           {"method", evaluation.method->name},
-                           {"by_filling", evaluation.by_filling},
-                           {"clutter", evaluation.clutter.source},
-                           {"config", evaluation.config}};
-    const fs::path file = folder_ / "evaluation.json";
-    if (fs::exists(file) && read_json(file) != identity)
-      throw Error(file.string(),
-                  "is of another clutter, method, configuration, seed or program version; choose another folder");
-    if (!fs::exists(file) && fs::exists(folder_ / "trials"))
-      throw Error((folder_ / "trials").string(), "is there already; choose another folder");
-    make_directory(folder_);
-    write_json(file, identity);
-    for (const char* name : {"trials", "failures"}) {
-      make_directory(folder_ / name);
-      remove_leftovers(folder_ / name);
-    }
-  }
-
-  std::optional<TrialResult> kept(const std::string& name) const {
-    const fs::path file = folder_ / "trials" / (name + ".json");
-    if (folder_.empty() || !fs::exists(file)) return std::nullopt;
-    const Json json = read_json(file);
-    return trial_from_json(JsonReader(json, file.string()));
-  }
-
-  /// The trial's own file last: a trial with it is complete.
-  void keep(const std::string& name, const Json& scene, const TrialShot& shot, const Trial& trial) const {
-    if (folder_.empty()) return;
-    if (const std::string why = failure_of(trial.result); !why.empty()) {
-      write_json(folder_ / "failures" / fmt::format("{}_{}.json", name, why), scene);
-      write_png(folder_ / "failures" / fmt::format("{}_{}.png", name, why), trial_picture(shot, trial));
-    }
-    write_json(folder_ / "trials" / (name + ".json"), json_of(trial.result));
-  }
-
- private:
-  fs::path folder_;
-};
 
 std::string trial_name(std::size_t number) { return fmt::format("{:06}", number); }
 
@@ -88,8 +36,8 @@ std::string number_text(const std::optional<double>& value) { return value ? fmt
 
 }  // namespace
 
-std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common) {
-  const Keeper keeper(evaluation, common);
+std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common,
+                                    TrialFolder* folder) {
   const std::size_t conditions = evaluation.by_filling ? evaluation.clutter.fillings.size() : 1;
   std::vector<TrialResult> results;
   Progress progress("trial", conditions * evaluation.trials, common.quiet);
@@ -101,18 +49,19 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
       constexpr std::size_t kMostTrials = 100000;
       const std::size_t number = condition * kMostTrials + i;
       const std::string name = trial_name(number);
-      std::optional<TrialResult> result = keeper.kept(name);
+      std::optional<TrialResult> result = folder ? folder->kept(name) : std::nullopt;
       if (!result) {
         const Json scene = random_scene(clutter, common.seed, number);
         const TrialShot shot = shoot_trial(scene, Rng(common.seed, number).bits());
         const Trial trial = search_trial(shot, *evaluation.method, evaluation.detector);
-        keeper.keep(name, scene, shot, trial);
+        if (folder) folder->keep(name, scene, shot, trial);
         result = trial.result;
       }
       results.push_back(*std::move(result));
       progress.step();
     }
   }
+  if (folder) folder->finish();
   return results;
 }
 

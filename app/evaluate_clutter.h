@@ -5,6 +5,7 @@
 
 #include "app/clutter_trial.h"
 #include "app/command.h"
+#include "app/trial_folder.h"
 #include "core/rows.h"
 #include "core/table.h"
 #include "sim/scene/clutter.h"
@@ -20,9 +21,9 @@ struct ClutterEvaluation {
   DetectorSettings detector;
 };
 
-/// The trials in their order. With -o DIR each is kept there in trials/, so that a run cut short goes on; a folder that
-/// belongs to another evaluation is refused. What failed has its scene and its picture in failures/.
-std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common);
+/// The trials in their order; with a `folder` each is kept there, and those that it holds already are not shot again.
+std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common,
+                                    TrialFolder* folder);
 
 /// Recognition, and where cups are filled sensitivity and specificity, with their intervals; misses by kind.
 std::vector<Row> rates(const ClutterEvaluation& evaluation, const std::vector<TrialResult>& trials);

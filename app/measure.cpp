@@ -11,7 +11,7 @@
 #include "app/commands.h"
 #include "app/cup_height.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/folder_owner.h"
 #include "core/progress.h"
 #include "core/rows.h"
 #include "core/table.h"
@@ -69,7 +69,7 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
     frames.set(row, "points", fmt::format("{}", height.points));
   }
   const std::filesystem::path output = common.output.empty() ? folder : common.output;
-  make_directory(output);
+  const FolderOwner owner(output);
   write_table(output / "heights.csv", frames);
   for (const auto& [reason, numbers] : frames_without) warn(reason, numbers);
   fmt::print("{}", format_rows({{"clouds_with_cup", static_cast<double>(clouds), ""},

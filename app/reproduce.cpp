@@ -12,7 +12,7 @@
 
 #include "app/commands.h"
 #include "app/gnuplot.h"
-#include "core/files.h"
+#include "core/folder_owner.h"
 #include "core/json.h"
 
 namespace fathom {
@@ -77,7 +77,7 @@ Json json_of(const Figure& figure) {
 
 void run_reproduce(const ReproduceOptions& options, const CommonOptions& common) {
   require_gnuplot();
-  make_directory(common.output);
+  const FolderOwner owner(common.output);
   Reproduction reproduction(
       {.folder = common.output, .trials = options.trials, .seed = common.seed, .quiet = common.quiet});
   const auto asked = [&](const std::string& name) {

@@ -8,7 +8,7 @@
 #include "app/detector_options.h"
 #include "app/number_option.h"
 #include "core/error.h"
-#include "core/files.h"
+#include "core/folder_owner.h"
 #include "core/json.h"
 #include "core/rows.h"
 #include "core/units.h"
@@ -47,7 +47,7 @@ void run_template(const TemplateOptions& options, const CommonOptions& common) {
   if (options.liquid_threshold_mm) threshold_m = metres_from_mm(*options.liquid_threshold_mm);
   const CupTemplate cup = template_of_only_cup(options.name, read_cloud(options.cloud), options.desk.prior(),
                                                threshold_m, options.cloud.string());
-  make_directory(common.output);
+  const FolderOwner owner(common.output);
   save_template(common.output, cup);
   fmt::print("{}", format_rows({{"radius", mm_from_metres(cup.radius_m), "mm"},
                                 {"height", mm_from_metres(cup.height_m), "mm"},

@@ -33,14 +33,4 @@ void write_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud
   write_atomically(path, [&](const std::filesystem::path& beside) { put_pcd(beside, cloud); });
 }
 
-bool is_whole_pcd(const std::filesystem::path& path, int width, int height) {
-  const std::string expected = header_of(width, height);
-  std::string found(expected.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(found.data(), static_cast<std::streamsize>(found.size()));
-  return file && found == expected &&
-         std::filesystem::file_size(path) ==
-             expected.size() + sizeof(CloudPoint) * static_cast<std::size_t>(width) * height;
-}
-
 }  // namespace fathom

@@ -18,7 +18,4 @@ void write_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud
 /// The same without that promise, and so without waiting for the disk: for folders that appear whole.
 void put_pcd(const std::filesystem::path& path, const Image<CloudPoint>& cloud);
 
-/// Whether a whole file stands there that write_pcd made of a cloud of this size.
-bool is_whole_pcd(const std::filesystem::path& path, int width, int height);
-
 }  // namespace fathom

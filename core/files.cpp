@@ -2,16 +2,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <vector>
 
 #include "core/error.h"
+#include "core/input_record.h"
 
 namespace fathom {
 namespace fs = std::filesystem;
@@ -26,16 +29,29 @@ void flush_to_disk(const fs::path& path) {
   if (!flushed) throw Error(path.string(), "cannot be flushed to disk");
 }
 
+/// ".NAME.PID.fathom.part.EXTENSION": the extension stays last, because some writers choose their format by it.
+std::string name_beside(const fs::path& path) {
+  return fmt::format(".{}.{}.fathom.part{}", path.stem().string(), ::getpid(), path.extension().string());
+}
+
+/// Whether the file was being written by a process of this program that is no more. One of this process' own number was
+/// left by another that had it before.
+bool is_leftover(const fs::path& path) {
+  static const std::regex pattern(R"(\..*\.(\d{1,9})\.fathom\.part(\.[^.]*)?)");
+  std::smatch parts;
+  const std::string name = path.filename().string();
+  if (!std::regex_match(name, parts, pattern)) return false;
+  const pid_t writer = std::stoi(parts[1]);
+  return writer == ::getpid() || (::kill(writer, 0) != 0 && errno == ESRCH);
+}
+
 }  // namespace
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) throw Error(path.string(), "cannot be written: its folder does not exist");
   if (fs::is_directory(path)) throw Error(path.string(), "cannot be written: a folder of that name exists");
-  // The extension stays last: some writers choose their format by it. What a killed run left is overwritten by the
-  // next.
-  fs::path beside = folder / fmt::format(".{}.{}.part", path.stem().string(), ::getpid());
-  beside += path.extension();
+  const fs::path beside = folder / name_beside(path);
   try {
     write(beside);
     flush_to_disk(beside);
@@ -52,12 +68,11 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 }
 
 void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;  // what cannot be removed does no harm
   std::vector<fs::path> leftovers;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string stem = entry.path().stem().string();
-    if (stem.starts_with('.') && stem.ends_with(".part")) leftovers.push_back(entry.path());
-  }
-  for (const fs::path& leftover : leftovers) fs::remove(leftover);
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (is_leftover(entry.path())) leftovers.push_back(entry.path());
+  for (const fs::path& leftover : leftovers) fs::remove(leftover, ignored);
 }
 
 void write_text(const fs::path& path, std::string_view text) {
@@ -77,7 +92,9 @@ std::string read_text(const fs::path& path) {
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) throw Error(path.string(), "cannot be read");
-  return text.str();
+  std::string content = std::move(text).str();
+  record_input(path, content);
+  return content;
 }
 
 void make_directory(const fs::path& path) {

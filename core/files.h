@@ -14,7 +14,8 @@ namespace fathom {
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& beside)>& write);
 
-/// Removes the temporary files that a killed write_atomically() left in a folder.
+/// Removes the temporary files of write_atomically() whose process is gone from a folder, and no others. For the
+/// folder's owner (core/folder_owner.h).
 void remove_leftovers(const std::filesystem::path& folder);
 
 void write_text(const std::filesystem::path& path, std::string_view text);

@@ -5,9 +5,9 @@
 
 #include <ctime>
 
-#include "bench/blind/sha256.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hash.h"
 #include "core/table.h"
 
 namespace fathom::blind {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "bench/blind/ledger.h"
-#include "bench/blind/sha256.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hash.h"
 #include "core/json.h"
 #include "core/parallel.h"
 

@@ -9,8 +9,8 @@
 #include "bench/blind/ledger.h"
 #include "bench/blind/pack.h"
 #include "bench/blind/settle.h"
-#include "bench/blind/sha256.h"
 #include "core/files.h"
+#include "core/hash.h"
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "core/units.h"
 #include "sim/scene/clutter.h"
 #include "sim/scene/cup.h"
+#include "sim/scene/medium_json.h"
 #include "sim/scene/object.h"
 #include "sim/scene/setup.h"
 
@@ -41,6 +42,7 @@ std::vector<ClutterThing> kinds_from_json(const JsonReader& json, std::vector<Gl
 Json filling_from_json(const JsonReader& json) {
   json.allow_only({"liquid", "fill_mm"});
   if (json.has("liquid") != json.has("fill_mm")) json.fail("must have both liquid and fill_mm, or neither");
+  if (json.has("liquid")) medium_from_json(json.at("liquid"));  // a mistake shows before the first desk
   return json.value();
 }
 

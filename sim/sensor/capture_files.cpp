@@ -36,17 +36,31 @@ ExrChannel channel(const char* name, const Image<TruePixel>& truth, Value value)
   return result;
 }
 
+/// frame_0000, frame_0001 …
+bool is_frame_folder(const std::string& name) {
+  const std::string prefix = "frame_";
+  return name.starts_with(prefix) && name.size() >= prefix.size() + 4 &&
+         name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+}
+
 }  // namespace
 
+std::vector<std::string> frame_files(bool infrared, bool device_outputs) {
+  std::vector<std::string> names{"disparity.exr", "depth.exr", "depth.png", "cloud.pcd", "preview.png"};
+  if (infrared) names.insert(names.begin(), {"ir.exr", "ir.png"});
+  if (device_outputs) names.insert(names.end(), {"depth_100um.png", "shift.png", "depth_registered.png"});
+  return names;
+}
+
 void remove_capture(const std::filesystem::path& folder) {
-  remove_leftovers(folder);
-  for (const char* name : {"run.json", "ir.exr", "ir.png", "disparity.exr", "depth.exr", "depth.png", "cloud.pcd",
-                           "preview.png", "truth.exr", "depth_100um.png", "shift.png", "depth_registered.png"})
-    std::filesystem::remove(folder / name);
+  for (const char* name : {"run.json", "manifest.jsonl", "truth.exr"}) std::filesystem::remove(folder / name);
+  for (const std::string& name : frame_files(true, true)) std::filesystem::remove(folder / name);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_directory() && entry.path().filename().string().starts_with("frame_")) frames.push_back(entry.path());
+    if (entry.is_directory() && !entry.is_symlink() && is_frame_folder(entry.path().filename().string()))
+      frames.push_back(entry.path());
   for (const std::filesystem::path& frame : frames) {
+    remove_leftovers(frame);
     remove_capture(frame);
     std::error_code not_empty;  // somebody else's files stay
     std::filesystem::remove(frame, not_empty);

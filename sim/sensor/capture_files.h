@@ -11,7 +11,11 @@ namespace fathom {
 /// Of one capture.
 inline constexpr int kMostFrames = 100000;
 
+/// Names of a frame's files, in the order in which they are written.
+std::vector<std::string> frame_files(bool infrared, bool device_outputs);
+
 /// Removes what an earlier capture left in the folder, run.json first: while it is there the folder counts as complete.
+/// For the folder's owner.
 void remove_capture(const std::filesystem::path& folder);
 
 /// Where the frame of that number lies: in the folder itself when it is the only one, else in frame_0000 …

@@ -1,6 +1,8 @@
 // What `fathom campaign` promises: a measurement directory, the same for the same spec and seed, that can be resumed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/files.h"
@@ -125,7 +127,9 @@ TEST_F(CampaignCommand, ACloudThatIsNotWholeIsShotAgain) {
   ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
   const fs::path file = folder / "out" / "clouds/000003.pcd";
   const std::string cloud = read_text(file);
-  for (const std::string& damaged : {cloud.substr(0, cloud.size() / 2), cloud + "more", std::string()}) {
+  std::string overwritten = cloud;
+  overwritten.back() ^= 1;  // of the same size, by another program
+  for (const std::string& damaged : {cloud.substr(0, cloud.size() / 2), cloud + "more", std::string(), overwritten}) {
     write_text(file, damaged);
     EXPECT_EQ(Json::parse(campaign(kSpec, "out", "--json").out)["frames_shot_now"]["value"], 1.0);
     EXPECT_EQ(read_text(file), cloud);
@@ -139,9 +143,64 @@ TEST_F(CampaignCommand, AFolderHoldsOneCampaign) {
   const ProgramRun run = campaign(other, "out", "--truth " + (folder / "truth.json").string());
   EXPECT_FALSE(fs::exists(folder / "truth.json"));
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_EQ(run.err, "error: " + (folder / "out" / "campaign.json").string() +
-                         ": is of another spec, seed or program version; choose another folder\n");
+  EXPECT_EQ(run.err, "error: " + (folder / "out" / "manifest.jsonl").string() + ": is of another run: " +
+                         (folder / "spec.json").string() + " has changed; choose another folder\n");
   EXPECT_FALSE(fs::exists(folder / "out" / "clouds/000008.pcd"));
+}
+
+TEST_F(CampaignCommand, CloudsOfAnotherCupAreNeverMixedIn) {
+  // A library of one's own, in which the cup changes between two runs, as between two versions of the program.
+  const fs::path library = folder / "scenes";
+  fs::copy(data_directory(), library, fs::copy_options::recursive);
+  const auto run = [&](const std::string& options) {
+    write_json(folder / "spec.json", kSpec);
+    return run_fathom(
+        fmt::format("campaign {} -o {} {}", (folder / "spec.json").string(), (folder / "out").string(), options),
+        "FATHOM_DATA=" + library.string());
+  };
+  ASSERT_EQ(run("").exit_code, 0);
+  fs::remove(folder / "out" / "clouds/000003.pcd");
+  for (const char* file : {"cups/paper_cup.json", "media/water.json", "sensors/xtion_pro_live.json"}) {
+    const std::string text = read_text(library / file);
+    write_text(library / file, text + "\n");
+    const ProgramRun again = run("");
+    EXPECT_EQ(again.exit_code, 1) << file;
+    EXPECT_EQ(again.err, fmt::format("error: {}: is of another run: {} has changed; choose another folder\n",
+                                     (folder / "out/manifest.jsonl").string(), (library / file).string()));
+    EXPECT_FALSE(fs::exists(folder / "out" / "clouds/000003.pcd"));
+    write_text(library / file, text);
+  }
+  EXPECT_NE(run("--seed 2").err.find("seed was 1, is 2"), std::string::npos);
+  EXPECT_EQ(run("").exit_code, 0);
+}
+
+TEST_F(CampaignCommand, TheFolderNamesNothingThatIsHidden) {
+  Json spec = kSpec;
+  spec.update({{"distance_mm", {300}}, {"trials", 1}});
+  spec["effects"] = {{{"name", "wrong_cup"}, {"scale", 0.9}}, {{"name", "cup_bottom_height"}, {"height_mm", 5.4321}}};
+  ASSERT_EQ(campaign(spec, "out", "--truth " + (folder / "truth.json").string()).exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "out")) {
+    if (!entry.is_regular_file()) continue;
+    const std::string text = read_text(entry.path());
+    for (const char* hidden : {"wrong_cup", "cup_bottom_height", "5.4321"})
+      EXPECT_EQ(text.find(hidden), std::string::npos) << entry.path() << " names " << hidden;
+  }
+}
+
+TEST_F(CampaignCommand, TwoRunsInOneFolderHaveOneOwner) {
+  write_json(folder / "spec.json", kSpec);
+  const std::string command =
+      fmt::format("campaign {} -o {} --quiet", (folder / "spec.json").string(), (folder / "out").string());
+  const std::vector<ProgramRun> runs = run_fathom_at_once(command, 3);
+  int owners = 0;
+  for (const ProgramRun& run : runs) {
+    owners += run.exit_code == 0;
+    if (run.exit_code == 0) continue;
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.err.find("is being written by "), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  EXPECT_EQ(owners, 1);
 }
 
 TEST_F(CampaignCommand, SessionsBeginWithTheBareDeskAndTheirTimeAtZero) {

@@ -129,6 +129,47 @@ TEST_F(CaptureCommand, IsRefusedWhenReadBackIncomplete) {
   expect_error([&] { read_capture(out); }, {"out: holds no complete capture: there is no run.json"});
 }
 
+TEST_F(CaptureCommand, GoesOnAfterAKillWithTheSameBytes) {
+  const std::string options = "--mode geometric --frames 4";
+  const std::filesystem::path whole = capture("whole", options), out = capture("out", options);
+  const auto written = [&](const char* file) { return std::filesystem::last_write_time(out / file); };
+  const auto kept = written("frame_0001/cloud.pcd"), damaged = written("frame_0002/depth.exr");
+  std::filesystem::remove(out / "run.json");  // as a kill leaves it: one frame damaged, one half there
+  std::string text = read_text(out / "frame_0002/depth.exr");
+  text.back() ^= 1;
+  write_text(out / "frame_0002/depth.exr", text);
+  std::filesystem::remove(out / "frame_0003/cloud.pcd");
+  capture("out", options);
+  EXPECT_EQ(written("frame_0001/cloud.pcd"), kept);
+  EXPECT_NE(written("frame_0002/depth.exr"), damaged);
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(whole)) {
+    if (!entry.is_regular_file() || entry.path().filename() == "run.json") continue;  // which has times
+    const std::filesystem::path name = entry.path().lexically_relative(whole);
+    EXPECT_EQ(read_text(out / name), read_text(entry.path())) << name;
+  }
+}
+
+TEST_F(CaptureCommand, NothingOfAnotherCaptureStays) {
+  capture("out", "--mode geometric --frames 3");
+  write_text(folder_ / "out/notes.txt", "mine");
+  write_text(folder_ / "out/frame_0002/notes.txt", "mine");
+  const std::filesystem::path out = capture("out", "--mode geometric --seed 2 --frames 2");
+  EXPECT_FALSE(std::filesystem::exists(out / "frame_0002/cloud.pcd"));
+  EXPECT_EQ(read_text(out / "notes.txt"), "mine");  // somebody else's files do
+  EXPECT_EQ(read_text(out / "frame_0002/notes.txt"), "mine");
+}
+
+TEST_F(CaptureCommand, TwoRunsInOneFolderHaveOneOwner) {
+  int owners = 0;
+  for (const ProgramRun& run : run_fathom_at_once(
+           fmt::format("capture {} -o {} --mode geometric --frames 3", scene_.string(), (folder_ / "out").string()),
+           3)) {
+    owners += run.exit_code == 0;
+    EXPECT_EQ(run.exit_code != 0, run.err.find("is being written by process ") != std::string::npos) << run.err;
+  }
+  EXPECT_EQ(owners, 1);
+}
+
 TEST_F(CaptureCommand, GeometricModeMakesNoImages) {
   const std::filesystem::path out = capture("out", "--mode geometric");
   EXPECT_FALSE(std::filesystem::exists(out / "ir.exr"));

@@ -86,7 +86,7 @@ TEST_F(EvaluateClutter, RefusesAFolderOfAnotherEvaluation) {
   ASSERT_EQ(evaluate("recognition", lone_cup(), "--trials 1 " + output("out")).exit_code, 0);
   const ProgramRun run = evaluate("recognition", lone_cup(), "--trials 1 --seed 2 " + output("out"));
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("evaluation.json: is of another clutter, method, configuration, seed or program version"),
+  EXPECT_NE(run.err.find("manifest.jsonl: is of another run: seed was 1, is 2; choose another folder"),
             std::string::npos)
       << run.err;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -11,7 +12,10 @@ struct ProgramRun {
   std::string err;
 };
 
-/// `arguments` as typed in a shell.
-ProgramRun run_fathom(const std::string& arguments);
+/// `arguments` as typed in a shell, and `environment` before the program's name: "NAME=value …".
+ProgramRun run_fathom(const std::string& arguments, const std::string& environment = "");
+
+/// The same several times at the same moment.
+std::vector<ProgramRun> run_fathom_at_once(const std::string& arguments, int times);
 
 }  // namespace fathom

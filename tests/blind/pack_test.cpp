@@ -7,11 +7,11 @@
 
 #include "bench/blind/ledger.h"
 #include "bench/blind/pack.h"
-#include "bench/blind/sha256.h"
 #include "bench/blind/strength.h"
 #include "bench/blind/write_set.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/hash.h"
 #include "core/table.h"
 #include "tests/app/run_fathom.h"
 

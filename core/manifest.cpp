@@ -1,0 +1,111 @@
+#include "core/manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string& program() {
+  static const std::string hash = sha256_of_file("/proc/self/exe");
+  return hash;
+}
+
+Json json_of(const RunIdentity& identity) {
+  std::set<std::string> inputs;  // in an order that does not hang on where they lie
+  for (const auto& [path, hash] : identity.inputs) inputs.insert(hash);
+  return {{"command", identity.command}, {"program", program()}, {"options", identity.options}, {"inputs", inputs}};
+}
+
+std::string text_of(const Json& options, const std::string& key) {
+  return options.contains(key) ? options[key].dump() : "not given";
+}
+
+/// `was` is an identity that may be anything.
+std::optional<std::string> difference_between(const Json& was, const Json& is, const RunIdentity& identity) {
+  if (was == is) return std::nullopt;
+  if (!was.is_object() || was.value("command", Json()) != is["command"]) return "it was made by another command";
+  if (was.value("program", Json()) != is["program"]) return "the program is another build";
+  const Json options = was.value("options", Json::object());
+  for (const auto& [key, value] : is["options"].items())
+    if (!options.is_object() || options.value(key, Json()) != value)
+      return fmt::format("{} was {}, is {}", key, text_of(options, key), value.dump());
+  const Json inputs = was.value("inputs", Json::array());
+  std::vector<std::string> changed;
+  for (const auto& [path, hash] : identity.inputs)
+    if (std::find(inputs.begin(), inputs.end(), Json(hash)) == inputs.end()) changed.push_back(path);
+  if (!changed.empty())
+    return fmt::format("{} {} changed", fmt::join(changed, ", "), changed.size() > 1 ? "have" : "has");
+  return "it had other options or files";
+}
+
+/// A file's line, or nothing for a line that is cut short or damaged.
+std::optional<std::pair<std::string, Json>> file_in(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return std::nullopt;
+  return std::pair(json["file"].get<std::string>(), json);
+}
+
+}  // namespace
+
+Manifest::Manifest(fs::path folder, const RunIdentity& identity)
+    : folder_(std::move(folder)), path_(folder_ / "manifest.jsonl"), identity_(json_of(identity)) {
+  exists_ = fs::exists(path_);
+  if (!exists_) return;
+  std::istringstream lines(read_text(path_));
+  std::string line;
+  std::getline(lines, line);
+  difference_ = difference_between(Json::parse(line, nullptr, false), identity_, identity);
+  if (difference_) return;
+  while (std::getline(lines, line))
+    if (auto file = file_in(line)) files_.insert_or_assign(std::move(file->first), std::move(file->second));
+}
+
+void Manifest::require_same_run() const {
+  if (difference_)
+    throw Error(path_.string(), fmt::format("is of another run: {}; choose another folder", *difference_));
+}
+
+void Manifest::begin() {
+  finish();
+  exists_ = true;
+  difference_.reset();
+  appended_.open(path_, std::ios::binary | std::ios::app);
+}
+
+bool Manifest::holds(const std::string& name) const {
+  const auto noted = files_.find(name);
+  if (noted == files_.end()) return false;
+  const fs::path file = folder_ / name;
+  std::error_code missing;
+  if (!fs::is_regular_file(file, missing) || Json(fs::file_size(file, missing)) != noted->second["bytes"]) return false;
+  return Json(sha256_of_file(file)) == noted->second["sha256"];
+}
+
+void Manifest::add(const std::string& name) {
+  const fs::path file = folder_ / name;
+  Json line{{"file", name}, {"bytes", fs::file_size(file)}, {"sha256", sha256_of_file(file)}};
+  appended_ << line.dump() << '\n' << std::flush;
+  if (!appended_) throw Error(path_.string(), "cannot be written: disk full or not writable");
+  files_.insert_or_assign(name, std::move(line));
+}
+
+void Manifest::finish() {
+  if (appended_.is_open()) appended_.close();
+  std::string text = identity_.dump() + '\n';
+  for (const auto& [name, line] : files_) text += line.dump() + '\n';
+  write_text(path_, text);
+}
+
+}  // namespace fathom

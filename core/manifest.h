@@ -1,0 +1,56 @@
+// What a run has made so far, so that it can go on after it was killed: DIR/manifest.jsonl.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/json.h"
+
+namespace fathom {
+
+/// Everything that decides a run's bytes; the program itself is added.
+struct RunIdentity {
+  std::string command;
+  Json options = Json::object();
+  std::map<std::string, std::string> inputs = {};  ///< SHA-256 by path, as core/input_record.h has them
+};
+
+/// The first line of manifest.jsonl is the run's identity. It has inputs by their SHA-256 alone, without their names:
+/// they may be moved, and the folder says nothing of what they hold. Every further line has the name of a whole file in
+/// the folder, its size and its SHA-256. Lines are appended as files appear; one that a kill cut short does not count.
+/// For the folder's owner (core/folder_owner.h).
+class Manifest {
+ public:
+  /// Reads what the folder's manifest says, where there is one.
+  Manifest(std::filesystem::path folder, const RunIdentity& identity);
+
+  /// Whether the folder has a manifest, of any run.
+  bool exists() const { return exists_; }
+  /// What parts this run from the one whose manifest it is: "spec.json has changed". Nothing where they are the same,
+  /// or where there is none.
+  const std::optional<std::string>& difference() const { return difference_; }
+  /// Throws Error when there is a difference.
+  void require_same_run() const;
+
+  /// Writes the identity and the files that are noted so far: none, where there was a difference. Call before add().
+  void begin();
+  /// Whether this file was noted and stands in the folder with the same bytes.
+  bool holds(const std::string& name) const;
+  /// Notes a file that is whole.
+  void add(const std::string& name);
+  /// When the run is done: the lines in the order of their names, whichever way the run went.
+  void finish();
+
+ private:
+  std::filesystem::path folder_, path_;
+  Json identity_;
+  bool exists_ = false;
+  std::optional<std::string> difference_;
+  std::map<std::string, Json> files_;
+  std::ofstream appended_;
+};
+
+}  // namespace fathom
