@@ -73,12 +73,12 @@ std::string text_of(const Estimates& estimates, bool as_json) {
 
 /// Walks that take longer than anybody waits are refused. Throws Error.
 void require_short_walks(const Layer& slab, double angle, std::uint64_t photons) {
-  constexpr double kFewestWalks = 4096.0;   // before their errors say anything
-  constexpr double kMostSteps = 2e9;        // of a minute or so, where nobody says how many walks it should be,
+  constexpr double kWalksAtOnce = 16384.0;  // between two looks at the work that was done
+  constexpr double kMostSteps = 2e9;        // of a minute or two, where nobody says how many walks it should be,
   constexpr double kMostStepsAsked = 1e12;  // and of hours, where somebody does
   if (!std::isfinite(slab.thickness) && slab.medium.absorption == 0.0) return;  // gives all back, without any walk
   const double steps = expected_steps(slab, angle);
-  if (const double most = kMostSteps / kFewestWalks; !(steps <= most))
+  if (const double most = kMostSteps / kWalksAtOnce; !(steps <= most))
     throw Error(
         "verify slab",
         fmt::format("a walk is expected to take {:.1e} scatterings and reflections, at most {:.1e} are allowed; "
