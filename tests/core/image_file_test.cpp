@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "tests/core/expect_error.h"
+#include "tests/core/file_size_limit.h"
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
@@ -24,6 +25,13 @@ Image<float> floats(float start) {
   for (float& pixel : image.pixels()) pixel = start *= -1.7f;
   image(0, 0) = std::numeric_limits<float>::quiet_NaN();
   image(4, 2) = std::numeric_limits<float>::infinity();
+  return image;
+}
+
+/// No two pixels alike, so that nothing is compressed away.
+Image<float> floats_like(int width, int height) {
+  Image<float> image(width, height);
+  for (std::size_t i = 0; i < image.size(); ++i) image.pixels()[i] = std::sin(static_cast<float>(i * i));
   return image;
 }
 
@@ -46,6 +54,31 @@ TEST(Exr, ErrorsNameTheFileAndTheChannels) {
   write_text(folder / "b.exr", "not an image");
   expect_error([&] { read_exr(folder / "b.exr"); }, {"b.exr", "cannot read as OpenEXR"});
   expect_error([&] { read_exr(folder / "none.exr"); }, {"none.exr"});
+}
+
+// The last of an OpenEXR file is written by destructors, which cannot say that they failed.
+TEST(Exr, AFullDiskIsAnError) {
+  const TemporaryFolder folder;
+  for (const Image<float>& image : {Image<float>(64, 48, 1.0f), floats_like(64, 48)}) {
+    write_exr(folder / "whole.exr", {{"Z", image}});
+    const std::uintmax_t size = std::filesystem::file_size(folder / "whole.exr");
+    for (const std::uintmax_t room : {size - 1, size - 100, size / 2, size / 10}) {
+      const FileSizeLimit limit(room);
+      EXPECT_THROW(write_exr(folder / "a.exr", {{"Z", image}}), Error) << room << " of " << size;
+      EXPECT_EQ(folder.entries(), 1);
+    }
+  }
+}
+
+TEST(Png, IsWholeWhenNothingIsMissing) {
+  const TemporaryFolder folder;
+  write_png(folder / "a.png", Image<Rgb>(40, 30, Rgb{1, 2, 3}));
+  const std::string whole = read_text(folder / "a.png");
+  EXPECT_TRUE(is_whole_png(folder / "a.png"));
+  for (std::size_t size = 0; size < whole.size(); size += 3) {
+    write_text(folder / "b.png", whole.substr(0, size));
+    EXPECT_FALSE(is_whole_png(folder / "b.png")) << size;
+  }
 }
 
 TEST(Png, Grey16ComesBackExactly) {
