@@ -8,6 +8,7 @@
 #include "app/campaign_spec.h"
 #include "app/commands.h"
 #include "app/nominal_rig.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
@@ -246,10 +247,10 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   }
   const Table frames = frames_table(spec, placements);
   write_table(common.output / "frames.csv", frames);  // last: its presence says that the campaign is complete
-  fmt::print("{}", format_rows({{"placements", static_cast<double>(placements.size()), ""},
-                                {"frames", static_cast<double>(frames.rows()), ""},
-                                {"frames_shot_now", static_cast<double>(shot), ""}},
-                               common.json));
+  print_text(format_rows({{"placements", static_cast<double>(placements.size()), ""},
+                          {"frames", static_cast<double>(frames.rows()), ""},
+                          {"frames_shot_now", static_cast<double>(shot), ""}},
+                         common.json));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/print.h"
 #include "core/files.h"
 #include "core/median.h"
 #include "core/progress.h"
@@ -88,10 +89,9 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_json(common.output / "run.json", record);  // last: its presence says that the capture is complete
   if (without_depth > 0)
-    fmt::print(stderr,
-               "warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
-               options.scene.string(), without_depth, options.frames);
-  fmt::print("{}", format_rows(rows, common.json));
+    print_warning(fmt::format("{}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?",
+                              options.scene.string(), without_depth, options.frames));
+  print_text(format_rows(rows, common.json));
 }
 
 }  // namespace

@@ -130,6 +130,7 @@ void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
   const LabelledResult result = evaluate_folder(options.what, method, settings, common.quiet);
   if (!common.output.empty()) {
     make_directory(common.output);
+    remove_results(common, "evaluation", ".txt");
     write_table(common.output / "containers.csv", containers_table(result));
   }
   print_results(common, "evaluation", ".txt", format_rows(summary(result), common.json));

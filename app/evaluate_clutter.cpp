@@ -7,6 +7,7 @@
 
 #include "app/failure_gallery.h"
 #include "app/liquid_rates.h"
+#include "app/results.h"
 #include "app/share_rows.h"
 #include "app/trial_picture.h"
 #include "core/error.h"
@@ -41,6 +42,7 @@ class Keeper {
     if (!fs::exists(file) && fs::exists(folder_ / "trials"))
       throw Error((folder_ / "trials").string(), "is there already; choose another folder");
     make_directory(folder_);
+    remove_results(common, "rates", ".txt");
     write_json(file, identity);
     for (const char* name : {"trials", "failures"}) {
       make_directory(folder_ / name);

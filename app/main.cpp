@@ -15,18 +15,12 @@
 #include "app/commands.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/visible_text.h"
 
 namespace {
 
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
-
-/// Messages quote what files hold; control characters must not break the line.
-std::string on_one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  return text;
-}
 
 /// The word that should be a command must be one: CLI11 would only say that it did not expect it.
 void check_command(int argc, char** argv) {
@@ -39,7 +33,7 @@ void check_command(int argc, char** argv) {
 }
 
 int bad_usage(const std::string& what) {
-  fmt::print(stderr, "error: {}\nRun with --help for more information.\n", on_one_line(what));
+  fmt::print(stderr, "error: {}\nRun with --help for more information.\n", fathom::on_one_line(what));
   return kBadUsage;
 }
 
@@ -92,7 +86,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n");
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "error: {}\n", on_one_line(problem.what()));
+    fmt::print(stderr, "error: {}\n", fathom::on_one_line(problem.what()));
   }
   return kFailed;
 }

@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/cup_height.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
@@ -35,9 +35,9 @@ Cloud read_cloud_of(const FrameRecord& frame, const Table& frames, std::size_t r
 /// One line, with the first few frames by name.
 void warn(NoHeight reason, const std::vector<std::string>& frames) {
   constexpr std::size_t kNamed = 5;
-  fmt::print(stderr, "warning: {} frames have no height because {}: {}{}\n", frames.size(), name_of(reason),
-             fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
-             frames.size() > kNamed ? ", …" : "");
+  print_warning(fmt::format("{} frames have no height because {}: {}{}", frames.size(), name_of(reason),
+                            fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
+                            frames.size() > kNamed ? ", …" : ""));
 }
 
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
@@ -72,9 +72,9 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
   make_directory(output);
   write_table(output / "heights.csv", frames);
   for (const auto& [reason, numbers] : frames_without) warn(reason, numbers);
-  fmt::print("{}", format_rows({{"clouds_with_cup", static_cast<double>(clouds), ""},
-                                {"heights_measured", static_cast<double>(measured), ""}},
-                               common.json));
+  print_text(format_rows(
+      {{"clouds_with_cup", static_cast<double>(clouds), ""}, {"heights_measured", static_cast<double>(measured), ""}},
+      common.json));
 }
 
 }  // namespace

@@ -12,8 +12,10 @@
 
 #include "app/commands.h"
 #include "app/gnuplot.h"
+#include "app/print.h"
+#include "app/results.h"
 #include "core/files.h"
-#include "core/json.h"
+#include "core/json_text.h"
 
 namespace fathom {
 namespace {
@@ -78,6 +80,7 @@ Json json_of(const Figure& figure) {
 void run_reproduce(const ReproduceOptions& options, const CommonOptions& common) {
   require_gnuplot();
   make_directory(common.output);
+  remove_if_ours(common.output / "report.html", kReportTitle);  // it comes last, and is of the figures beside it
   Reproduction reproduction(
       {.folder = common.output, .trials = options.trials, .seed = common.seed, .quiet = common.quiet});
   const auto asked = [&](const std::string& name) {
@@ -89,10 +92,10 @@ void run_reproduce(const ReproduceOptions& options, const CommonOptions& common)
     if (!(asked("all") && entry.of_paper) && !asked(entry.name)) continue;
     figures.push_back(std::visit(reproduction, entry.reproduce));
     json.push_back(json_of(figures.back()));
-    if (!common.json) fmt::print("{}", text_of(figures.back()));
+    if (!common.json) print_text(text_of(figures.back()));
   }
   write_report(common.output, figures);
-  if (common.json) fmt::print("{}\n", json.dump(2));
+  if (common.json) print_text(json_text(json));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/json_text.h"
-#include "core/printable.h"
+#include "core/visible_text.h"
 
 namespace fathom {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/printable.h"
+#include "core/visible_text.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ std::string shown(std::string_view text, std::string_view kept) {
 
 }  // namespace
 
-std::string printable(std::string_view text) { return shown(text, "\n\t"); }
+std::string visible_text(std::string_view text) { return shown(text, "\n\t"); }
 
 std::string on_one_line(std::string_view text) { return shown(text, ""); }
 

@@ -8,9 +8,9 @@ namespace fathom {
 
 /// The text with its control characters, but for line feeds and tabs, written as JSON writes them ("\u001b"), and bytes
 /// that are no UTF-8 as "\xfc". Terminals obey control characters; SVG and HTML must not hold them.
-std::string printable(std::string_view text);
+std::string visible_text(std::string_view text);
 
-/// printable(), with line feeds and tabs written in the same way.
+/// visible_text(), with line feeds and tabs written in the same way.
 std::string on_one_line(std::string_view text);
 
 }  // namespace fathom
