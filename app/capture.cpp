@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/output_size.h"
+#include "app/print.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
@@ -18,7 +19,6 @@
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rows.h"
-#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/effects/effects_json.h"
 #include "sim/scene/setup.h"
@@ -161,9 +161,9 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   folder.finish(record);
   if (without_depth > 0)
-    say(fmt::format("warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
-                    options.scene.string(), without_depth, options.frames));
-  fmt::print("{}", format_rows(rows, common.json));
+    print_warning(fmt::format("{}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?",
+                              options.scene.string(), without_depth, options.frames));
+  print_text(format_rows(rows, common.json));
 }
 
 }  // namespace

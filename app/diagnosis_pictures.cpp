@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "core/table.h"
 #include "diagnosis/measurement/cup_regions.h"
 
@@ -35,9 +36,7 @@ std::string liquid_marks(const std::vector<Observation>& observations, const std
     const std::string& liquid = observations[rows[first]].factors.liquid;
     std::size_t end = first;
     while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
-    std::string words = liquid;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    marks += fmt::format("set label '{}' at {}, graph 0.96 center textcolor rgb ink\n", words,
+    marks += fmt::format("set label {} at {}, graph 0.96 center textcolor rgb ink noenhanced\n", gnuplot_text(liquid),
                          0.5 * static_cast<double>(first + end - 1));
     if (first > 0)
       marks += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
