@@ -38,6 +38,7 @@ BORDERS = {
     "OpenEXR": ["core/*.cpp"],
     "libpng": ["core/*.cpp"],
     "CLI11": ["app/*.cpp", "bench/blind/*"],
+    "Fontconfig": ["app/fonts.cpp"],
     "OpenCV": ["bench/*"],
     "OpenNI2": ["openni2/*", "app/live_cloud.cpp", "tests/openni2/*"],
 }
@@ -50,6 +51,7 @@ LIBRARY_HEADERS = {
     "OpenEXR": r"((OpenEXR|Imath)/)?(Imf|Imath)\w*\.h",
     "libpng": r"(libpng\d*/)?png\.h",
     "CLI11": r"CLI/",
+    "Fontconfig": r"fontconfig/",
     "OpenCV": r"opencv\d?/",
     "OpenNI2": r"(Oni\w+|OpenNI|PS1080)\.h|Driver/",
 }
