@@ -37,13 +37,13 @@ set ylabel textcolor rgb ink
 /// The first line of NAME.gp, by which a script of ours is known.
 std::string head_of(const std::string& name) { return fmt::format("# gnuplot {}.gp\n", name); }
 
-std::string script(const std::string& name, const std::string& plot) {
+std::string script(const std::string& name, const std::string& plot, const std::string& before_svg) {
   return fmt::format(
       "{}{}\nif (!exists('png_file')) png_file = {}\nif (!exists('svg_file')) svg_file = {}\n"
       "set terminal pngcairo size 1280,800 font 'DejaVu Sans,14'\nset output png_file\n{}\n"
-      "set terminal svg size 1280,800 font 'DejaVu Sans,19' background 'white'\nset output svg_file\nreplot\n"
+      "set terminal svg size 1280,800 font 'DejaVu Sans,19' background 'white'\nset output svg_file\n{}replot\n"
       "unset output\n",
-      head_of(name), kStyle, gnuplot_text(name + ".png"), gnuplot_text(name + ".svg"), plot);
+      head_of(name), kStyle, gnuplot_text(name + ".png"), gnuplot_text(name + ".svg"), plot, before_svg);
 }
 
 constexpr int kNotInstalled = 127;  // as shells say it
@@ -76,9 +76,9 @@ void require_gnuplot() {
   if (run_gnuplot(".", {"-e", "exit"}) != 0) throw Error("gnuplot", "does not run, and draws the figures");
 }
 
-void draw(const fs::path& folder, const std::string& name, const std::string& plot) {
+void draw(const fs::path& folder, const std::string& name, const std::string& plot, const std::string& before_svg) {
   const fs::path file = folder / (name + ".gp");
-  write_text(file, script(name, plot));
+  write_text(file, script(name, plot, before_svg));
   write_atomically(folder / (name + ".png"), [&](const fs::path& png) {
     write_atomically(folder / (name + ".svg"), [&](const fs::path& svg) {
       const std::string names = fmt::format("png_file = {}; svg_file = {}", gnuplot_text(png.filename().string()),

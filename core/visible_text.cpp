@@ -34,16 +34,16 @@ bool is_control(char32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0xFFFE || code == 0xFFFF;
 }
 
-std::string shown(std::string_view text, std::string_view kept) {
+std::string shown(std::string_view text, const std::function<bool(char32_t)>& can_show) {
   std::string result;
   while (!text.empty()) {
     const auto [code, bytes] = first_character(text);
     if (bytes == 0)
       result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
-    else if (is_control(code) && kept.find(text.front()) == std::string_view::npos)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(code));
-    else
+    else if (can_show(code))
       result += text.substr(0, bytes);
+    else
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(code));
     text.remove_prefix(std::max<std::size_t>(bytes, 1));
   }
   return result;
@@ -51,8 +51,16 @@ std::string shown(std::string_view text, std::string_view kept) {
 
 }  // namespace
 
-std::string visible_text(std::string_view text) { return shown(text, "\n\t"); }
+std::string visible_text(std::string_view text) {
+  return shown(text, [](char32_t code) { return code == '\n' || code == '\t' || !is_control(code); });
+}
 
-std::string on_one_line(std::string_view text) { return shown(text, ""); }
+std::string on_one_line(std::string_view text) {
+  return shown(text, [](char32_t code) { return !is_control(code); });
+}
+
+std::string on_one_line(std::string_view text, const std::function<bool(char32_t)>& can_show) {
+  return shown(text, [&](char32_t code) { return !is_control(code) && can_show(code); });
+}
 
 }  // namespace fathom

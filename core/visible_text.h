@@ -1,6 +1,7 @@
 // Text of any origin as it may be shown: on terminals, in pictures and pages.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,8 @@ std::string visible_text(std::string_view text);
 
 /// visible_text(), with line feeds and tabs written in the same way.
 std::string on_one_line(std::string_view text);
+
+/// Likewise, with all characters that cannot be shown.
+std::string on_one_line(std::string_view text, const std::function<bool(char32_t)>& can_show);
 
 }  // namespace fathom

@@ -39,6 +39,7 @@ BORDERS = {
     "libpng": ["core/*.cpp"],
     "OpenSSL": ["core/*.cpp"],
     "CLI11": ["app/*.cpp", "bench/blind/*"],
+    "Fontconfig": ["app/fonts.cpp"],
     "OpenCV": ["bench/*"],
     "OpenNI2": ["openni2/*", "app/live_cloud.cpp", "tests/openni2/*"],
 }
@@ -52,6 +53,7 @@ LIBRARY_HEADERS = {
     "libpng": r"(libpng\d*/)?png\.h",
     "OpenSSL": r"openssl/",
     "CLI11": r"CLI/",
+    "Fontconfig": r"fontconfig/",
     "OpenCV": r"opencv\d?/",
     "OpenNI2": r"(Oni\w+|OpenNI|PS1080)\.h|Driver/",
 }

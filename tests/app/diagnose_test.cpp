@@ -250,8 +250,9 @@ void write_heights(const std::filesystem::path& campaign, const std::vector<std:
 }
 
 TEST_F(DiagnoseCommand, APictureShowsTheLabelsAsWrittenAndNobodyObeysThem) {
-  const std::vector<std::string> labels{"x'; system('touch pwned'); set label 'y", "farmer's milk", "a`touch pwned`b",
-                                        "@x $y \"z\" \\n {/Bold b}_1^2", "牛乳_α, ½"};
+  const std::vector<std::string> labels{
+      "x'; system('touch pwned'); set label 'y", "farmer's milk", "a`touch pwned`b",
+      "@x $y \"z\" \\n {/Bold b}_1^2",           "牛乳_α, ½",     "no font has \U0010FFFD"};
   write_heights(folder / "campaign", labels);
   const auto here = std::filesystem::current_path();
   std::filesystem::current_path(folder / "");
@@ -265,6 +266,9 @@ TEST_F(DiagnoseCommand, APictureShowsTheLabelsAsWrittenAndNobodyObeysThem) {
     }
     const std::string svg = read_text(folder / "out" / "heights.svg");
     for (const std::string& label : labels) EXPECT_TRUE(shows(svg, label)) << label;
+    // In the PNG a box in its place would cover all.
+    const std::string script = read_text(folder / "out" / "heights.gp");
+    EXPECT_LT(script.find("no font has \\134u10fffd"), script.find("no font has \U0010FFFD"));
     for (const char* place : {"pwned", "out/pwned", "campaign/pwned"})
       EXPECT_FALSE(std::filesystem::exists(folder / place)) << place;
   }
@@ -353,9 +357,10 @@ TEST_F(DiagnoseCommand, OnAFullDiskNoHalfPictureIsLeftAndNoReport) {
     EXPECT_EQ(run.exit_code, 1) << room;
     EXPECT_EQ(run.err.rfind("error: " + path("out/"), 0), 0u) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out" / "report.json"));
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
-      if (entry.path().extension() == ".png" || entry.path().extension() == ".svg")
-        EXPECT_TRUE(is_whole_picture(entry.path())) << entry.path();
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+      const bool is_picture = entry.path().extension() == ".png" || entry.path().extension() == ".svg";
+      EXPECT_TRUE(!is_picture || is_whole_picture(entry.path())) << entry.path();
+    }
   }
   EXPECT_NE(diagnosis("out")["verdict"], "insufficient");
 }

@@ -19,6 +19,11 @@ TEST(VisibleText, ControlCharactersAreWrittenAsJsonWritesThem) {
   EXPECT_EQ(on_one_line("a\nb\tc"), "a\\u000ab\\u0009c");
 }
 
+TEST(VisibleText, WhatCannotBeShownIsNamed) {
+  const auto is_latin = [](char32_t code) { return code < 0x250; };
+  EXPECT_EQ(on_one_line("é 牛乳 😀\n", is_latin), "é \\u725b\\u4e73 \\u1f600\\u000a");
+}
+
 TEST(VisibleText, BytesThatAreNoUtf8AreNamed) {
   EXPECT_EQ(visible_text("\x9b"), "\\x9b");        // the same control character in Latin-1
   EXPECT_EQ(visible_text("caf\xe9"), "caf\\xe9");  // Latin-1
