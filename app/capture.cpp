@@ -60,8 +60,11 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
   const LightModel light = options.light == "full" ? LightModel::full : LightModel::direct;
   Camera camera(setup, mode, options.spp, common.seed, light);
+  const SensorModel& sensor = camera.setup().rig.sensor;
+  const ResolvedScene resolved = resolved_scene(camera.setup());  // before anything goes that it may name
   make_directory(common.output);
   remove_capture(common.output);
+  write_scene_files(common.output, resolved);
   write_truth(common.output, camera.truth());
   Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
@@ -70,14 +73,14 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
     const std::filesystem::path folder = frame_folder(common.output, i, options.frames);
     make_directory(folder);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
-    write_frame(folder, frame, camera.truth(), setup.rig.sensor.noise.bits);
-    if (options.device_outputs) write_device_outputs(folder, setup.rig.sensor, frame);
+    write_frame(folder, frame, camera.truth(), sensor.noise.bits);
+    if (options.device_outputs) write_device_outputs(folder, sensor, frame);
     const auto& depths = frame.depth.pixels();
     without_depth += std::none_of(depths.begin(), depths.end(), [](float depth) { return depth > 0.0f; });
     if (i == 0) rows = summary(frame, camera.truth());
     progress.step();
   }
-  Json record = run_record(camera);
+  Json record = run_record(camera, resolved);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
   record["light"] = options.light;
