@@ -88,6 +88,11 @@ class CaptureFolder {
     for (const std::string& name : names_) manifest_.add(noted(number, name));
   }
 
+  void write(const ResolvedScene& resolved) {
+    write_scene_files(folder_, resolved);
+    for (const NamedFile& file : resolved.files) manifest_.add(file.name);
+  }
+
   /// Last: the presence of run.json says that the capture is complete.
   void finish(const Json& record) {
     manifest_.add("truth.exr");
@@ -121,6 +126,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const std::string sentence = require_space(common, size, options.yes);
   if (options.frames > 1) announce(common, sentence);
   Camera camera(setup, mode, options.spp, common.seed, light);
+  const SensorModel& sensor = camera.setup().rig.sensor;
+  const ResolvedScene resolved = resolved_scene(camera.setup());  // before anything goes that it may name
   CaptureFolder folder(common.output,
                        {"capture",
                         {{"seed", common.seed},
@@ -131,6 +138,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
                          {"device_outputs", options.device_outputs}},
                         inputs.files()},
                        options.frames, frame_files(mode == CaptureMode::photometric, options.device_outputs));
+  folder.write(resolved);
   write_truth(common.output, camera.truth());
   Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
@@ -144,13 +152,13 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
     make_directory(place);
     remove_leftovers(place);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
-    write_frame(place, frame, camera.truth(), setup.rig.sensor.noise.bits);
-    if (options.device_outputs) write_device_outputs(place, setup.rig.sensor, frame);
+    write_frame(place, frame, camera.truth(), sensor.noise.bits);
+    if (options.device_outputs) write_device_outputs(place, sensor, frame);
     folder.note(i);
     without_depth += !has_depth(frame.depth);
     if (i == 0) rows = summary(frame, camera.truth());
   }
-  Json record = run_record(camera);
+  Json record = run_record(camera, resolved);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
   record["light"] = options.light;
