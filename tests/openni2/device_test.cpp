@@ -399,7 +399,8 @@ TEST_F(Device, ADamagedLaterFrameIsNamedByTheStream) {
   EXPECT_EQ(openni::OpenNI::waitForAnyStream(streams, 1, &ready, 2000), openni::STATUS_TIME_OUT);
   OniVideoMode mode;
   EXPECT_NE(client.stream.getProperty(openni::STREAM_PROPERTY_VIDEO_MODE, &mode), STATUS_OK);
-  expect_one_line_about(openni::OpenNI::getExtendedError(), damaged.path());
+  const std::string said = openni::OpenNI::getExtendedError();  // and a line of OpenNI2's own
+  EXPECT_NE(said.find(damaged.path()), std::string::npos) << said;
   client.stream.stop();
   EXPECT_NE(client.stream.start(), STATUS_OK);
   expect_one_line_about(openni::OpenNI::getExtendedError(), damaged.path());
