@@ -8,6 +8,7 @@
 #include "app/campaign_spec.h"
 #include "app/commands.h"
 #include "app/nominal_rig.h"
+#include "app/output_size.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
@@ -30,6 +31,7 @@ struct CampaignOptions {
   fs::path spec;
   fs::path truth, model;
   int spp = kDefaultSamplesPerPixel;
+  bool yes = false;
 };
 
 /// What randomness is for, so that no two uses share a stream.
@@ -222,6 +224,7 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   if (!options.model.empty())
     for (const Json& effect : effects_of_model(options.model)) effects.push_back(effect);
   for (const Json& error : rig_errors(spec, common.seed)) effects.push_back(error);
+  const std::string size = require_space(common, {spec.frames(), cloud_bytes(spec.rig.sensor)}, options.yes);
   const std::vector<Placement> placements = plan(spec, common.seed);
   const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
   with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
@@ -235,6 +238,7 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
     if (options.truth.has_parent_path()) make_directory(options.truth.parent_path());
     write_json(options.truth, truth_json(placements, effects));
   }
+  announce(common, size);
   manifest.begin();  // first, so that a run cut short at any later moment can go on
   make_directory(common.output / "clouds");
   remove_leftovers(common.output / "clouds");
@@ -266,6 +270,7 @@ std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
+  app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
   return [options, &common] {
     require_output(common);
     run_campaign(*options, common);

@@ -33,6 +33,11 @@ struct CampaignSpec {
   Json effects = Json::array();                           ///< that the model of the laboratory does not know
   CaptureMode mode = CaptureMode::photometric;
 
+  /// Of all sessions; more than an integer holds where the file asks for it.
+  double frames() const {
+    const double places = static_cast<double>(distances.size()) * static_cast<double>(laterals.size()) * placements;
+    return sessions * (bare_desk_views + static_cast<double>(fillings.size()) * pours * places * trials);
+  }
   double deepest_fill() const { return cup.height() - cup.bottom(); }
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/output_size.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
@@ -17,6 +18,7 @@
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rows.h"
+#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/effects/effects_json.h"
 #include "sim/scene/setup.h"
@@ -34,6 +36,7 @@ struct CaptureOptions {
   int spp = kDefaultSamplesPerPixel;
   int frames = 1;
   bool device_outputs = false;
+  bool yes = false;
 };
 
 /// What a person wants to know at once.
@@ -113,6 +116,10 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
   const LightModel light = options.light == "full" ? LightModel::full : LightModel::direct;
+  const OutputSize size{static_cast<double>(options.frames),
+                        capture_bytes(setup.rig.sensor, mode == CaptureMode::photometric, options.device_outputs)};
+  const std::string sentence = require_space(common, size, options.yes);
+  if (options.frames > 1) announce(common, sentence);
   Camera camera(setup, mode, options.spp, common.seed, light);
   CaptureFolder folder(common.output,
                        {"capture",
@@ -154,9 +161,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   folder.finish(record);
   if (without_depth > 0)
-    fmt::print(stderr,
-               "warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
-               options.scene.string(), without_depth, options.frames);
+    say(fmt::format("warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
+                    options.scene.string(), without_depth, options.frames));
   fmt::print("{}", format_rows(rows, common.json));
 }
 
@@ -184,6 +190,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
       ->capture_default_str();
   app.add_flag("--device-outputs", options->device_outputs,
                "Also what the device sends: depth in 100 µm, raw shifts, and depth registered to the colour camera");
+  app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
   return [options, &common] {
     require_output(common);
     run(*options, common);

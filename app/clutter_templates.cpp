@@ -13,8 +13,7 @@ std::vector<CupTemplate> templates_of(const ClutterSpec& clutter) {
   for (const ClutterThing& kind : clutter.cup_kinds) {
     Json cup = kind.entry;
     cup["position_mm"] = {mm_from_metres(clutter.region.center().x()), mm_from_metres(clutter.region.min().y())};
-    Setup setup =
-        setup_from_json({{"sensor", clutter.sensor}, {"desk", clutter.desk}, {"cups", {cup}}}, "template's desk");
+    Setup setup = setup_from_json({{"sensor", clutter.sensor}, {"desk", clutter.desk}, {"cups", {cup}}}, clutter.file);
     setup.rig.sensor.noise = {};
     const Frame frame = Camera(setup, CaptureMode::geometric, 1, 0).shoot(0);
     try {

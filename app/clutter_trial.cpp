@@ -188,9 +188,9 @@ DeskPrior prior_of(const Rig& rig) {
   return {rig.camera_in_world().z(), std::asin(down), roll_of(axes)};
 }
 
-TrialShot shoot_trial(const Json& scene, std::uint64_t seed) {
+TrialShot shoot_trial(const Json& scene, const std::string& file, std::uint64_t seed) {
   double shoot_s = 0.0;
-  Setup setup = setup_from_json(scene, "random desk");
+  Setup setup = setup_from_json(scene, file);
   Frame frame;
   Camera camera = timed(shoot_s, [&] {
     Camera result(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed);

@@ -66,7 +66,7 @@ struct TrialShot {
 DeskPrior prior_of(const Rig& rig);
 
 /// Photometric, direct light.
-TrialShot shoot_trial(const Json& scene, std::uint64_t seed);
+TrialShot shoot_trial(const Json& scene, const std::string& file, std::uint64_t seed);
 
 struct Trial {
   Detection detection;

@@ -20,6 +20,8 @@ struct CommonOptions {
   int threads = 0;  ///< 0: all
   bool quiet = false;
   bool json = false;
+  int max_input_mb = 1000;     ///< of memory that one file may claim
+  bool allow_outside = false;  ///< files may name others outside their folder
 };
 
 /// The command line asks for something that cannot be: exit code 2.

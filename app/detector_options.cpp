@@ -9,6 +9,7 @@
 #include "app/robust_options.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 #include "core/json.h"
 #include "core/units.h"
 
@@ -111,7 +112,7 @@ DetectorSettings detector_settings(const std::filesystem::path& config) {
     if (reader.has("registration")) settings.registration = read_registration_config(reader.at("registration"));
     if (reader.has("robust")) settings.robust = read_robust_config(reader.at("robust"));
     for (const JsonReader& item : reader.items_or_none("templates"))
-      settings.templates.push_back(load_template(config.parent_path() / item.text()));
+      settings.templates.push_back(load_template(path_named_in(config.string(), item.pointer(), item.text())));
   }
   if (settings.templates.empty()) settings.templates = load_templates(data_directory() / "templates");
   return settings;

@@ -52,7 +52,7 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
       std::optional<TrialResult> result = folder ? folder->kept(name) : std::nullopt;
       if (!result) {
         const Json scene = random_scene(clutter, common.seed, number);
-        const TrialShot shot = shoot_trial(scene, Rng(common.seed, number).bits());
+        const TrialShot shot = shoot_trial(scene, clutter.file, Rng(common.seed, number).bits());
         const Trial trial = search_trial(shot, *evaluation.method, evaluation.detector);
         if (folder) folder->keep(name, scene, shot, trial);
         result = trial.result;

@@ -36,6 +36,21 @@ double metres_per_unit(openni::PixelFormat format, const std::string& device) {
   throw Error(device, "gives depth in another format than 1 mm or 100 µm");
 }
 
+/// Waits for a frame. A device that has failed keeps silent until it is asked for something, so it is asked.
+void wait_for_frame(openni::VideoStream& stream, const std::string& device) {
+  constexpr int kPatience_ms = 10000, kStep_ms = 250;
+  openni::VideoStream* streams[] = {&stream};
+  int ready = 0;
+  openni::Status status = openni::STATUS_TIME_OUT;
+  for (int waited_ms = 0; status == openni::STATUS_TIME_OUT && waited_ms < kPatience_ms; waited_ms += kStep_ms) {
+    status = openni::OpenNI::waitForAnyStream(streams, 1, &ready, kStep_ms);
+    OniVideoMode mode;
+    if (status == openni::STATUS_TIME_OUT)
+      require(stream.getProperty(openni::STREAM_PROPERTY_VIDEO_MODE, &mode), device);
+  }
+  require(status, device);
+}
+
 }  // namespace
 
 struct LiveCamera::Session {
@@ -70,11 +85,8 @@ LiveCamera::LiveCamera(const std::string& uri) : uri_(uri), session_(std::make_u
 LiveCamera::~LiveCamera() = default;
 
 Image<CloudPoint> LiveCamera::next_cloud() {
-  constexpr int kPatience_ms = 10000;
   constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
-  openni::VideoStream* streams[] = {&session_->stream};
-  int ready = 0;
-  require(openni::OpenNI::waitForAnyStream(streams, 1, &ready, kPatience_ms), uri_);
+  wait_for_frame(session_->stream, uri_);
   openni::VideoFrameRef frame;
   require(session_->stream.readFrame(&frame), uri_);
 

@@ -7,14 +7,18 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/number_option.h"
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "core/memory.h"
+#include "core/standard_streams.h"
 
 namespace {
 
@@ -39,25 +43,27 @@ void check_command(int argc, char** argv) {
 }
 
 int bad_usage(const std::string& what) {
-  fmt::print(stderr, "error: {}\nRun with --help for more information.\n", on_one_line(what));
+  fathom::say(fmt::format("error: {}\nRun with --help for more information.\n", on_one_line(what)));
   return kBadUsage;
 }
 
 void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
   app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR");
-  app.add_option("--seed", common.seed, "Seed of everything random")
-      ->check([](const std::string& text) {
-        return text.starts_with('-') ? std::string("must be at least 0") : std::string();
-      })
-      ->capture_default_str();
+  app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
   app.add_flag("--json", common.json, "Results as JSON on stdout");
+  app.add_option("--max-input-mb", common.max_input_mb, "Memory that one file which is read may claim")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("MB")
+      ->capture_default_str();
+  app.add_flag("--allow-outside", common.allow_outside, "Files that are read may name others outside their folder");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  fathom::occupy_standard_streams();
   fathom::keep_freed_pages();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of its writer, not the end
   CLI::App app("Fathom: simulates a structured-light depth camera that looks at cups with liquids in them", "fathom");
@@ -71,12 +77,14 @@ int main(int argc, char** argv) {
     sub->callback([&run, body = command.define(*sub, common)] { run = body; });
     add_common_options(*sub, common);
   }
+  fathom::require_numbers(app);
 
   try {
     check_command(argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    app.exit(help);
+    return std::cout.flush() ? 0 : kFailed;
   } catch (const std::exception& problem) {
     return bad_usage(problem.what());
   }
@@ -84,15 +92,17 @@ int main(int argc, char** argv) {
     const auto threads =
         common.threads > 0 ? static_cast<unsigned>(common.threads) : std::max(1u, std::thread::hardware_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const fathom::InputPolicyScope policy({.most_bytes = static_cast<std::uint64_t>(common.max_input_mb) * 1'000'000,
+                                           .allow_outside = common.allow_outside});
     run();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw fathom::Error("stdout", "cannot be written");
     return 0;
   } catch (const fathom::UsageError& problem) {
     return bad_usage(problem.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory\n");
+    fathom::say("error: out of memory\n");
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "error: {}\n", on_one_line(problem.what()));
+    fathom::say(fmt::format("error: {}\n", on_one_line(problem.what())));
   }
   return kFailed;
 }

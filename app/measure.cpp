@@ -14,6 +14,7 @@
 #include "core/folder_owner.h"
 #include "core/progress.h"
 #include "core/rows.h"
+#include "core/standard_streams.h"
 #include "core/table.h"
 #include "core/units.h"
 #include "diagnosis/measurement/frame_cloud.h"
@@ -35,9 +36,9 @@ Cloud read_cloud_of(const FrameRecord& frame, const Table& frames, std::size_t r
 /// One line, with the first few frames by name.
 void warn(NoHeight reason, const std::vector<std::string>& frames) {
   constexpr std::size_t kNamed = 5;
-  fmt::print(stderr, "warning: {} frames have no height because {}: {}{}\n", frames.size(), name_of(reason),
-             fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
-             frames.size() > kNamed ? ", …" : "");
+  say(fmt::format("warning: {} frames have no height because {}: {}{}\n", frames.size(), name_of(reason),
+                  fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
+                  frames.size() > kNamed ? ", …" : ""));
 }
 
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {

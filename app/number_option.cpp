@@ -3,15 +3,87 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/decimal.h"
 
 namespace fathom {
+namespace {
+
+/// What parts a list of numbers; an empty text between two of them is a part as well.
+std::vector<std::string> parts(const std::string& text) {
+  std::vector<std::string> result(1);
+  for (const char c : text)
+    if (c == ',')
+      result.emplace_back();
+    else
+      result.back() += c;
+  return result;
+}
+
+/// Puts a whole number as CLI11 reads it: without what it takes for an octal one.
+template <class Whole>
+std::string whole_number(std::string& text) {
+  const std::optional<Whole> number = decimal<Whole>(text);
+  if (!number)
+    return fmt::format("must be a whole number{}, got '{}'",
+                       std::numeric_limits<Whole>::is_signed
+                           ? std::string()
+                           : fmt::format(" from 0 to {}", std::numeric_limits<Whole>::max()),
+                       text);
+  text = fmt::to_string(*number);
+  return {};
+}
+
+std::string any_number(std::string& text) {
+  return decimal<double>(text) ? std::string() : fmt::format("must be a number, got '{}'", text);
+}
+
+/// What an option of that type must be given; nothing where it takes no number. CLI11 names types so.
+std::function<std::string(std::string&)> check_of(const std::string& type) {
+  if (type == "UINT") return whole_number<std::uint64_t>;
+  if (type == "INT") return whole_number<std::int64_t>;
+  if (type == "FLOAT") return any_number;
+  return nullptr;
+}
+
+}  // namespace
 
 std::function<std::string(const std::string&)> number_within(Range range) {
   return [range](const std::string& text) {
-    double number = 0.0;
-    const bool allowed = CLI::detail::lexical_cast(text, number) && range.contains(number);
-    return allowed ? std::string() : fmt::format("must be {}, got '{}'", range.text(), text);
+    const std::optional<double> number = decimal<double>(text);
+    return number && range.contains(*number) ? std::string() : fmt::format("must be {}, got '{}'", range.text(), text);
   };
+}
+
+void add_number_list(CLI::App& app, const char* name, std::vector<double>& values, const char* what, Range range) {
+  constexpr int kMost = 1000;  // words of one list; so few that CLI11 does not look for brackets around them
+  const auto take = [&values](const std::vector<std::string>& words) {
+    values.clear();
+    for (const std::string& word : words)
+      for (const std::string& part : parts(word)) values.push_back(*decimal<double>(part));
+  };
+  app.add_option_function<std::vector<std::string>>(name, take, what)
+      ->expected(1, kMost)
+      ->allow_extra_args(false)
+      ->type_name("FLOAT,…")
+      ->default_str(fmt::format("{}", fmt::join(values, ",")))
+      ->check([wrong = number_within(range)](const std::string& word) {
+        for (const std::string& part : parts(word))
+          if (const std::string problem = wrong(part); !problem.empty()) return problem;
+        return std::string();
+      });
+}
+
+void require_numbers(CLI::App& command) {
+  for (CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
+    const std::string type = option->get_type_name();  // with what its checks say of themselves, after a colon
+    if (auto check = check_of(type.substr(0, type.find(':'))))
+      option->transform(CLI::Validator(std::move(check), ""));  // ahead of the other checks
+  }
+  for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) require_numbers(*below);
 }
 
 }  // namespace fathom

@@ -112,13 +112,11 @@ std::string theory_text(const TheoryOptions& options, bool as_json) {
 
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<TheoryOptions>();
-  const auto add_list = [&app](const char* name, std::vector<double>& values, const char* what, Range range) {
-    app.add_option(name, values, what)->delimiter(',')->check(number_within(range))->capture_default_str();
-  };
-  add_list("--fill-mm", options->fill_mm, "Depths of the liquid", kNonNegative);
-  add_list("--distance-mm", options->distance_mm, "Horizontal distances of the bottom point from the sensor",
-           {0.0, 1e6});
-  add_list("--lateral-mm", options->lateral_mm, "Positions of the bottom point to the sensor's right", {-1e6, 1e6});
+  add_number_list(app, "--fill-mm", options->fill_mm, "Depths of the liquid", kNonNegative);
+  add_number_list(app, "--distance-mm", options->distance_mm,
+                  "Horizontal distances of the bottom point from the sensor", {0.0, 1e6});
+  add_number_list(app, "--lateral-mm", options->lateral_mm, "Positions of the bottom point to the sensor's right",
+                  {-1e6, 1e6});
   app.add_option("--height-mm", options->height_mm, "Height of the sensor above the bottom")
       ->check(number_within(kUpToOneKilometre))
       ->capture_default_str();

@@ -6,6 +6,7 @@
 #include "app/trial_picture.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 
 namespace fathom {
 namespace {
@@ -13,6 +14,14 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string file_of_trial(const std::string& name) { return fmt::format("trials/{}.json", name); }
+
+/// A scene for another folder than that of the file beside which its glTF cups lie.
+Json with_absolute_names(Json scene, const std::string& file) {
+  for (Json& cup : scene["cups"])
+    if (cup["shape"].is_string() && names_gltf(cup["shape"].get<std::string>()))
+      cup["shape"] = fs::absolute(path_named_in(file, "/cups", cup["shape"].get<std::string>())).string();
+  return scene;
+}
 
 }  // namespace
 
@@ -38,7 +47,8 @@ std::optional<TrialResult> TrialFolder::kept(const std::string& name) const {
 
 void TrialFolder::keep(const std::string& name, const Json& scene, const TrialShot& shot, const Trial& trial) {
   if (const std::string why = failure_of(trial.result); !why.empty()) {
-    write_json(folder_ / "failures" / fmt::format("{}_{}.json", name, why), scene);
+    write_json(folder_ / "failures" / fmt::format("{}_{}.json", name, why),
+               with_absolute_names(scene, shot.setup.file));
     write_png(folder_ / "failures" / fmt::format("{}_{}.png", name, why), trial_picture(shot, trial));
   }
   write_json(folder_ / file_of_trial(name), json_of(trial.result));

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -10,12 +11,15 @@
 #include "app/number_option.h"
 #include "app/results.h"
 #include "app/verify_cases.h"
+#include "core/decimal.h"
 #include "core/error.h"
 #include "core/json.h"
 #include "core/progress.h"
+#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/layer_light.h"
+#include "sim/optics/walk_length.h"
 
 namespace fathom {
 namespace {
@@ -67,21 +71,44 @@ std::string text_of(const Estimates& estimates, bool as_json) {
   return text;
 }
 
+/// Walks that take longer than anybody waits are refused. Throws Error.
+void require_short_walks(const Layer& slab, double angle, std::uint64_t photons) {
+  constexpr double kWalksAtOnce = 16384.0;  // between two looks at the work that was done
+  constexpr double kMostSteps = 2e9;        // of a minute or two, where nobody says how many walks it should be,
+  constexpr double kMostStepsAsked = 1e12;  // and of hours, where somebody does
+  if (!std::isfinite(slab.thickness) && slab.medium.absorption == 0.0) return;  // gives all back, without any walk
+  const double steps = expected_steps(slab, angle);
+  if (const double most = kMostSteps / kWalksAtOnce; !(steps <= most))
+    throw Error(
+        "verify slab",
+        fmt::format("a walk is expected to take {:.1e} scatterings and reflections, at most {:.1e} are allowed; "
+                    "it takes fewer with less scattering, more absorption or another thickness",
+                    steps, most));
+  if (!(static_cast<double>(photons) * steps <= kMostStepsAsked))
+    throw Error(
+        "verify slab",
+        fmt::format("--photons: {} walks of {:.1e} scatterings and reflections each are too many, at most {:.0f} "
+                    "walks are allowed",
+                    photons, steps, std::floor(kMostStepsAsked / steps)));
+}
+
 void verify_slab(const VerifyOptions& options, const CommonOptions& common) {
   const Turbid medium{options.index, per_metre_from_per_mm(options.absorption_per_mm),
                       per_metre_from_per_mm(options.scattering_per_mm), options.anisotropy};
-  const LayerSpace space({{medium, metres_from_mm(options.thickness_mm)}});
+  const Layer slab{medium, metres_from_mm(options.thickness_mm)};
+  const double angle = radians_from_deg(options.angle_deg);
+  require_short_walks(slab, angle, options.photons);
   Progress progress("walks", 0, common.quiet);
   const LayerLight light =
-      light_in_layers(space, radians_from_deg(options.angle_deg), common.seed, plan_with(progress, options.photons));
+      light_in_layers(LayerSpace({slab}), angle, common.seed, plan_with(progress, options.photons));
   Estimates estimates{{"reflectance_total", light.reflectance},
                       {"reflectance_specular", {light.specular, 0.0}},
                       {"transmittance_total", light.transmittance}};
   if (light.absorptance) estimates.emplace_back("absorptance", *light.absorptance);
   print_results(common, "slab", ".txt", text_of(estimates, common.json));
   if (!light.reached)
-    fmt::print(stderr, "note: gave up after {} walks, before the standard errors were 0.2 % of the values\n",
-               light.walks);
+    say(fmt::format("note: gave up after {} walks, before the standard errors were 0.2 % of the values\n",
+                    light.walks));
 }
 
 void verify_fresnel(const VerifyOptions& options, const CommonOptions& common) {
@@ -151,7 +178,13 @@ std::function<void()> define_verify(CLI::App& app, const CommonOptions& common) 
   slab->add_option("--anisotropy", options->anisotropy, "Mean cosine of the scattering angle (Henyey-Greenstein)")
       ->check(number_within(kAnisotropy))
       ->required();
-  slab->add_option("--thickness-mm", options->thickness_mm, "Thickness; inf: a half-space")
+  slab->add_option_function<std::string>(
+          "--thickness-mm",
+          [options](const std::string& text) {
+            options->thickness_mm = decimal<double>(text).value_or(std::numeric_limits<double>::infinity());
+          },
+          "Thickness; inf: a half-space")
+      ->type_name("FLOAT|inf")
       ->check(check_thickness)
       ->required();
   slab->add_option("--angle-deg", options->angle_deg, "Of the beam to the normal, in air")

@@ -3,17 +3,19 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <regex>
-#include <sstream>
 #include <vector>
 
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "core/input_record.h"
 
 namespace fathom {
@@ -43,6 +45,22 @@ bool is_leftover(const fs::path& path) {
   if (!std::regex_match(name, parts, pattern)) return false;
   const pid_t writer = std::stoi(parts[1]);
   return writer == ::getpid() || (::kill(writer, 0) != 0 && errno == ESRCH);
+}
+
+struct OpenFile {
+  int descriptor;
+
+  explicit OpenFile(int opened) : descriptor(opened) {}
+  ~OpenFile() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+};
+
+void require_regular(const std::string& name, const struct ::stat& about) {
+  if (S_ISDIR(about.st_mode)) throw Error(name, "is a folder, expected a file");
+  if (!S_ISREG(about.st_mode)) throw Error(name, "is no regular file (a pipe, a socket or a device)");
 }
 
 }  // namespace
@@ -85,16 +103,32 @@ void write_text(const fs::path& path, std::string_view text) {
 }
 
 std::string read_text(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) throw Error(path.string(), "no such file");
-  if (fs::is_directory(path, ignored)) throw Error(path.string(), "is a folder, expected a file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw Error(path.string(), "cannot be read");
-  std::string content = std::move(text).str();
-  record_input(path, content);
-  return content;
+  const std::string name = path.string();
+  struct ::stat about {};
+  // Before opening, too: to open a device may do something, to open a pipe may wait for its writer.
+  if (::stat(path.c_str(), &about) != 0)
+    throw Error(name, errno == ENOENT ? "no such file" : fmt::format("cannot be read: {}", std::strerror(errno)));
+  require_regular(name, about);
+  const OpenFile file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (file.descriptor < 0 || ::fstat(file.descriptor, &about) != 0)
+    throw Error(name, fmt::format("cannot be read: {}", std::strerror(errno)));
+  require_regular(name, about);
+  require_within_limit(name, "", static_cast<std::uint64_t>(about.st_size), "content");
+  // One byte more than there should be, to see the end. Files of the system have no size, but content.
+  std::string text(static_cast<std::size_t>(about.st_size) + 1, '\0');
+  for (std::size_t had = 0;;) {
+    constexpr std::size_t kMore = 1 << 16;
+    if (had == text.size()) text.resize(had + std::max(kMore, had / 2));
+    const ::ssize_t got = ::read(file.descriptor, text.data() + had, text.size() - had);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw Error(name, fmt::format("cannot be read: {}", std::strerror(errno)));
+    had += static_cast<std::size_t>(got);
+    require_within_limit(name, "", had, "content");
+    if (got > 0) continue;
+    text.resize(had);
+    record_input(path, text);
+    return text;
+  }
 }
 
 void make_directory(const fs::path& path) {

@@ -20,7 +20,7 @@ void remove_leftovers(const std::filesystem::path& folder);
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-/// The whole file. Throws Error when it is missing, a directory or unreadable.
+/// The whole file. Throws Error, at once, when it is missing, no regular file, unreadable or beyond the InputPolicy.
 std::string read_text(const std::filesystem::path& path);
 
 /// Creates the directory (and its parents). Throws Error when it cannot, or when a file stands in its place.

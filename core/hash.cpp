@@ -44,6 +44,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
+  if (std::error_code missing; !std::filesystem::is_regular_file(path, missing))  // a pipe would wait for its writer
+    throw Error(path.string(), "cannot be read: is no regular file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string(), "cannot be read");
   Sha256 hash;

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <fmt/format.h>
@@ -17,7 +18,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/exr_header.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 
 namespace fathom {
 namespace {
@@ -35,22 +38,52 @@ void write_png_rows(const std::filesystem::path& path, const Image<Pixel>& image
   });
 }
 
+/// A file's content for OpenEXR.
+class BytesOfFile : public Imf::IStream {
+ public:
+  BytesOfFile(const std::string& name, std::string_view bytes) : IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char to[], int count) override {
+    if (at_ > bytes_.size() || static_cast<std::size_t>(count) > bytes_.size() - at_)
+      throw std::runtime_error("early end of file");
+    std::memcpy(to, bytes_.data() + at_, static_cast<std::size_t>(count));
+    at_ += static_cast<std::size_t>(count);
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = position; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+/// The content, once its header was checked: OpenEXR trusts it.
+std::string read_checked_exr(const std::filesystem::path& path) {
+  std::string content = read_text(path);
+  check_exr_header(path.string(), content);
+  return content;
+}
+
+struct ExrFile {
+  explicit ExrFile(const std::filesystem::path& path)
+      : content(read_checked_exr(path)), bytes(path.string(), content), file(bytes) {}
+
+  std::string content;
+  BytesOfFile bytes;
+  Imf::InputFile file;
+};
+
 /// A PNG file and libpng's state of it. libpng leaves on errors by longjmp, so the functions that call setjmp hold no
 /// objects with destructors of their own, and its messages are kept here instead of going to stderr.
 class PngFile {
  public:
   enum class Mode { kRead, kWrite };
 
-  PngFile(const std::filesystem::path& path, Mode mode) : mode_(mode) {
-    file = std::fopen(path.c_str(), mode == Mode::kRead ? "rb" : "wb");
-    if (!file) throw Error(path.string(), "cannot be opened");
-    png = mode == Mode::kRead ? png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)
-                              : png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
-    if (png) info = png_create_info_struct(png);
-    if (info) return;
-    release();
-    throw std::bad_alloc();
-  }
+  explicit PngFile(const std::filesystem::path& path) : PngFile(path, std::fopen(path.c_str(), "wb"), Mode::kWrite) {}
+  /// Reads from `content`, which outlives this.
+  PngFile(const std::filesystem::path& path, std::string& content)
+      : PngFile(path, ::fmemopen(content.data(), content.size(), "rb"), Mode::kRead) {}
   ~PngFile() { release(); }
   PngFile(const PngFile&) = delete;
   PngFile& operator=(const PngFile&) = delete;
@@ -64,6 +97,16 @@ class PngFile {
   png_infop info = nullptr;
 
  private:
+  PngFile(const std::filesystem::path& path, std::FILE* opened, Mode mode) : file(opened), mode_(mode) {
+    if (!file) throw Error(path.string(), "cannot be opened");
+    png = mode == Mode::kRead ? png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)
+                              : png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+    if (png) info = png_create_info_struct(png);
+    if (info) return;
+    release();
+    throw std::bad_alloc();
+  }
+
   static void on_error(png_structp png, png_const_charp message) {
     auto& problem = static_cast<PngFile*>(png_get_error_ptr(png))->problem_;
     std::snprintf(problem.data(), problem.size(), "%s", message);
@@ -99,7 +142,7 @@ bool write_grey16(PngFile& to, const Image<std::uint16_t>& image) {
 /// libpng's simplified interface gamma-converts 16-bit data; depth and intensity are plain numbers and must not be.
 void write_png_grey16(const std::filesystem::path& path, const Image<std::uint16_t>& image) {
   write_atomically(path, [&](const std::filesystem::path& beside) {
-    PngFile to(beside, PngFile::Mode::kWrite);
+    PngFile to(beside);
     if (!write_grey16(to, image)) throw Error(path.string(), fmt::format("cannot write PNG: {}", to.problem()));
     if (!to.close()) throw Error(path.string(), "cannot write PNG: disk full or not writable");
   });
@@ -108,6 +151,8 @@ void write_png_grey16(const std::filesystem::path& path, const Image<std::uint16
 bool read_header(PngFile& from) {
   if (setjmp(png_jmpbuf(from.png))) return false;
   png_init_io(from.png, from.file);
+  // Neither texts nor profiles are unpacked: a hundred of them in 1 MB make 800.
+  png_set_keep_unknown_chunks(from.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(from.png, from.info);
   return true;
 }
@@ -149,8 +194,29 @@ void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>&
   });
 }
 
+void check_exr(const std::filesystem::path& path, int width, int height) try {
+  ExrFile exr(path);
+  const Imath::Box2i window = exr.file.header().dataWindow();
+  const std::int64_t wide = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t high = std::int64_t{window.max.y} - window.min.y + 1;
+  if (wide != width || high != height)
+    throw Error(path.string(), fmt::format("is {} × {} pixels, expected {} × {}", wide, high, width, height));
+  std::vector<float> line(static_cast<std::size_t>(width));
+  Imf::FrameBuffer frame;
+  const auto channel = exr.file.header().channels().begin();  // a checked header has one
+  frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(line.data() - window.min.x),
+                                          sizeof(float), 0));  // the same line for every y
+  exr.file.setFrameBuffer(frame);
+  exr.file.readPixels(window.max.y);
+} catch (const Error&) {
+  throw;
+} catch (const std::exception& problem) {
+  throw Error(path.string(), std::string("cannot read as OpenEXR: ") + problem.what());
+}
+
 std::vector<ExrChannel> read_exr(const std::filesystem::path& path) try {
-  Imf::InputFile file(path.c_str());
+  ExrFile exr(path);
+  Imf::InputFile& file = exr.file;
   const Imath::Box2i window = file.header().dataWindow();
   const int width = window.max.x - window.min.x + 1;
   const int height = window.max.y - window.min.y + 1;
@@ -190,16 +256,26 @@ void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& gr
 void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb) { write_png_rows(path, rgb, PNG_FORMAT_RGB); }
 
 Image<std::uint16_t> read_png_grey(const std::filesystem::path& path) {
-  PngFile from(path, PngFile::Mode::kRead);
+  std::string content = read_text(path);
+  if (content.empty()) throw Error(path.string(), "cannot read as PNG: it is empty");
+  PngFile from(path, content);
   const auto fail = [&] { throw Error(path.string(), fmt::format("cannot read as PNG: {}", from.problem())); };
   if (!read_header(from)) fail();
   const int depth_bits = png_get_bit_depth(from.png, from.info);
   if (png_get_color_type(from.png, from.info) != PNG_COLOR_TYPE_GRAY || (depth_bits != 8 && depth_bits != 16) ||
       png_get_interlace_type(from.png, from.info) != PNG_INTERLACE_NONE)
     throw Error(path.string(), "is not a grey, non-interlaced PNG of 8 or 16 bits");
-  Image<std::uint16_t> image(static_cast<int>(png_get_image_width(from.png, from.info)),
-                             static_cast<int>(png_get_image_height(from.png, from.info)));
-  std::vector<std::uint8_t> row(png_get_rowbytes(from.png, from.info));
+  constexpr std::uint64_t kMostPacked = 1032;  // bytes that one byte of deflate can stand for (zlib's manual)
+  const std::uint64_t width = png_get_image_width(from.png, from.info),
+                      height = png_get_image_height(from.png, from.info),
+                      row_bytes = png_get_rowbytes(from.png, from.info);
+  require_within_limit(path.string(), "header", bytes_of({width, height, sizeof(std::uint16_t)}), "pixels");
+  if (bytes_of({row_bytes, height}) > bytes_of({content.size(), kMostPacked}))
+    throw Error(
+        path.string(), "header",
+        fmt::format("is truncated: {} × {} pixels cannot be packed in {} bytes", width, height, content.size()));
+  Image<std::uint16_t> image(static_cast<int>(width), static_cast<int>(height));
+  std::vector<std::uint8_t> row(row_bytes);
   if (!read_rows(from, image, row)) fail();
   return image;
 }

@@ -23,6 +23,10 @@ void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>&
 /// Throws Error when the file cannot be read as OpenEXR.
 std::vector<ExrChannel> read_exr(const std::filesystem::path& path);
 
+/// Throws Error unless the file is an OpenEXR image of that size [px] whose last line can be read: what was cut short
+/// has none. Damage in between shows when the file is read.
+void check_exr(const std::filesystem::path& path, int width, int height);
+
 /// The channel of that name; throws Error with the names that exist.
 Image<float> read_exr_channel(const std::filesystem::path& path, const std::string& name);
 

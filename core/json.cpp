@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/modest_json.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -110,11 +111,11 @@ std::size_t JsonReader::choice(std::span<const std::string> choices, std::string
 }
 
 Json read_json(const std::filesystem::path& path) {
+  constexpr std::size_t kBytesPerValue = 100;  // of objects' members, with the keys that are kept to find doubles
   const std::string text = read_text(path);
+  require_modest_json(text, path.string(), kBytesPerValue);
   std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto check_event = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    constexpr int kDeepest = 100;  // taking a value apart again is recursive
-    if (depth > kDeepest) throw Error(path.string(), fmt::format("is nested more than {} deep", kDeepest));
+  const auto check_event = [&](int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)

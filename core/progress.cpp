@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "core/standard_streams.h"
 
 namespace fathom {
 
@@ -11,7 +11,7 @@ Progress::Progress(std::string what, std::size_t total, bool quiet)
     : what_(std::move(what)), total_(total), shown_(!quiet && ::isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-  if (shown_ && done_ > 0) fmt::print(stderr, "\r\033[K");
+  if (shown_ && done_ > 0) say("\r\033[K");
 }
 
 void Progress::step() {
@@ -31,9 +31,8 @@ void Progress::show() const {
   if (!shown_) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double rate = static_cast<double>(done_) / seconds;
-  fmt::print(stderr, "\r\033[K{} {}/{}  {:.2g}/s  {:.0f} s left", what_, done_, total_, rate,
-             static_cast<double>(total_ - done_) / rate);
-  std::fflush(stderr);
+  say(fmt::format("\r\033[K{} {}/{}  {:.2g}/s  {:.0f} s left", what_, done_, total_, rate,
+                  static_cast<double>(total_ - done_) / rate));
 }
 
 }  // namespace fathom

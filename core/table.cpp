@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
+#include "core/decimal.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 
 namespace fathom {
 namespace {
@@ -101,11 +101,8 @@ double Table::number(std::size_t row, std::string_view column) const {
 std::optional<double> Table::number_if_any(std::size_t row, std::string_view column) const {
   const std::string& cell = text(row, column);
   if (cell.empty()) return std::nullopt;
-  double value = 0.0;
-  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  const auto [end, problem] = std::from_chars(begin, cell.data() + cell.size(), value);
-  if (problem != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    fail(row, column, fmt::format("must be a finite number, got '{}'", cell));
+  const std::optional<double> value = decimal<double>(cell);
+  if (!value) fail(row, column, fmt::format("must be a finite number, got '{}'", cell));
   return value;
 }
 
@@ -125,7 +122,11 @@ void Table::set(std::size_t row, std::string_view column, std::string value) {
 }
 
 void Table::fail(std::size_t row, std::string_view column, std::string_view what) const {
-  throw Error(file_, fmt::format("line {}, column '{}'", lines_.at(row), column), what);
+  throw Error(file_, place(row, column), what);
+}
+
+std::string Table::place(std::size_t row, std::string_view column) const {
+  return fmt::format("line {}, column '{}'", lines_.at(row), column);
 }
 
 std::string Table::csv() const {
@@ -145,11 +146,18 @@ Table read_table(const std::filesystem::path& path) {
   if (text.find_first_not_of(kBlank) == std::string_view::npos) throw Error(file, "is empty, expected a header line");
   const std::string_view header = take_line(text);
   const char separator = separator_of(header);
+  const auto ends_cell = [&](char c) { return c == separator || c == '\n' || c == '\r'; };
+  const auto most_cells = static_cast<std::uint64_t>(std::count_if(text.begin(), text.end(), ends_cell));
+  require_within_limit(file, "", bytes_of({most_cells, sizeof(std::string)}), "cells");
+  constexpr std::ptrdiff_t kMostColumns = 1000;
+  if (std::count(header.begin(), header.end(), separator) >= kMostColumns)
+    throw Error(file, "line 1", fmt::format("has more than {} columns", kMostColumns));
   Table table(split_line(header, separator, file, 1), file);
   for (auto column = table.columns().begin(); column != table.columns().end(); ++column)
     if (!column->empty() && std::find(std::next(column), table.columns().end(), *column) != table.columns().end())
       throw Error(file, "line 1", fmt::format("has the column '{}' twice", *column));
-  for (std::size_t number = 2; text.find_first_not_of(kBlank) != std::string_view::npos; ++number) {
+  const char* const end = text.data() + (text.find_last_not_of(kBlank) + 1);  // npos + 1 is 0
+  for (std::size_t number = 2; text.data() < end; ++number) {
     const std::string_view line = take_line(text);
     if (line.find_first_not_of(kBlank) == std::string_view::npos) continue;
     std::vector<std::string> cells = split_line(line, separator, file, number);

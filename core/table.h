@@ -33,6 +33,8 @@ class Table {
   void add_column(std::string name);
   void set(std::size_t row, std::string_view column, std::string value);
 
+  /// "line 12, column 'fill_mm'"
+  std::string place(std::size_t row, std::string_view column) const;
   /// "frames.csv: line 12, column 'fill_mm': …"
   [[noreturn]] void fail(std::size_t row, std::string_view column, std::string_view what) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <optional>
 
 #include "core/error.h"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::string_view kSpaces = " \t\r";
 
+}  // namespace
+
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
@@ -20,7 +23,6 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Nothing when the line has no more words.
 std::optional<std::string_view> take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
   if (line.empty()) return std::nullopt;
@@ -29,14 +31,19 @@ std::optional<std::string_view> take_word(std::string_view& line) {
   return word;
 }
 
-bool is_number(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double number;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return problem != std::errc::invalid_argument && end == word.data() + word.size();
-}
+bool is_blank(std::string_view line) { return line.find_first_not_of(kSpaces) == std::string_view::npos; }
 
-}  // namespace
+template <class Number>
+std::optional<double> number_of(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  Number number;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (problem == std::errc::invalid_argument || end != word.data() + word.size()) return std::nullopt;
+  if (problem == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
+  return static_cast<double>(number);
+}
+template std::optional<double> number_of<float>(std::string_view);
+template std::optional<double> number_of<double>(std::string_view);
 
 std::string printable(std::string_view text) {
   std::string shown(text.substr(0, 40));
@@ -46,17 +53,16 @@ std::string printable(std::string_view text) {
 }
 
 void check_text_points(const std::string& file, TextBody body) {
-  std::uint64_t found = 0, before = 0;
+  std::uint64_t found = 0;
   for (std::uint64_t number = body.first_line; found < body.points; ++number) {
     if (body.text.empty())
       throw Error(file,
                   fmt::format("is truncated: the header promises {} points, the file has {}", body.points, found));
     std::string_view line = take_line(body.text);
     std::uint64_t values = 0;
-    if (line.find_first_not_of(kSpaces) == std::string_view::npos) continue;
-    if (before++ < body.lines_before) continue;
+    if (is_blank(line)) continue;
     while (const std::optional<std::string_view> word = take_word(line)) {
-      if (!is_number(*word))
+      if (!number_of<double>(*word))
         throw Error(file, fmt::format("line {}", number), fmt::format("must hold numbers, got '{}'", printable(*word)));
       ++values;
     }

@@ -8,6 +8,7 @@
 
 #include "core/cloud_file.h"
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "core/json.h"
 #include "core/units.h"
 #include "detector/pcl_points.h"
@@ -54,7 +55,7 @@ CupTemplate load_template(const fs::path& path) {
   reader.allow_only({"name", "cloud", "liquid_threshold_mm", "height_mm", "radius_mm", "bottom_sigma_mm"});
   CupTemplate cup;
   cup.name = reader.text("name");
-  cup.points = finite_points(read_cloud(path.parent_path() / reader.text("cloud")));
+  cup.points = finite_points(read_cloud(path_named_in(path.string(), "/cloud", reader.text("cloud"))));
   if (cup.points.empty()) reader.fail_at("cloud", "has no finite points");
   cup.liquid_threshold_m = metres_from_mm(reader.number("liquid_threshold_mm", kPositive));
   cup.height_m = metres_from_mm(reader.number("height_mm", kPositive));

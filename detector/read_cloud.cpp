@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 #include "core/error.h"
-#include "detector/cloud_header.h"
+#include "core/files.h"
+#include "detector/pcd_header.h"
 #include "detector/quiet_pcl.h"
+#include "detector/read_ply.h"
 
 namespace fathom {
 namespace {
@@ -53,35 +57,41 @@ std::optional<pcl::PCLPointField> field_named(const pcl::PCLPointCloud2& raw, co
   return std::nullopt;
 }
 
-/// PCL's readers report some damage by their result, some by exceptions and some not at all.
-std::optional<pcl::PCLPointCloud2> read_raw(const std::filesystem::path& path, CloudFormat format) {
+/// PCL's reader reports some damage by its result, some by exceptions and some not at all. It is given the file's
+/// content, not its name, so that what it reads is what was checked.
+std::optional<pcl::PCLPointCloud2> read_raw(std::string_view content, const PcdHeader& header) {
   const QuietPcl quiet;
   pcl::PCLPointCloud2 raw;
   try {
-    const int problem = format == CloudFormat::kPcd ? pcl::PCDReader().read(path.string(), raw)
-                                                    : pcl::PLYReader().read(path.string(), raw);
-    if (problem < 0) return std::nullopt;
+    pcl::PCDReader reader;
+    std::istringstream head{std::string(content.substr(0, header.body))};
+    Eigen::Vector4f origin;
+    Eigen::Quaternionf orientation;
+    int version = 0, encoding = 0;
+    unsigned int body = 0;
+    if (reader.readHeader(head, raw, origin, orientation, version, encoding, body) < 0) return std::nullopt;
+    const std::uint64_t count = static_cast<std::uint64_t>(raw.width) * raw.height;
+    if (body != header.body || raw.data.size() != header.raw_bytes || count * raw.point_step != header.raw_bytes)
+      return std::nullopt;
+    constexpr int kText = 0, kPacked = 2;
+    std::istringstream text{encoding == kText ? std::string(content.substr(body)) : std::string()};
+    const int problem = encoding == kText
+                            ? reader.readBodyASCII(text, raw, version)
+                            : reader.readBodyBinary(reinterpret_cast<const unsigned char*>(content.data()), raw,
+                                                    version, encoding == kPacked, body);
+    if (problem < 0 || raw.data.size() != header.raw_bytes) return std::nullopt;
   } catch (const std::exception&) {
     return std::nullopt;
   }
-  const std::uint64_t count = static_cast<std::uint64_t>(raw.width) * raw.height;
-  if (raw.data.size() < count * raw.point_step) return std::nullopt;
   return raw;
 }
 
-void turn_if_behind(Points& points) {
-  if (std::any_of(points.begin(), points.end(), [](const Eigen::Vector3f& point) { return point.z() >= 0.0f; })) return;
-  for (Eigen::Vector3f& point : points) point.tail<2>() *= -1.0f;
-}
-
-}  // namespace
-
-Cloud read_cloud(const std::filesystem::path& path) {
-  const std::optional<pcl::PCLPointCloud2> read = read_raw(path, check_cloud_header(path));
-  if (!read) throw Error(path.string(), "cannot be read: its points are damaged or cut short");
+Cloud read_pcd(const std::string& file, std::string_view content) {
+  const std::optional<pcl::PCLPointCloud2> read = read_raw(content, check_pcd(file, content));
+  if (!read) throw Error(file, "cannot be read: its points are damaged or cut short");
   const pcl::PCLPointCloud2& raw = *read;
   const auto x = field_named(raw, "x"), y = field_named(raw, "y"), z = field_named(raw, "z");
-  if (!x || !y || !z) throw Error(path.string(), "cannot be read: its points have no x, y, z");
+  if (!x || !y || !z) throw Error(file, "cannot be read: its points have no x, y, z");
   const auto intensity = field_named(raw, "intensity");
 
   Cloud cloud;
@@ -95,11 +105,33 @@ Cloud read_cloud(const std::filesystem::path& path) {
     const auto number = [&](const pcl::PCLPointField& field) {
       return number_at(bytes + field.offset, field.datatype);
     };
-    Eigen::Vector3f point(number(*x), number(*y), number(*z));
-    if (!point.allFinite() || point.isZero(0.0f)) point.setConstant(std::numeric_limits<float>::quiet_NaN());
-    cloud.points.push_back(point);
+    cloud.points.emplace_back(number(*x), number(*y), number(*z));
     if (intensity) cloud.intensity.push_back(number(*intensity));
   }
+  return cloud;
+}
+
+void forget_unmeasured(Points& points) {
+  for (Eigen::Vector3f& point : points)
+    if (!point.allFinite() || point.isZero(0.0f)) point.setConstant(std::numeric_limits<float>::quiet_NaN());
+}
+
+void turn_if_behind(Points& points) {
+  if (std::any_of(points.begin(), points.end(), [](const Eigen::Vector3f& point) { return point.z() >= 0.0f; })) return;
+  for (Eigen::Vector3f& point : points) point.tail<2>() *= -1.0f;
+}
+
+}  // namespace
+
+Cloud read_cloud(const std::filesystem::path& path) {
+  const std::string content = read_text(path), file = path.string();
+  const std::string_view start = std::string_view(content).substr(0, 8);
+  const auto starts = [&](std::string_view word) { return start.starts_with(word); };
+  if (content.empty()) throw Error(file, "is empty, expected a PCD or PLY cloud");
+  const bool ply = starts("ply\n") || starts("ply\r\n");
+  if (!ply && !starts("#") && !starts("VERSION") && !starts("FIELDS")) throw Error(file, "is neither PCD nor PLY");
+  Cloud cloud = ply ? read_ply(file, content) : read_pcd(file, content);
+  forget_unmeasured(cloud.points);
   turn_if_behind(cloud.points);
   return cloud;
 }

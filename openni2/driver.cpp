@@ -54,7 +54,10 @@ oni::driver::DeviceBase* Driver::deviceOpen(const char* uri, const char*) {
   return guarded(getServices(), static_cast<oni::driver::DeviceBase*>(nullptr), [&]() -> oni::driver::DeviceBase* {
     const OniDeviceInfo info = device_info(uri);
     auto state_changed = [this, info](OniDeviceState state, const std::string& problem) {
-      if (!problem.empty()) getServices().log(kLogError, __FILE__, __LINE__, "Fathom", problem.c_str());
+      if (!problem.empty()) {
+        getServices().log(kLogError, __FILE__, __LINE__, "Fathom", problem.c_str());
+        getServices().errorLoggerAppend("%s", problem.c_str());
+      }
       deviceStateChanged(&info, state);
     };
     auto device = std::make_unique<Device>(uri, getServices(), state_changed);

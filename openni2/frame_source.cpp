@@ -30,6 +30,7 @@ class LiveScene : public FrameSource {
 class PlayedFolder : public FrameSource {
  public:
   explicit PlayedFolder(const std::filesystem::path& folder) : capture_(read_capture(folder)) {
+    check_frames(capture_);
     constexpr std::size_t kMostKept = std::size_t{256} << 20;  // [bytes] 40 frames of the Xtion
     const SensorModel& model = capture_.sensor;
     const std::size_t pixels = std::size_t(model.width) * model.height + std::size_t(model.ir_width) * model.ir_height;
@@ -39,6 +40,7 @@ class PlayedFolder : public FrameSource {
   const SensorModel& sensor() const override { return capture_.sensor; }
   bool has_infrared() const override { return capture_.infrared; }
   std::optional<int> frames() const override { return static_cast<int>(capture_.frames.size()); }
+  void prepare() override { shoot(0, capture_.infrared); }
   Frame shoot(int frame, bool infrared) override {
     const auto index = static_cast<std::size_t>(frame);
     if (kept_.empty()) return read_frame(capture_, index, infrared);

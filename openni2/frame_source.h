@@ -27,7 +27,8 @@ class FrameSource {
 /// Whether a device's URI is meant for this driver: the name of a scene file, whether or not it exists, or a folder.
 bool names_source(const std::string& uri);
 
-/// Reads the scene file, or run.json of the folder. Throws Error.
+/// Reads the scene file, or run.json of the folder, and of each frame as much as shows whether it is whole. Throws
+/// Error.
 std::unique_ptr<FrameSource> open_source(const std::string& uri);
 
 }  // namespace fathom

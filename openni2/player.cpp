@@ -4,6 +4,8 @@
 #include <exception>
 #include <utility>
 
+#include "core/error.h"
+
 namespace fathom {
 
 Player::Player(std::unique_ptr<FrameSource> source, Ended ended)
@@ -13,7 +15,13 @@ Player::Player(std::unique_ptr<FrameSource> source, Ended ended)
 
 Player::~Player() = default;
 
+void Player::require_sound() const {
+  const std::lock_guard lock(mutex_);
+  if (!problem_.empty()) throw Error(problem_);
+}
+
 void Player::add(const void* owner, bool wants_infrared, Receiver receiver) {
+  require_sound();
   {
     const std::lock_guard lock(mutex_);
     if (!prepared_) source_->prepare();
@@ -96,6 +104,10 @@ void Player::run(const std::stop_token& stop) {
   try {
     play(stop);
   } catch (const std::exception& problem) {
+    {
+      const std::lock_guard lock(mutex_);
+      problem_ = problem.what();
+    }
     ended_(problem.what());
   }
 }

@@ -38,6 +38,8 @@ class Player {
   /// The first receiver waits until the source is prepared. Throws Error. Receivers are called on the player's thread,
   /// those that want no infrared image perhaps without.
   void add(const void* owner, bool wants_infrared, Receiver receiver);
+  /// Throws Error when no more frames will come because of an error: with its line.
+  void require_sound() const;
   /// After it returns that receiver is not called any more.
   void remove(const void* owner);
 
@@ -69,6 +71,7 @@ class Player {
   mutable std::mutex mutex_;  ///< of what follows; never held while receivers run
   std::condition_variable_any wake_;
   bool prepared_ = false;
+  std::string problem_;                  ///< why no more frames will come; empty while they do
   std::map<const void*, bool> started_;  ///< the receivers' owners, and whether they want infrared images
   int next_ = 0;
   std::uint64_t handed_out_ = 0;

@@ -58,8 +58,10 @@ void Stream::stop() {
   started_ = false;
 }
 
+/// OpenNI2 knows no way to end a client's wait for a frame that will not come. Who asks for anything is told why.
 OniStatus Stream::getProperty(int id, void* data, int* size) {
   return guarded(services_, ONI_STATUS_ERROR, [&] {
+    player_.require_sound();
     const auto value = stream_property(player_.source(), state(), id);
     return value ? write_property(*value, data, size) : ONI_STATUS_NOT_SUPPORTED;
   });

@@ -2,7 +2,8 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME layers COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/layers.py)
 add_test(NAME layers_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/layers_test.py)
-set_tests_properties(layers layers_test PROPERTIES LABELS architecture)
+add_test(NAME skipped_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/skipped_test.py)
+set_tests_properties(layers layers_test skipped_test PROPERTIES LABELS architecture)
 
 if(FATHOM_SIMULATOR)
   add_test(NAME effects_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/effects-page --check $<TARGET_FILE:fathom>)
@@ -34,6 +35,7 @@ if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
 endif()
 
 if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
+  add_test(NAME blind_smoke_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/blind/smoke_test.py $<TARGET_FILE:blind_score>)
   add_test(NAME blind_smoke COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/blind/smoke.py $<TARGET_FILE:fathom>)
   set_tests_properties(blind_smoke PROPERTIES RUN_SERIAL ON TIMEOUT 2400)
 endif()

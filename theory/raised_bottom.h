@@ -1,11 +1,16 @@
 // The closed theory of the raised bottom: the paper's Eq. 1–7, one function each, with its symbols.
 // Lengths in any one unit (metres in this program), angles in radians.
 //
-//   w  depth of the liquid            s  depth of the measured point M below the surface     m  height of M above the
-//   bottom θ1 incidence angle, θ2 refraction angle, both from the vertical       n  index of the liquid relative to
-//   air, n >= 1 h  height of the sensor above the bottom      b  baseline      d  horizontal distance of the bottom
-//   point, on the baseline's perpendicular bisector             p  horizontal distance of that point from the projector
-//   or the camera
+// - w: depth of the liquid;
+// - s: depth of the measured point M below the surface;
+// - m: height of M above the bottom;
+// - θ1: incidence angle, from the vertical;
+// - θ2: refraction angle, from the vertical;
+// - n: index of the liquid relative to air, n >= 1;
+// - h: height of the sensor above the bottom;
+// - b: baseline;
+// - d: horizontal distance of the bottom point, on the baseline's perpendicular bisector;
+// - p: horizontal distance of that point from the projector or the camera.
 //
 // All of them throw std::invalid_argument outside their validity.
 #pragma once

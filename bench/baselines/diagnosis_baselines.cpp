@@ -11,13 +11,12 @@ namespace {
 
 struct Scaled {
   Eigen::VectorXd residual;
-  Eigen::MatrixXd signatures;  ///< unit columns
-  Eigen::VectorXd norms;
+  Eigen::MatrixXd signatures;  ///< unit columns; 0 where nothing sees the effect
 };
 
 Scaled scaled(const Evidence& evidence) {
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
-  Scaled s{-evidence.predicted, Eigen::MatrixXd(n, static_cast<Eigen::Index>(evidence.candidates.size())), {}};
+  Scaled s{-evidence.predicted, Eigen::MatrixXd(n, static_cast<Eigen::Index>(evidence.candidates.size()))};
   for (Eigen::Index i = 0; i < n; ++i) s.residual[i] += evidence.observations[i].value;
   for (Eigen::Index k = 0; k < s.signatures.cols(); ++k) s.signatures.col(k) = evidence.candidates[k].signature.col(0);
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
@@ -40,8 +39,9 @@ Scaled scaled(const Evidence& evidence) {
     s.residual[i] /= sd;
     s.signatures.row(i) /= sd;
   }
-  s.norms = s.signatures.colwise().norm();
-  s.signatures = s.signatures.colwise().normalized().eval();
+  // Not colwise().normalized(), which makes NaN of a column of zeros, and thereby of all that it is multiplied with.
+  for (auto column : s.signatures.colwise())
+    if (const double norm = column.norm(); norm > 0.0) column /= norm;
   return s;
 }
 
@@ -81,6 +81,7 @@ std::vector<int> greedy_bic(const Evidence& evidence) {
 }
 
 std::vector<int> lasso_bic(const Evidence& evidence) {
+  if (evidence.candidates.empty()) return {};
   const Scaled s = scaled(evidence);
   const Eigen::MatrixXd G = s.signatures.transpose() * s.signatures;
   const Eigen::VectorXd b = s.signatures.transpose() * s.residual;
@@ -105,6 +106,7 @@ std::vector<int> lasso_bic(const Evidence& evidence) {
 }
 
 std::vector<int> largest_correlation(const Evidence& evidence) {
+  if (evidence.candidates.empty()) return {};
   const Scaled s = scaled(evidence);
   Eigen::Index best = 0;
   const double z = (s.signatures.transpose() * s.residual).cwiseAbs().maxCoeff(&best);

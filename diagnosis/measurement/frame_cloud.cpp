@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "detector/read_cloud.h"
 
 namespace fathom {
 
 Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder) {
   constexpr float kFarthest = 50.0f;  // [m] no sensor of this kind sees farther than 10
-  const std::filesystem::path file = folder / frame.cloud;
+  const std::filesystem::path file = path_named_in((folder / "frames.csv").string(), "column 'cloud'", frame.cloud);
   Cloud cloud = read_cloud(file);
   std::size_t measured = 0, far = 0;
   for (const Eigen::Vector3f& point : cloud.points) measured += point.allFinite(), far += point.z() > kFarthest;

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "core/median.h"
 #include "core/units.h"
 #include "detector/plane.h"
@@ -152,8 +153,12 @@ FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<s
   record.distance_m = metres_from_mm(frames.number(row, "distance_mm"));
   record.lateral_m = metres_from_mm(frames.number(row, "lateral_mm"));
   record.cloud = frames.text(row, "cloud");
-  if (!record.cloud.empty() && !std::filesystem::is_regular_file(folder / record.cloud))
-    frames.fail(row, "cloud", fmt::format("there is no file {}", (folder / record.cloud).string()));
+  if (!record.cloud.empty()) {
+    const std::filesystem::path cloud =
+        path_named_in((folder / "frames.csv").string(), frames.place(row, "cloud"), record.cloud);
+    if (!std::filesystem::is_regular_file(cloud))
+      frames.fail(row, "cloud", fmt::format("there is no file {}", cloud.string()));
+  }
   record.height_sd_mm = not_negative(frames, row, "height_sd_mm");
   record.points = not_negative(frames, row, "points");
   if (frames.has("height_mm")) record.height_mm = frames.number_if_any(row, "height_mm");

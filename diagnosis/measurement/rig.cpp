@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/lengths.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -27,11 +28,11 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   json.allow_only(
       {"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "sigma"});
   rig.sensor_model = json.text("model");
-  rig.height_m = json.metres("height_mm", kPositive);
+  rig.height_m = json.metres("height_mm", kLengthMm);
   rig.pitch_rad = radians_from_deg(json.number("pitch_deg", {-90.0, 90.0}));
   rig.roll_rad = read_deg(json, "roll_deg", {-180.0, 180.0});
-  rig.baseline_m = json.metres_or("baseline_mm", rig.baseline_m, kPositive);
-  rig.focal_px = json.number_or("focal_px", usual_focal_px(rig.sensor_model), kPositive);
+  rig.baseline_m = json.metres_or("baseline_mm", rig.baseline_m, kLengthMm);
+  rig.focal_px = json.number_or("focal_px", usual_focal_px(rig.sensor_model), {1.0, 1e6});
   rig.disparity_offset_px = json.number_or("disparity_offset_px", rig.disparity_offset_px);
   read_sigma(json, {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"}, rig.sigma);
 }
@@ -43,10 +44,10 @@ void read_cup(const JsonReader& json, LaboratoryRig& rig) {
   if (rig.cup_shape != papers.cup_shape)
     for (const char* length : {"height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm"})
       if (!json.has(length)) json.fail_at(length, "is missing: only of the paper_cup are the lengths known");
-  rig.cup_height_m = json.metres_or("height_mm", rig.cup_height_m, kPositive);
-  rig.inner_radius_m = json.metres_or("inner_radius_mm", rig.inner_radius_m, kPositive);
-  rig.outer_radius_m = json.metres_or("outer_radius_mm", rig.outer_radius_m, kPositive);
-  rig.bottom_m = json.metres_or("bottom_mm", rig.bottom_m, kNonNegative);
+  rig.cup_height_m = json.metres_or("height_mm", rig.cup_height_m, kLengthMm);
+  rig.inner_radius_m = json.metres_or("inner_radius_mm", rig.inner_radius_m, kLengthMm);
+  rig.outer_radius_m = json.metres_or("outer_radius_mm", rig.outer_radius_m, kLengthMm);
+  rig.bottom_m = json.metres_or("bottom_mm", rig.bottom_m, kLengthOrNoneMm);
   if (rig.inner_radius_m > rig.outer_radius_m) json.fail_at("inner_radius_mm", "must not be above outer_radius_mm");
   if (rig.bottom_m >= rig.cup_height_m) json.fail_at("bottom_mm", "must be below height_mm");
   read_sigma(json, {"height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm"}, rig.sigma);
@@ -74,8 +75,8 @@ LaboratoryRig read_rig(const std::filesystem::path& path) {
     json.at("sensor").fail_at("height_mm", fmt::format("must be above {:g}, the height of the cup, got {:g}",
                                                        mm_from_metres(rig.cup_height_m), mm_from_metres(rig.height_m)));
   read_liquids(json.at("liquids"), rig);
-  rig.fill_sigma_m = json.metres_or("fill_sigma_mm", rig.fill_sigma_m, kNonNegative);
-  rig.placement_sigma_m = json.metres_or("placement_sigma_mm", rig.placement_sigma_m, kNonNegative);
+  rig.fill_sigma_m = json.metres_or("fill_sigma_mm", rig.fill_sigma_m, kLengthOrNoneMm);
+  rig.placement_sigma_m = json.metres_or("placement_sigma_mm", rig.placement_sigma_m, kLengthOrNoneMm);
   return rig;
 }
 

@@ -48,7 +48,7 @@ LayerLight light_in_layers(const LayerSpace& space, double angle, std::uint64_t 
   light.specular = fresnel_reflectance(std::cos(angle), n_outside, n_first);
   const Eigen::Vector3d beam(std::sin(angle), 0.0, -std::cos(angle));
   const std::optional<Eigen::Vector3d> inside = refract(beam, Eigen::Vector3d::UnitZ(), n_outside, n_first);
-  if (!inside || gives_all_back(space.layers())) {
+  if (!inside || light.specular >= 1.0 || gives_all_back(space.layers())) {
     light.reflectance.value = 1.0;
     light.absorptance = Estimate{};
     return light;

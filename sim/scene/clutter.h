@@ -23,6 +23,7 @@ struct ClutterSpec {
   };
 
   Json source;        ///< the file's text
+  std::string file;   ///< where that stands; what its scenes name lies beside it
   Json sensor, desk;  ///< as in a scene file
   Count cups{1, 1}, objects{3, 6};
   std::vector<ClutterThing> cup_kinds, object_kinds;

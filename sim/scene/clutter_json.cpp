@@ -29,10 +29,9 @@ std::vector<ClutterThing> kinds_from_json(const JsonReader& json, std::vector<Gl
     for (const char* key : {"position_mm", "yaw_deg", "liquid", "gltf"})
       if (item.has(key)) item.fail_at(key, "cannot stand here");
     if (!item.value().is_object()) item.fail("must be an object");
-    Json entry = item.value(), at_origin = entry;
+    const Json entry = item.value();
+    Json at_origin = entry;
     at_origin["position_mm"] = {0.0, 0.0};
-    if (item.has("shape") && item.at("shape").value().is_string() && names_gltf(item.text("shape")))
-      entry["shape"] = absolute(std::filesystem::path(item.file()).parent_path() / item.text("shape")).string();
     kinds.push_back({entry, Footprint(parts(JsonReader(at_origin, item.file(), item.pointer())))});
   }
   if (kinds.empty()) json.fail_at("kinds", "must hold at least one");
@@ -60,6 +59,7 @@ Eigen::AlignedBox2d region_from_json(const JsonReader& json) {
 ClutterSpec clutter_spec_from_json(const JsonReader& json) {
   ClutterSpec spec;
   spec.source = json.value();
+  spec.file = json.file();
   json.allow_only(
       {"sensor", "desk", "cups", "objects", "fillings", "empty", "region_mm", "gap_mm", "touching", "occluding"});
   spec.sensor = json.at("sensor").value();

@@ -7,6 +7,8 @@
 #include <map>
 #include <numbers>
 
+#include "core/input_policy.h"
+#include "core/lengths.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/liquid_top.h"
@@ -20,7 +22,7 @@ namespace {
 /// number of the position gives.
 MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   const JsonReader shape = json.at("shape");
-  const std::filesystem::path file = std::filesystem::path(json.file()).parent_path() / shape.text();
+  const std::filesystem::path file = path_named_in(shape.file(), shape.pointer(), shape.text());
   MeshCup cup{file.filename().string(), read_gltf(file), nullptr};
   const Pose turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * rotation_from_json(json));
   Eigen::AlignedBox3d box;
@@ -91,8 +93,8 @@ double depth_from_json(const JsonReader& json, const Cup& cup) {
 
 Ripple ripple_from_json(const JsonReader& json) {
   json.allow_only({"wavelength_mm", "amplitude_mm", "azimuth_deg", "phase_deg"});
-  return {.wavelength = metres_from_mm(json.number("wavelength_mm", kPositive)),
-          .amplitude = metres_from_mm(json.number("amplitude_mm", kNonNegative)),
+  return {.wavelength = metres_from_mm(json.number("wavelength_mm", kLengthMm)),
+          .amplitude = metres_from_mm(json.number("amplitude_mm", kLengthOrNoneMm)),
           .azimuth = radians_from_deg(json.number_or("azimuth_deg", 0.0)),
           .phase = radians_from_deg(json.number_or("phase_deg", 0.0))};
 }
@@ -105,7 +107,7 @@ LiquidForm form_from_json(const JsonReader& json) {
   for (const JsonReader& ripple : json.items_or_none("ripples")) form.ripples.push_back(ripple_from_json(ripple));
   if (json.has("contact_angle_deg") || json.has("capillary_length_mm"))
     form.wetting = Wetting{radians_from_deg(json.number("contact_angle_deg", {1.0, 179.0})),
-                           metres_from_mm(json.number("capillary_length_mm", kPositive))};
+                           metres_from_mm(json.number("capillary_length_mm", kLengthMm))};
   return form;
 }
 

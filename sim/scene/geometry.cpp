@@ -11,9 +11,11 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/cup_mesh.h"
 #include "sim/scene/liquid_shell.h"
+#include "sim/scene/mesh_memory.h"
 #include "sim/scene/object.h"
 #include "sim/scene/wetted_wall.h"
 
@@ -52,6 +54,15 @@ class Builder {
 
   void add_object(const Object& object, std::size_t index, bool on_desk) {
     add_parts(object_parts(object), new_object(fmt::format("object {} {}", index, object_name(object))), on_desk);
+  }
+
+  /// A scene of many things that are small enough by themselves may be too large.
+  void require_room() {
+    for (; counted_ < geometry_.surfaces.size(); ++counted_) {
+      const Mesh& mesh = geometry_.surfaces[counted_].mesh;
+      claimed_ += traced_bytes(mesh.vertices.size(), mesh.triangles.size());
+    }
+    require_within_limit("the scene", "", claimed_, "triangles");
   }
 
   /// Numbers the bodies by rising priority.
@@ -243,6 +254,8 @@ class Builder {
     Coat coat;
   };
   std::vector<CoatedSurface> coats_;
+  std::size_t counted_ = 0;    ///< surfaces, by require_room()
+  std::uint64_t claimed_ = 0;  ///< [bytes] by them
 };
 
 }  // namespace
@@ -263,9 +276,14 @@ Geometry build_geometry(const Scene& scene, double wavelength_nm) {
   Geometry geometry;
   Builder builder(geometry, wavelength_nm);
   if (scene.desk) builder.add_desk(*scene.desk);
-  for (std::size_t i = 0; i < scene.cups.size(); ++i) builder.add_cup(scene.cups[i], i, scene.desk.has_value());
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  for (std::size_t i = 0; i < scene.cups.size(); ++i) {
+    builder.add_cup(scene.cups[i], i, scene.desk.has_value());
+    builder.require_room();
+  }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     builder.add_object(scene.objects[i], i, scene.desk.has_value());
+    builder.require_room();
+  }
   builder.finish();
   return geometry;
 }

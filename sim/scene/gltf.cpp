@@ -16,7 +16,13 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/files.h"
+#include "core/input_policy.h"
+#include "core/lengths.h"
+#include "core/modest_json.h"
 #include "core/units.h"
+#include "sim/scene/gltf_extensions.h"
+#include "sim/scene/mesh_memory.h"
 
 namespace fathom {
 namespace {
@@ -27,6 +33,7 @@ struct Reader {
   tinygltf::Model model;
   int placed_meshes = 0;                         ///< so far, by nodes
   std::vector<bool> placed_nodes;                ///< so far, by index
+  std::uint64_t claimed = 0;                     ///< [bytes] by the triangles so far
   std::map<std::array<int, 3>, GltfPart> parts;  ///< by material, clear body, whether it has normals
 
   [[noreturn]] void fail(const std::string& where, const std::string& what) const { throw Error(file, where, what); }
@@ -92,6 +99,14 @@ struct Reader {
     return result;
   }
 
+  /// Each placing of a mesh takes its memory anew.
+  void claim_memory(const tinygltf::Primitive& primitive, std::size_t vertices, const std::string& where) {
+    const std::size_t corners =
+        primitive.indices < 0 ? vertices : bytes(primitive.indices, TINYGLTF_TYPE_SCALAR, where).count;
+    claimed += traced_bytes(vertices, corners / 3);
+    require_within_limit(file, where, claimed, "triangles");
+  }
+
   void add_primitive(const tinygltf::Primitive& primitive, const Eigen::Matrix4d& scene_from_node,
                      const std::string& where) {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1)
@@ -100,10 +115,14 @@ struct Reader {
     if (position == primitive.attributes.end()) fail(where, "has no POSITION");
     const Bytes source = bytes(position->second, TINYGLTF_TYPE_VEC3, where);
     if (source.component != TINYGLTF_COMPONENT_TYPE_FLOAT) fail(where, "has positions that are not floats");
+    claim_memory(primitive, source.count, where);
     Mesh mesh;
     for (const Eigen::Vector3f& value : vectors(source)) {
       const Eigen::Vector3d in_scene = (scene_from_node * value.cast<double>().homogeneous()).head<3>();
       if (!in_scene.allFinite()) fail(where, "has a position that is not finite");
+      if (in_scene.cwiseAbs().maxCoeff() > metres_from_mm(kPlaceMm.high))
+        fail(where,
+             fmt::format("has a position beyond {:g} m; lengths in glTF are metres", metres_from_mm(kPlaceMm.high)));
       mesh.add_vertex(z_up(in_scene));
     }
     const Eigen::Matrix3d linear = scene_from_node.topLeftCorner<3, 3>();
@@ -267,6 +286,72 @@ struct Reader {
   }
 };
 
+/// The JSON of a file; of a binary one its first chunk. Whatever is wrong with it is left to tinygltf to say.
+std::string_view json_of(std::string_view content, bool binary) {
+  if (!binary) return content;
+  constexpr std::size_t kBefore = 20;  // the file's header and the chunk's
+  std::uint32_t length = 0;
+  if (content.size() < kBefore) return {};
+  std::memcpy(&length, content.data() + 12, sizeof length);
+  return content.substr(kBefore, length);
+}
+
+/// How tinygltf comes by the files that buffers name.
+struct Buffers {
+  std::string file;  ///< that names them
+  std::uint64_t bytes = 0;
+  std::string problem;  ///< an error's whole line
+
+  tinygltf::FsCallbacks callbacks() { return {exists, as_it_is, read, nullptr, this}; }
+
+ private:
+  // tinygltf would also look in the working directory; the only place is said to hold every file.
+  static bool exists(const std::string&, void*) { return true; }
+  static std::string as_it_is(const std::string& name, void*) { return name; }
+  static bool read(std::vector<unsigned char>* to, std::string*, const std::string& name, void* self) {
+    auto& buffers = *static_cast<Buffers*>(self);
+    try {
+      const std::string content = read_text(path_named_in(buffers.file, "/buffers", name));
+      buffers.bytes += content.size();
+      require_within_limit(buffers.file, "/buffers", buffers.bytes, "buffers");
+      to->assign(content.begin(), content.end());
+      return true;
+    } catch (const Error& problem) {
+      buffers.problem = problem.what();
+      return false;
+    }
+  }
+};
+
+void load(const std::filesystem::path& path, tinygltf::Model& model) {
+  constexpr std::size_t kBytesPerValue = 1000;  // of tinygltf's materials, the largest of what an empty {} becomes
+  const std::string content = read_text(path), file = path.string();
+  const bool binary = path.extension() == ".glb";
+  const std::string_view text = json_of(content, binary);
+  require_modest_json(text, file, kBytesPerValue);
+  require_known_extensions(text, file);
+  if (content.size() > std::numeric_limits<unsigned int>::max()) throw Error(file, "is larger than 4 GB");
+  const auto size = static_cast<unsigned int>(content.size());
+  Buffers buffers{.file = file, .problem = {}};
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks(buffers.callbacks());
+  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
+                           void*) { return true; },
+                        nullptr);
+  std::string problem, warning;
+  const bool loaded =
+      binary ? loader.LoadBinaryFromMemory(&model, &problem, &warning,
+                                           reinterpret_cast<const unsigned char*>(content.data()), size, "")
+             : loader.LoadASCIIFromString(&model, &problem, &warning, content.data(), size, "");
+  if (!buffers.problem.empty()) throw Error(buffers.problem);
+  if (loaded) return;
+  constexpr std::size_t kMost = 300;  // tinygltf quotes what it cannot read, whole
+  for (char& c : problem) c = c == '\n' ? ' ' : c;
+  problem.resize(std::min(problem.size(), kMost));
+  problem.resize(problem.find_last_not_of(' ') + 1);
+  throw Error(file, "is no readable glTF: " + problem);
+}
+
 }  // namespace
 
 void GltfPart::transform(const Pose& pose) {
@@ -275,21 +360,8 @@ void GltfPart::transform(const Pose& pose) {
 }
 
 std::vector<GltfPart> read_gltf(const std::filesystem::path& path) {
-  Reader reader{path.string(), {}, 0, {}, {}};
-  if (!std::filesystem::is_regular_file(path)) throw Error(path.string(), "no such file");
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                           void*) { return true; },
-                        nullptr);
-  std::string problem, warning;
-  const bool loaded = path.extension() == ".glb"
-                          ? loader.LoadBinaryFromFile(&reader.model, &problem, &warning, path.string())
-                          : loader.LoadASCIIFromFile(&reader.model, &problem, &warning, path.string());
-  if (!loaded) {
-    while (!problem.empty() && (problem.back() == '\n' || problem.back() == ' ')) problem.pop_back();
-    for (char& c : problem) c = c == '\n' ? ' ' : c;
-    throw Error(path.string(), "is no readable glTF: " + problem);
-  }
+  Reader reader{path.string(), {}, 0, {}, 0, {}};
+  load(path, reader.model);
   if (reader.model.scenes.empty()) throw Error(path.string(), "/scenes", "is empty, expected at least one scene");
   const int scene = std::max(reader.model.defaultScene, 0);
   if (scene >= static_cast<int>(reader.model.scenes.size())) throw Error(path.string(), "/scene", "does not exist");

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "core/input_policy.h"
+#include "core/lengths.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/library.h"
@@ -17,6 +19,7 @@ Revolved revolved_from_json(const JsonReader& json) {
     revolved.profile.push_back(point.vector2({0.0, kCupLengthMm.high}) * kMetresPerMm);
   const std::vector<Eigen::Vector2d>& profile = revolved.profile;
   if (profile.size() < 3) json.fail("must hold at least 3 points");
+  if (profile.size() > kMostProfilePoints) json.fail(fmt::format("must hold at most {} points", kMostProfilePoints));
   if (profile.front().x() != 0.0 || profile.back().x() != 0.0) json.fail("must begin and end on the axis (radius 0)");
   double twice_area = 0.0;
   for (std::size_t i = 1; i < profile.size(); ++i)
@@ -70,10 +73,10 @@ Object object_from_json(const JsonReader& json) {
   Object object;
   object.world_from_object = rotation_from_json(json);
   if (json.has("gltf")) {
-    object.thing = std::filesystem::path(json.file()).parent_path() / json.text("gltf");
+    object.thing = path_named_in(json.file(), json.pointer() + "/gltf", json.text("gltf"));
     if (json.has("position_mm"))
       object.world_from_object =
-          Eigen::Translation3d(json.at("position_mm").vector3() * kMetresPerMm) * object.world_from_object;
+          Eigen::Translation3d(json.at("position_mm").vector3(kPlaceMm) * kMetresPerMm) * object.world_from_object;
     return object;
   }
   object.thing = solid_from_json(json.at("solid"));

@@ -1,5 +1,6 @@
 #include "sim/scene/optics_model.h"
 
+#include "core/lengths.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -23,7 +24,7 @@ OpticsModel optics_from_json(const JsonReader& json, OpticsModel optics) {
   constexpr Range kDistortion{-0.2, 0.2};
   optics.f_number = json.number_or("f_number", optics.f_number, {0.7, 64.0});
   optics.pixel_um = json.number_or("pixel_um", optics.pixel_um, {0.5, 50.0});
-  optics.focus = json.metres_or("focus_mm", optics.focus, kNonNegative);
+  optics.focus = json.metres_or("focus_mm", optics.focus, kLengthOrNoneMm);
   optics.beam = json.metres_or("beam_mm", optics.beam, {0.0, 5.0});
   optics.camera_k1 = json.number_or("camera_k1", optics.camera_k1, kDistortion);
   optics.camera_k2 = json.number_or("camera_k2", optics.camera_k2, kDistortion);

@@ -7,16 +7,21 @@
 #include <utility>
 
 #include "core/image_file.h"
+#include "core/input_policy.h"
+#include "core/lengths.h"
 #include "core/units.h"
 #include "sim/scene/library.h"
 
 namespace fathom {
 namespace {
 
+constexpr std::uint64_t kBytesPerPosition = 16;  // of a pattern: its brightness, sharp and blurred
+
 /// A grey PNG, a pixel for each position of the grid; relative to the file that names it.
 void read_pattern_image(const JsonReader& json, PatternModel& pattern) {
-  pattern.image_file = (std::filesystem::path(json.file()).parent_path() / json.text()).string();
+  pattern.image_file = path_named_in(json.file(), json.pointer(), json.text()).string();
   const Image<std::uint16_t> grey = read_png_grey(pattern.image_file);
+  require_within_limit(pattern.image_file, "", bytes_of({grey.size(), kBytesPerPosition}), "positions");
   const std::uint16_t brightest = *std::max_element(grey.pixels().begin(), grey.pixels().end());
   if (brightest == 0) json.fail("is black all over; a pattern needs bright pixels");
   if (grey.width() < 16 || grey.height() < 16) json.fail("must have at least 16 × 16 pixels");
@@ -33,6 +38,11 @@ void read_pattern(const JsonReader& json, PatternModel& pattern) {
   pattern.tile_rows = json.integer_or("tile_rows", pattern.tile_rows, 16, 512);
   pattern.tiles_across = json.integer_or("tiles_across", pattern.tiles_across, 1, 64);
   pattern.tiles_down = json.integer_or("tiles_down", pattern.tiles_down, 1, 64);
+  require_within_limit(
+      json.file(), json.pointer(),
+      bytes_of({static_cast<std::uint64_t>(pattern.tile_columns * pattern.tile_rows),
+                static_cast<std::uint64_t>(pattern.tiles_across * pattern.tiles_down), kBytesPerPosition}),
+      "positions");
   pattern.step_px = json.number_or("step_px", pattern.step_px, {0.25, 16.0});
   const int positions = pattern.tile_columns * pattern.tile_rows;
   // Dots keep a distance of 2 positions, so random placement fills at most about 0.18 of the grid; below 0.09 windows
@@ -80,8 +90,8 @@ Eigen::Vector2i size_from_json(const JsonReader& json) {
 
 /// Everything but the pose.
 void read_model(const JsonReader& json, SensorModel& sensor) {
-  sensor.baseline = json.metres_or("baseline_mm", sensor.baseline, kPositive);
-  sensor.wavelength_nm = json.number_or("wavelength_nm", sensor.wavelength_nm, kPositive);
+  sensor.baseline = json.metres_or("baseline_mm", sensor.baseline, kLengthMm);
+  sensor.wavelength_nm = json.number_or("wavelength_nm", sensor.wavelength_nm, {100.0, 5000.0});
   if (json.has("ir_size_px")) {
     const Eigen::Vector2i size = size_from_json(json.at("ir_size_px"));
     sensor.ir_width = size.x(), sensor.ir_height = size.y();
@@ -97,11 +107,16 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
         fmt::format("ir_size_px must be twice depth_size_px in width and at least twice, by an even number, in height; "
                     "got {}×{} and {}×{}",
                     sensor.ir_width, sensor.ir_height, sensor.width, sensor.height));
-  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, kPositive);
-  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2();
-  sensor.reference = json.metres_or("reference_mm", sensor.reference, kPositive);
-  sensor.near = json.metres_or("near_mm", sensor.near, kPositive);
-  sensor.far = json.metres_or("far_mm", sensor.far, kPositive);
+  constexpr std::uint64_t kBytesPerPixel = 96;  // of a photometric capture: images, speckle, reference, matcher
+  require_within_limit(json.file(), json.pointer(),
+                       bytes_of({static_cast<std::uint64_t>(sensor.ir_width),
+                                 static_cast<std::uint64_t>(sensor.ir_height), kBytesPerPixel}),
+                       "pixels");
+  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, {1.0, 1e6});
+  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2({-1e6, 1e6});
+  sensor.reference = json.metres_or("reference_mm", sensor.reference, kLengthMm);
+  sensor.near = json.metres_or("near_mm", sensor.near, kLengthMm);
+  sensor.far = json.metres_or("far_mm", sensor.far, kLengthMm);
   if (sensor.far <= sensor.near) json.fail_at("far_mm", "must be above near_mm");
   sensor.radiant_dn_mm2 = json.number_or("radiant_dn_mm2", sensor.radiant_dn_mm2, kPositive);
   if (json.has("noise")) sensor.noise = noise_from_json(json.at("noise"));
@@ -116,13 +131,13 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
 }
 
 Pose pose_from_json(const JsonReader& json, double baseline) {
-  const double height = json.metres("height_mm", kPositive);
+  const double height = json.metres("height_mm", kLengthMm);
   const Eigen::Vector3d midpoint(0.0, 0.0, height);
   const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, {-180.0, 180.0}));
   if (json.has("aim_mm") == json.has("pitch_deg")) json.fail("needs either aim_mm or pitch_deg beside height_mm");
   if (json.has("pitch_deg"))
     return camera_pose(midpoint, radians_from_deg(json.number("pitch_deg", {-90.0, 90.0})), 0.0, roll, baseline);
-  const Eigen::Vector3d forward = json.at("aim_mm").vector3() * kMetresPerMm - midpoint;
+  const Eigen::Vector3d forward = json.at("aim_mm").vector3(kPlaceMm) * kMetresPerMm - midpoint;
   if (forward.norm() == 0.0) json.fail_at("aim_mm", "must not be the sensor's own place");
   const double horizontal = std::hypot(forward.x(), forward.y());
   const double yaw = horizontal > 0.0 ? std::atan2(-forward.x(), forward.y()) : 0.0;

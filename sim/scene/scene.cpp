@@ -6,10 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/input_policy.h"
+#include "core/lengths.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/library.h"
 #include "sim/scene/medium_json.h"
+#include "sim/scene/mesh_memory.h"
 
 namespace fathom {
 namespace {
@@ -21,9 +24,9 @@ Desk desk_from_json(const JsonReader& json) {
   Desk desk;
   desk.albedo = json.number_or("albedo", desk.albedo, kAlbedo);
   desk.glaze = glaze_from_json(json);
-  if (json.has("size_mm")) desk.size = json.at("size_mm").vector2() * kMetresPerMm;
-  if (json.has("centre_mm")) desk.centre = json.at("centre_mm").vector2() * kMetresPerMm;
+  if (json.has("size_mm")) desk.size = json.at("size_mm").vector2(kPlaceMm) * kMetresPerMm;
   if (desk.size.minCoeff() <= 0.0) json.fail_at("size_mm", "must be two lengths above 0");
+  if (json.has("centre_mm")) desk.centre = json.at("centre_mm").vector2(kPlaceMm) * kMetresPerMm;
   return desk;
 }
 
@@ -47,6 +50,7 @@ std::vector<Eigen::Vector2d> profile_from_json(const JsonReader& json) {
       item.fail("must not be lower than the point before it");
   }
   if (profile.size() < 3) json.fail("must hold at least 3 points, from the axis to the rim");
+  if (profile.size() > kMostProfilePoints) json.fail(fmt::format("must hold at most {} points", kMostProfilePoints));
   if (profile.front().x() != 0.0) json.fail("must start on the axis (radius 0)");
   return profile;
 }
@@ -179,7 +183,14 @@ Scene scene_from_json(const JsonReader& json) {
     else
       scene.desk = desk_from_json(json.at("desk"));
   }
-  for (const JsonReader& cup : json.items_or_none("cups")) scene.cups.push_back(cup_from_json(cup));
+  std::uint64_t claimed = 0;
+  for (const JsonReader& cup : json.items_or_none("cups")) {
+    scene.cups.push_back(cup_from_json(cup));
+    if (const auto* mesh = std::get_if<MeshCup>(&scene.cups.back().shape))
+      for (const GltfPart& part : mesh->parts)
+        claimed += traced_bytes(part.mesh.vertices.size(), part.mesh.triangles.size());
+    require_within_limit(cup.file(), cup.pointer(), claimed, "triangles");
+  }
   for (const JsonReader& object : json.items_or_none("objects")) scene.objects.push_back(object_from_json(object));
   return scene;
 }

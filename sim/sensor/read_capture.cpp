@@ -12,8 +12,8 @@ namespace {
 Image<float> read_image(const std::filesystem::path& path, int width, int height) {
   Image<float> image = read_exr_channel(path, "Y");
   if (image.width() != width || image.height() != height)
-    throw Error(path.string(), fmt::format("is {} × {} pixels, expected the sensor's {} × {}", image.width(),
-                                           image.height(), width, height));
+    throw Error(path.string(),
+                fmt::format("is {} × {} pixels, expected {} × {}", image.width(), image.height(), width, height));
   return image;
 }
 
@@ -29,6 +29,14 @@ RecordedCapture read_capture(const std::filesystem::path& folder) {
   const int frames = json.at("frames").integer(1, kMostFrames);
   for (int i = 0; i < frames; ++i) capture.frames.push_back(frame_folder(folder, i, frames));
   return capture;
+}
+
+void check_frames(const RecordedCapture& capture) {
+  const SensorModel& sensor = capture.sensor;
+  for (const std::filesystem::path& folder : capture.frames) {
+    if (capture.infrared) check_exr(folder / "ir.exr", sensor.ir_width, sensor.ir_height);
+    check_exr(folder / "disparity.exr", sensor.width, sensor.height);
+  }
 }
 
 Frame read_frame(const RecordedCapture& capture, std::size_t index, bool infrared) {

@@ -303,5 +303,35 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   EXPECT_EQ(error_of(with("/liquids/empty", "water")), "/liquids/empty: is a reserved name and no liquid\n");
 }
 
+TEST_F(CampaignCommand, SaysHowMuchItIsGoingToWrite) {
+  const ProgramRun run = campaign(kSpec, "out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  // 8 clouds of 640 × 480 points of 16 bytes.
+  EXPECT_TRUE(run.err.starts_with((folder / "out").string() + ": 8 frames are up to 39.4 MB, of which 39.4 MB are "
+                                                              "still to be written; the disk has "))
+      << run.err;
+  const ProgramRun again = campaign(kSpec, "out");
+  EXPECT_NE(again.err.find("of which 0 MB are"), std::string::npos) << again.err;
+  EXPECT_EQ(campaign(kSpec, "quiet", "--quiet").err, "");
+}
+
+TEST_F(CampaignCommand, AsksBeforeItWritesMoreThanTwentyGigabytes) {
+  Json spec = kSpec;
+  spec["trials"] = 1100;  // 4400 frames: 21.6 GB
+  const ProgramRun asked = campaign(spec, "large");
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_TRUE(asked.err.starts_with("error: 4400 frames are up to 21.6 GB")) << asked.err;
+  EXPECT_NE(asked.err.find("20 GB are written only with --yes"), std::string::npos) << asked.err;
+  EXPECT_FALSE(fs::exists(folder / "large"));
+  // No disk has as much; nor could the plan of it be held in memory.
+  for (const char* key : {"sessions", "pours", "placements", "trials"}) spec[key] = 10000;
+  EXPECT_EQ(campaign(spec, "endless").exit_code, 2);
+  const ProgramRun endless = campaign(spec, "endless", "--yes --truth " + (folder / "truth.json").string());
+  EXPECT_EQ(endless.exit_code, 1);
+  EXPECT_NE(endless.err.find("choose a larger disk or fewer frames"), std::string::npos) << endless.err;
+  EXPECT_FALSE(fs::exists(folder / "endless"));
+  EXPECT_FALSE(fs::exists(folder / "truth.json"));
+}
+
 }  // namespace
 }  // namespace fathom

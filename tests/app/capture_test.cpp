@@ -227,6 +227,26 @@ TEST_F(CaptureCommand, MistakesAreAnsweredInOneLineAndLeaveNothing) {
   }
 }
 
+TEST_F(CaptureCommand, OfManyFramesSaysTheirSizeAndAsksForMoreThanTwentyGigabytes) {
+  const std::filesystem::path out = folder_ / "out";
+  const std::string command = fmt::format("capture {} -o {} --mode geometric ", scene_.string(), out.string());
+  const ProgramRun two = run_fathom(command + "--frames 2");
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  double bytes = 0.0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    if (entry.path().string().find("frame_") != std::string::npos && entry.is_regular_file())
+      bytes += static_cast<double>(entry.file_size());
+  double said = 0.0;
+  ASSERT_EQ(std::sscanf(two.err.c_str() + out.string().size(), ": 2 frames are up to %lf MB", &said), 1) << two.err;
+  EXPECT_GE(1e6 * said, bytes);
+  EXPECT_LE(1e6 * said, 2.0 * bytes);  // a cloud is most of it, the images are compressed
+  std::filesystem::remove_all(out);
+  const ProgramRun many = run_fathom(command + "--frames 100000");
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_NE(many.err.find("20 GB are written only with --yes"), std::string::npos) << many.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(CaptureCommand, BadUsageIsTwo) {
   EXPECT_EQ(run_fathom(fmt::format("capture {}", scene_.string())).exit_code, 2);  // -o DIR is missing
   EXPECT_EQ(run_fathom(fmt::format("capture {} -o x --mode exact", scene_.string())).exit_code, 2);

@@ -1,6 +1,7 @@
 // `fathom verify` as users run it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -75,6 +76,30 @@ TEST(VerifyCommand, RefusesImpossibleValues) {
     EXPECT_EQ(run.exit_code, 2) << arguments;
     EXPECT_NE(run.err.find(option + ": must be a number"), std::string::npos) << run.err;
   }
+}
+
+TEST(VerifyCommand, RefusesWalksWithoutAnEnd) {
+  for (const std::string endless :
+       {"--scattering-per-mm 1 --thickness-mm 1e9", "--scattering-per-mm 1e9 --thickness-mm 1",
+        "--scattering-per-mm 1e9 --thickness-mm 1e9 --photons 2", "--scattering-per-mm 1e-9 --thickness-mm 1",
+        "--scattering-per-mm 1 --thickness-mm 1e-9",
+        "--scattering-per-mm 1 --thickness-mm 1 --photons 1099511627776"}) {
+    const ProgramRun run = run_fathom("verify slab --index 1.33 --absorption-per-mm 0 --anisotropy 0 " + endless);
+    EXPECT_EQ(run.exit_code, 1) << endless;
+    EXPECT_NE(run.err.find("error: verify slab: "), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("allowed"), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  // Index so low that what has entered hardly leaves.
+  EXPECT_EQ(run_fathom("verify slab --index 1e-9 --absorption-per-mm 0 --scattering-per-mm 0 --anisotropy 0 "
+                       "--thickness-mm 1")
+                .exit_code,
+            1);
+  // Or nothing enters at all.
+  const ProgramRun mirror = run_fathom(
+      "verify slab --index 1e-300 --absorption-per-mm 0 --scattering-per-mm 0 --anisotropy 0 --thickness-mm 1 --json");
+  ASSERT_EQ(mirror.exit_code, 0) << mirror.err;
+  EXPECT_EQ(Json::parse(mirror.out)["reflectance_total"]["value"], 1.0);
 }
 
 TEST(VerifyCommand, AnswersBadUsageWithTwo) {

@@ -6,11 +6,14 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 #include "core/rng.h"
 
 namespace fathom {
@@ -180,6 +183,123 @@ TEST_F(CloudFiles, WordsWhereNumbersBelongNameTheirLine) {
       "y\nproperty float z\nend_header\n";
   EXPECT_EQ(error_of(ply + "525\n1 2 3\n"), "");
   EXPECT_EQ(error_of(ply + "525\n1 2 three\n"), "line 11: must hold numbers, got 'three'");
+}
+
+/// The bytes of numbers, in this machine's order or turned round.
+template <class... Numbers>
+std::string raw(bool turned, Numbers... numbers) {
+  std::string all;
+  const auto put = [&](auto number) {
+    std::string bytes(sizeof number, '\0');
+    std::memcpy(bytes.data(), &number, sizeof number);
+    if (turned) std::reverse(bytes.begin(), bytes.end());
+    all += bytes;
+  };
+  (put(numbers), ...);
+  return all;
+}
+
+using Byte = std::uint8_t;
+
+/// Colours in any order, lists among the vertices and elements before them are all right.
+TEST_F(CloudFiles, PlyIsReadInAnyOrderOfWhatItHolds) {
+  const auto header = [](const std::string& format, const std::string& vertex) {
+    return "ply\nformat " + format +
+           " 1.0\ncomment made by hand\nelement face 2\nproperty list uchar int "
+           "vertex_indices\nproperty short flag\nelement vertex 2\n" +
+           vertex + "end_header\n";
+  };
+  const std::string colours =
+      "property uchar blue\nproperty float z\nproperty uchar red\nproperty double x\nproperty uchar alpha\nproperty "
+      "short y\nproperty list uint float weights\nproperty uchar intensity\n";
+  const auto expect_points = [&](const std::string& text) {
+    const Cloud cloud = read_cloud(written("a.ply", text));
+    ASSERT_EQ(cloud.points.size(), 2u);
+    EXPECT_EQ(cloud.points[0], Eigen::Vector3f(0.5f, -2.0f, 1.5f));
+    EXPECT_EQ(cloud.points[1], Eigen::Vector3f(0.25f, 3.0f, 2.5f));
+    EXPECT_EQ(cloud.intensity, (std::vector<float>{7.0f, 200.0f}));
+    EXPECT_EQ(cloud.width, 2);
+    EXPECT_EQ(cloud.height, 1);
+  };
+  expect_points(header("ascii", colours) +
+                "3 0 1 0 5\n0 6\n1 1.5 2 0.5 255 -2 2 0.1 0.9 7\n\n1 2.5 2 0.25 255 3 0 200\n");
+  for (const bool turned : {false, true}) {
+    const std::string faces = raw(turned, Byte{3}, 0, 1, 0, std::int16_t{5}) + raw(turned, Byte{0}, std::int16_t{6});
+    expect_points(header(turned ? "binary_big_endian" : "binary_little_endian", colours) + faces +
+                  raw(turned, Byte{1}, 1.5f, Byte{2}, 0.5, Byte{255}, std::int16_t{-2}, 2u, 0.1f, 0.9f, Byte{7}) +
+                  raw(turned, Byte{1}, 2.5f, Byte{2}, 0.25, Byte{255}, std::int16_t{3}, 0u, Byte{200}));
+  }
+}
+
+TEST_F(CloudFiles, PlySaysItsGridByACameraOrByItsInfo) {
+  const std::string start = "ply\nformat ascii 1.0\n";
+  const std::string vertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string points = "1 2 3\n1 2 3\n1 2 3\n1 2 3\n";
+  const auto size_of = [&](const std::string& text) {
+    const Cloud cloud = read_cloud(written("a.ply", text));
+    return std::pair(cloud.width, cloud.height);
+  };
+  EXPECT_EQ(size_of(start + "obj_info num_cols 2\nobj_info num_rows 2\n" + vertices + "end_header\n" + points),
+            std::pair(2, 2));
+  EXPECT_EQ(size_of(start + "obj_info num_cols 3\nobj_info num_rows 2\n" + vertices + "end_header\n" + points),
+            std::pair(4, 1));
+  EXPECT_EQ(
+      size_of(start + vertices + "element camera 1\nproperty int viewportx\nproperty int viewporty\nend_header\n" +
+              points + "2 2\n"),
+      std::pair(2, 2));
+}
+
+TEST_F(CloudFiles, APlyGridHasPlacesWithoutAPoint) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nobj_info num_cols 3\nobj_info num_rows 1\nelement vertex 2\nproperty float x\nproperty "
+      "float y\nproperty float z\nelement range_grid 3\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n4 5 "
+      "6\n";
+  const Cloud cloud = read_cloud(written("a.ply", text + "1 1\n0\n1 0\n"));
+  EXPECT_EQ(cloud.width, 3);
+  EXPECT_EQ(cloud.points.at(0), Eigen::Vector3f(4.0f, 5.0f, 6.0f));
+  EXPECT_TRUE(cloud.points.at(1).array().isNaN().all());
+  EXPECT_EQ(cloud.points.at(2), Eigen::Vector3f(1.0f, 2.0f, 3.0f));
+  for (const char* vertex : {"2", "-1", "nan"})
+    EXPECT_EQ(error_of(text + fmt::format("1 {}\n0\n1 0\n", vertex)),
+              fmt::format("has the vertex {} in its range_grid, but only 2 vertices", vertex));
+}
+
+TEST_F(CloudFiles, PlyListsThatEndTooEarlyAreNamed) {
+  const std::string lists =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty list int uchar tags\n"
+      "end_header\n";
+  const std::string text = "ply\nformat ascii 1.0\n" + lists;
+  EXPECT_EQ(error_of(text + "1 2 3 2 8 9\n"), "");
+  EXPECT_EQ(error_of(text + "1 2 3 3 8 9\n"), "line 9: must hold more than 6 numbers");
+  EXPECT_EQ(error_of(text + "1 2 3 -1\n"), "has a list 'tags' of -1 values");
+  EXPECT_EQ(error_of(text + "1 2 3 nan\n"), "has a list 'tags' of nan values");
+  const std::string binary = "ply\nformat binary_little_endian 1.0\n" + lists;
+  EXPECT_EQ(error_of(binary + raw(false, 1.0f, 2.0f, 3.0f, 1, Byte{1})), "");
+  for (const int length : {2, 2147483647, -1})
+    EXPECT_NE(error_of(binary + raw(false, 1.0f, 2.0f, 3.0f, length, Byte{1})), "") << length;
+  EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty list float int x\nend_header\n"),
+            "header: has a list 'x' whose length is no whole number");
+  EXPECT_EQ(error_of("ply\nformat ascii 1.0\nproperty float x\nend_header\n"),
+            "header: has a property before the first element");
+  EXPECT_EQ(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar float x\nproperty float y\n"
+                     "property float z\nend_header\n1 1 2 3\n"),
+            "header: has no field 'x'; a cloud needs x, y and z");
+}
+
+/// Of what a few bytes promise no memory is claimed.
+TEST_F(CloudFiles, PackedPointsThatCannotBeAreRefused) {
+  const auto packed = [](std::uint64_t points, std::uint32_t there) {
+    return fmt::format(
+               "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {}\nHEIGHT 1\nPOINTS {}\nDATA "
+               "binary_compressed\n",
+               points, points) +
+           raw(false, there, static_cast<std::uint32_t>(12 * points)) + std::string(there, '\0');
+  };
+  EXPECT_EQ(error_of(packed(190'000'000, 100)),
+            "header: promises 5.32 GB of points, at most 1 GB is read; raise it with --max-input-mb");
+  EXPECT_EQ(error_of(packed(30'000'000, 100)), "is damaged: 360000000 bytes cannot be packed in 100");
+  const InputPolicyScope scope({.most_bytes = 6'000'000'000});
+  EXPECT_EQ(error_of(packed(190'000'000, 100)), "is damaged: 2280000000 bytes cannot be packed in 100");
 }
 
 /// Files cut off anywhere and files with flipped bytes: an Error or a cloud, nothing else.

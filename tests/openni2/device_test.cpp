@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "sim/scene/geometry.h"
@@ -11,6 +13,7 @@
 #include "sim/sensor/device_outputs.h"
 #include "sim/sensor/read_capture.h"
 #include "sim/sensor/registration.h"
+#include "tests/app/run_fathom.h"
 #include "tests/core/expect_error.h"
 #include "tests/openni2/client.h"
 
@@ -18,6 +21,7 @@ namespace fathom {
 namespace {
 
 using openni::STATUS_OK;
+namespace fs = std::filesystem;
 
 constexpr double kFocal_px = 285.171;  ///< of the captured scene's sensor, half the Xtion's
 
@@ -277,6 +281,96 @@ TEST_F(Device, ASceneThatCannotBeShotIsAnsweredWhenItStarts) {
   EXPECT_NE(client.stream.start(), STATUS_OK);
   const std::string line = openni::OpenNI::getExtendedError();
   expect_error([&] { build_geometry(read_setup(scene).scene, 830.0); }, {line.substr(1, line.size() - 2)});
+}
+
+/// A copy of the captured frames whose `file` is damaged: cut to a part of its length, or with wrong bytes in the
+/// middle.
+class Damaged {
+ public:
+  Damaged(const Captured& captured, const std::string& file) : path_(fs::path(frames_) / file) {
+    fs::copy(captured.frames, frames_, fs::copy_options::recursive);
+  }
+  void cut(double share) const {
+    fs::resize_file(path_, static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(path_))));
+  }
+  void scribble() const {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(fs::file_size(path_) / 2));
+    file << std::string(200, '\xff');
+  }
+  const std::string& frames() const { return frames_; }
+  std::string path() const { return path_.string(); }
+
+ private:
+  TemporaryFolder folder_;
+  std::string frames_ = (folder_ / "frames").string();
+  fs::path path_;
+};
+
+void expect_one_line_about(const std::string& text, const std::string& what) {
+  EXPECT_NE(text.find(what), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), text.size() - 1) << text;
+}
+
+TEST_F(Device, ADamagedRecordingIsNamedWhenItIsOpened) {
+  for (const char* file : {"frame_0000/disparity.exr", "frame_0002/disparity.exr", "frame_0001/ir.exr"}) {
+    const Damaged damaged(captured(), file);
+    for (const double share : {0.95, 0.5, 0.01, 0.0}) {
+      damaged.cut(share);
+      expect_one_line_about(error_of_opening(damaged.frames()), damaged.path());
+    }
+    fs::remove(damaged.path());
+    expect_one_line_about(error_of_opening(damaged.frames()), damaged.path());
+    fs::copy(fs::path(captured().frames) / "truth.exr", damaged.path());  // an image, but with no channel of that name
+    if (std::string(file).ends_with("ir.exr")) {
+      expect_one_line_about(error_of_opening(damaged.frames()), damaged.path());  // and not of the size
+    }
+  }
+}
+
+TEST_F(Device, ADamagedFirstFrameIsNamedWhenTheStreamStarts) {
+  const Damaged damaged(captured(), "frame_0000/disparity.exr");
+  damaged.scribble();
+  Client client(damaged.frames(), openni::SENSOR_DEPTH);
+  EXPECT_NE(client.stream.start(), STATUS_OK);
+  expect_one_line_about(openni::OpenNI::getExtendedError(), damaged.path());
+}
+
+TEST_F(Device, ADamagedLaterFrameIsNamedByTheStream) {
+  const Damaged damaged(captured(), "frame_0002/disparity.exr");
+  damaged.scribble();
+  Client client(damaged.frames(), openni::SENSOR_DEPTH);
+  ASSERT_EQ(client.device.getPlaybackControl()->setSpeed(-1.0f), STATUS_OK);  // a frame for each read
+  ASSERT_EQ(client.stream.start(), STATUS_OK);
+  EXPECT_EQ(client.read().number, 1);
+  EXPECT_EQ(client.read().number, 2);
+  openni::VideoStream* streams[] = {&client.stream};
+  int ready = 0;
+  EXPECT_EQ(openni::OpenNI::waitForAnyStream(streams, 1, &ready, 2000), openni::STATUS_TIME_OUT);
+  OniVideoMode mode;
+  EXPECT_NE(client.stream.getProperty(openni::STREAM_PROPERTY_VIDEO_MODE, &mode), STATUS_OK);
+  expect_one_line_about(openni::OpenNI::getExtendedError(), damaged.path());
+  client.stream.stop();
+  EXPECT_NE(client.stream.start(), STATUS_OK);
+  expect_one_line_about(openni::OpenNI::getExtendedError(), damaged.path());
+}
+
+TEST_F(Device, DetectNamesTheDamagedFileAtOnce) {
+  for (const char* file : {"frame_0000/disparity.exr", "frame_0002/disparity.exr"})
+    for (const bool cut : {true, false}) {
+      const Damaged damaged(captured(), file);
+      if (cut)
+        damaged.cut(0.5);
+      else
+        damaged.scribble();
+      const auto start = std::chrono::steady_clock::now();
+      const ProgramRun run = run_fathom("detect --frames 3 --live " + damaged.frames());
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      EXPECT_EQ(run.exit_code, 1);
+      EXPECT_NE(run.err.find("error: " + damaged.path() + ": "), std::string::npos) << run.err;
+      EXPECT_EQ(run.err.find("imeout"), std::string::npos) << run.err;
+      EXPECT_LT(seconds, 8.0);  // one is enough on an idle machine; the wait for a frame that does not come is 10
+    }
 }
 
 TEST_F(Device, ARecordingPlaysBackTheSameFrames) {

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "sim/optics/walk_length.h"
 #include "tests/optics/adding_doubling.h"
 
 namespace fathom {
@@ -124,6 +125,66 @@ TEST(LayerLight, ErrorsAreAsSmallAsThePlanAsks) {
 TEST(LayerLight, AnEndlessWalkIsRefused) {
   const LayerSpace space({{{1.3, 1.0, 10.0, 0.0}, 0.01}, {{1.3, 0.0, 10.0, 0.0}, kInfinite}});
   EXPECT_THROW(light_in_layers(space, 0.0, 1, {}), Error);
+}
+
+/// A space that counts what a walk meets and where it scatters.
+struct Counted {
+  const LayerSpace& space;
+  mutable std::uint64_t steps = 0;
+  const Turbid& medium(std::uint64_t region) const { return space.medium(region); }
+  LayerSpace::Boundary next_boundary(const Walker& walker, double reach) const {
+    ++steps;
+    return space.next_boundary(walker, reach);
+  }
+  template <class Visitor>
+  bool meet(const LayerSpace::Boundary& boundary, Walker& walker, Rng& rng, Visitor& visitor) const {
+    return space.meet(boundary, walker, rng, visitor);
+  }
+};
+
+struct Nobody {
+  void at_scattering(const Walker&) {}
+  void leaves(const Walker&, const Eigen::Vector3d&, double) {}
+};
+
+TEST(WalkLength, IsBoundedBeforeTheFirstWalk) {
+  const Layer slabs[] = {
+      {{1.0, 0.0, 1.0, 0.0}, 0.01},                                       // hardly scatters
+      {{1.33, 0.0, 1.0, 0.0}, 100.0},                                     // conservative and thick
+      {{1.33, 0.0, 1.0, 0.95}, 300.0},                                    // the same, forwards
+      {{1.33, 0.0, 1.0, -0.9}, 300.0},                                    // and backwards
+      {{10.0, 0.0, 1.0, 0.0}, 30.0},                                      // hard to leave
+      {{0.05, 0.0, 1.0, 0.0}, 30.0},                                      // hard to leave as well
+      {{1.5, 0.0, 1.0, 0.0}, 0.001},                                      // guides what it has scattered
+      {{1.5, 0.0, 1e-9, 0.0}, 1e6},                                       // the same in other units
+      {{1.33, 1e-4, 1.0, 0.0}, kInfinite},                                // absorbs at depth
+      {{1.33, 1e-3, 1.0, 0.9}, kInfinite}, {{1.33, 1.0, 0.0, 0.0}, 1.0},  // does not scatter
+  };
+  for (const Layer& slab : slabs)
+    for (const double angle : {0.0, 1.2}) {
+      const double specular = fresnel_reflectance(std::cos(angle), 1.0, slab.medium.n);
+      const auto inside =
+          refract({std::sin(angle), 0.0, -std::cos(angle)}, Eigen::Vector3d::UnitZ(), 1.0, slab.medium.n);
+      if (!inside) {
+        EXPECT_EQ(expected_steps(slab, angle), 0.0);
+        continue;
+      }
+      const LayerSpace space({slab});
+      const Counted counted{space};
+      constexpr int kWalks = 500;  // their mean is known to some ten percent
+      for (std::uint64_t i = 0; i < kWalks; ++i) {
+        Rng rng(5, i);
+        Nobody nobody;
+        random_walk_of_beam(counted, {Eigen::Vector3d::Zero(), *inside, 1.0 - specular, 0}, rng, nobody);
+      }
+      const double mean = static_cast<double>(counted.steps) / kWalks;
+      const std::string what =
+          fmt::format("n {} μa {} μs {} g {} d {} at {} rad: {} steps", slab.medium.n, slab.medium.absorption,
+                      slab.medium.scattering, slab.medium.anisotropy, slab.thickness, angle, mean);
+      // The beam's first flight and both of its parts are three steps that the estimate leaves out.
+      EXPECT_GT(expected_steps(slab, angle) + 3.0, mean) << what;
+      EXPECT_LT(expected_steps(slab, angle), 100.0 * mean) << what;
+    }
 }
 
 }  // namespace

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "core/files.h"
+#include "core/input_policy.h"
 #include "core/json.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
@@ -194,6 +198,101 @@ TEST(Gltf, ANodeHasOneParentAndFewAncestors) {
   expect_error(generations(91, 2), {"thing.gltf: /nodes/90: stands in the scene twice"});
   EXPECT_EQ(generations(101, 1)().size(), 1u);
   expect_error(generations(102, 1), {"thing.gltf: /nodes/101: is nested more than 100 deep"});
+}
+
+TEST(Gltf, DeepNestingIsAnsweredInOneLine) {
+  const TemporaryFolder folder;
+  const std::string deep = std::string(20'000, '[') + std::string(20'000, ']');
+  Json json = triangle();
+  json["nodes"][0]["extras"] = "HERE";
+  std::string text = json.dump();
+  text.replace(text.find("\"HERE\""), 6, deep);
+  write_text(folder / "deep.gltf", text);
+  expect_error([&] { read_gltf(folder / "deep.gltf"); }, {"deep.gltf: is nested more than 100 deep"});
+  const auto number = [](std::size_t value) {
+    std::string bytes(4, '\0');
+    for (int i = 0; i < 4; ++i) bytes[static_cast<std::size_t>(i)] = static_cast<char>(value >> (8 * i));
+    return bytes;
+  };
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  write_text(folder / "deep.glb", "glTF" + number(2) + number(20 + text.size()) + number(text.size()) + "JSON" + text);
+  expect_error([&] { read_gltf(folder / "deep.glb"); }, {"deep.glb: is nested more than 100 deep"});
+}
+
+TEST(Gltf, AMeshPlacedTenThousandTimesIsCountedBeforeItIsMade) {
+  Json json = triangle();
+  json["nodes"] = Json::array();
+  json["scenes"][0]["nodes"] = Json::array();
+  for (int i = 0; i < 1000; ++i) {
+    json["nodes"].push_back({{"mesh", 0}});
+    json["scenes"][0]["nodes"].push_back(i);
+  }
+  EXPECT_EQ(read(json)[0].mesh.triangles.size(), 1000u);
+  const InputPolicyScope scope({.most_bytes = 20'000'000});
+  EXPECT_NO_THROW(read(json));
+  json = triangle();
+  json["meshes"][0]["primitives"] = std::vector<Json>(300, json["meshes"][0]["primitives"][0]);
+  json["nodes"] = std::vector<Json>(300, Json{{"mesh", 0}});
+  for (int i = 0; i < 300; ++i) json["scenes"][0]["nodes"][static_cast<std::size_t>(i)] = i;
+  expect_error([&] { read(json); }, {"/meshes/0/primitives/", "promises 20 MB of triangles, at most 20 MB"});
+}
+
+TEST(Gltf, WhatCannotBeLeftOutMustBeKnown) {
+  Json json = triangle();
+  json["extensionsRequired"] = {"KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"};
+  EXPECT_NO_THROW(read(json));
+  json["extensionsRequired"] = {"KHR_materials_ior", "KHR_draco_mesh_compression"};
+  expect_error([&] { read(json); },
+               {"thing.gltf: /extensionsRequired: unknown extension 'KHR_draco_mesh_compression', choose from "
+                "KHR_materials_ior, KHR_materials_transmission, KHR_materials_volume"});
+  json["extensionsRequired"] = {7};
+  expect_error([&] { read(json); }, {"/extensionsRequired: unknown extension '7'"});
+  json.erase("extensionsRequired");
+  json["extensionsUsed"] = {"KHR_texture_transform"};
+  EXPECT_NO_THROW(read(json)) << "what may be left out";
+}
+
+TEST(Gltf, BuffersLieBesideTheirFile) {
+  const TemporaryFolder folder;
+  make_directory(folder / "scene");
+  Json json = triangle();
+  std::string bytes(42, '\0');
+  for (std::size_t i = 0; i < 9; ++i) {
+    const float coordinate = static_cast<float>(i == 8 ? 10 : i + 1);
+    std::memcpy(bytes.data() + 4 * i, &coordinate, 4);
+  }
+  bytes[38] = 1, bytes[40] = 2;
+  write_text(folder / "scene/a b.bin", bytes);
+  write_text(folder / "secret.bin", bytes);
+  const auto read_with = [&](const std::string& name) {
+    json["buffers"][0]["uri"] = name;
+    write_text(folder / "scene/thing.gltf", json.dump());
+    return read_gltf(folder / "scene/thing.gltf");
+  };
+  EXPECT_EQ(read_with("a%20b.bin")[0].mesh.vertices[0], Eigen::Vector3d(1, -3, 2));
+  const std::string outside = (folder / "secret.bin").string();
+  for (const std::string& name : {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"), outside}) {
+    expect_error([&] { read_with(name); }, {"thing.gltf: /buffers: names '", "--allow-outside"});
+    const InputPolicyScope scope({.allow_outside = true});
+    EXPECT_NO_THROW(read_with(name));
+  }
+  expect_error([&] { read_with("none.bin"); }, {"scene/none.bin: no such file"});
+
+  ASSERT_EQ(::mkfifo((folder / "scene/pipe.bin").c_str(), 0600), 0);
+  ::alarm(20);  // whoever waits for the pipe's writer ends here
+  expect_error([&] { read_with("pipe.bin"); }, {"pipe.bin: is no regular file"});
+  ::alarm(0);
+}
+
+TEST(Gltf, PositionsAreWithinAKilometre) {
+  expect_error(
+      [] {
+        read(triangle({1, 2, 3, 4, 5, 6, 7, 8, 1e22f}));
+      },
+      {"/meshes/0/primitives/0: has a position beyond 1000 m; lengths in glTF are metres"});
+  Json json = triangle();
+  json["nodes"][0]["scale"] = {1e6, 1, 1};
+  expect_error([&] { read(json); }, {"has a position beyond 1000 m"});
 }
 
 TEST(Gltf, TruncatedAndMissingFilesAreAnsweredInOneLine) {

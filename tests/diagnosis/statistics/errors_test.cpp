@@ -207,12 +207,15 @@ TEST(VarianceComponents, GoWithTheNumberOfPixels) {
 }
 
 TEST(RepeatVariances, PoolWithoutOutliers) {
+  constexpr double kVariance = 0.2 * 0.2 / 10.0;  // of the mean of ten repeats that scatter by 0.2 mm
   std::vector<Observation> observations(9, {"height_mm", {}, 0.0, 0.2, 10});
+  EXPECT_NEAR(repeat_variances(observations)[0], kVariance, 1e-12 * kVariance);  // rounding
   observations[4].repeat_sd = 20.0;
   const Eigen::VectorXd variances = repeat_variances(observations);
-  // The others' 0.2 mm, with one scatter among nine that counts three times its size: (8 + 9) / 9 of the variance
-  // pooled.
-  EXPECT_NEAR(variances[0], 0.2 * 0.2 / 10.0, 0.2 * 0.2 / 10.0);
+  // One's own scatter beside that of all, in which one of nine counts three times its size: (8 + 9) / 9 of the
+  // variance.
+  EXPECT_GT(variances[0], kVariance);
+  EXPECT_LT(variances[0], kVariance * 17.0 / 9.0);
   EXPECT_GT(variances[4], 100.0 * variances[0]);
 }
 
