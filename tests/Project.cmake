@@ -24,6 +24,16 @@ if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
     -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
 endif()
 
+# Hostile inputs, kills and races; many more by hand (README.md).
+if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
+  foreach(test "hostile --mutants 500 --quiet" "kills --kills 12" "races --races 8")
+    separate_arguments(test)
+    list(POP_FRONT test name)
+    add_test(NAME hostile.${name} COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/hostile/${name}.py $<TARGET_FILE:fathom> ${test})
+    set_tests_properties(hostile.${name} PROPERTIES PROCESSORS 2 TIMEOUT 1200)
+  endforeach()
+endif()
+
 if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
   add_test(NAME blind_smoke_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/blind/smoke_test.py $<TARGET_FILE:blind_score>)
   add_test(NAME blind_smoke COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/blind/smoke.py $<TARGET_FILE:fathom>)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""usage: tests/hostile/hostile.py FATHOM [--mutants N] [--seed S] [--kind KIND] [--number N] [--keep DIR]
+"""usage: tests/hostile/hostile.py FATHOM [--mutants N] [--seed S] [--kind KIND] [--number N] [--tell] [--keep DIR]
 
 Gives FATHOM mutants of small valid files of every kind that it reads, and judges each run: it ends by itself, within 20 s and 1 GB, with exit
 code 0, 1 or 2; a failure is one line `error: ...`, leaves nothing half-written and nothing outside of -o; results are whole and finite; no data
@@ -59,6 +59,8 @@ class Report:
 
     def add(self, number, kind, arguments, run, wrong, root):
         with self.lock:
+            if self.options.tell:
+                print(f"{number} {kind}: {run.stopped or run.code} {run.seconds:.2f} s {run.peak >> 20} MB {judge.last_line(run.err)}", flush=True)
             self.done += 1
             self.codes["signal" if run.code is None else run.code] += 1
             self.kinds[kind.split(",")[0]] += 1
@@ -106,6 +108,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--memory-mb", type=int, default=1024)
     parser.add_argument("--quiet", action="store_true")
+    parser.add_argument("--tell", action="store_true", help="a line for each run: how it ended and what it said")
     options = parser.parse_args()
     limits, report = judge.Limits(options.seconds, options.memory_mb << 20), Report(options)
     with tempfile.TemporaryDirectory(prefix="hostile.") as scratch:

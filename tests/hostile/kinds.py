@@ -10,6 +10,7 @@ import mutate_cloud
 import mutate_gltf
 import mutate_image
 import mutate_text
+from seeds import PATTERN
 
 BYTEWISE = 0.25  # share of the mutants that know nothing of the format
 
@@ -160,8 +161,7 @@ def record(rng, seeds, here):
 def png(rng, seeds, here):
     """A pattern of one's own."""
     tree = json.loads(seeds.scenes[0])
-    pattern = {"tile_columns": 32, "tile_rows": 32, "tiles_across": 2, "tiles_down": 2, "image": "pattern.png"}
-    tree["sensor"] = {**tree["sensor"], "pattern": pattern}
+    tree["sensor"] = {**tree["sensor"], "pattern": PATTERN}
     (here / "scene.json").write_text(json.dumps(tree))
     data = mutate_image.grey_png(64, 64)
     data = mutate_bytes.mutate_bytes(rng, data) if rng.random() < BYTEWISE else mutate_image.mutate_png(rng, 64, 64)

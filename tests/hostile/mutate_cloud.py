@@ -108,15 +108,21 @@ def mutate_pcd(rng, points, width, height):
 def mutate_ply(rng, points):
     kind = rng.choice(["ascii", "binary_little_endian", "binary_little_endian", "binary_big_endian"])
     properties = [("float", "x"), ("float", "y"), ("float", "z")]
-    columns = [(rng.choice(list(TYPES)), name) for name in rng.choice([[], ["red", "green", "blue"], ["intensity"], ["nx", "ny", "nz"], ["alpha"]])]
-    properties += columns
+    colours = [("uchar", name) for name in ("red", "green", "blue")]
+    properties += rng.choice([[], colours, colours, colours + [("uchar", "alpha")], [("float", "intensity")], [("float", "nx"), ("float", "ny"), ("float", "nz")],
+                              [(rng.choice(list(TYPES)), "intensity")]])
     comments, extra, body, count = [], [], None, None
     for _ in range(rng.choice([1, 1, 2, 3])):
-        what = rng.choice(["points", "permute", "list", "list", "type", "name", "double", "drop", "count", "element", "faces", "comment", "format", "cut", "many"])
+        what = rng.choices(["points", "permute", "list", "type", "name", "double", "drop", "count", "element", "faces", "comment", "format", "cut", "many"],
+                           [6, 9, 9, 4, 2, 2, 2, 3, 2, 2, 2, 1, 1, 2])[0]
         if what == "points":
             points = damaged_points(rng, points)
-        elif what == "permute":
+        elif what == "permute" and rng.random() < 0.3:
             rng.shuffle(properties)
+        elif what == "permute":
+            rest = properties[3:]
+            rng.shuffle(rest)
+            properties = rest + properties[:3] if rng.random() < 0.3 else properties[:3] + rest
         elif what == "list":
             properties.insert(rng.randrange(len(properties) + 1), (f"list {rng.choice(list(TYPES))} {rng.choice(list(TYPES))}", rng.choice(["vertex_indices", "x", "l", "red"])))
         elif what == "type":

@@ -6,12 +6,16 @@ import struct
 import subprocess
 from pathlib import Path
 
+import mutate_cloud
+import mutate_gltf
 import mutate_image
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 # A few hundred pixels: a geometric shot takes milliseconds.
 TINY = {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 300, 0], "ir_size_px": [128, 96], "depth_size_px": [64, 48], "focal_px": 57}
 CUP = {"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43, "albedo": 0.8}
+
+PATTERN = {"tile_columns": 32, "tile_rows": 32, "tiles_across": 2, "tiles_down": 2, "image": "pattern.png"}
 
 
 def scenes():
@@ -22,7 +26,7 @@ def scenes():
         {"sensor": TINY, "desk": {"albedo": 0.55, "size_mm": [1400, 1000]}, "cups": [cup]},
         {"sensor": {**TINY, "noise": "device"}, "cups": [{**cup, "shape": CUP, "liquid": mine, "surface": {"contact_angle_deg": 30, "capillary_length_mm": 2.7}}]},
         {"sensor": {**TINY, "noise": {"read_dn": 2, "disparity": {"facing_px": 0.06, "lateral_px": 1.5, "renewed": 0.5}}, "unit": {"disparity_offset_px": 0.1, "serial": 3}},
-         "cups": [{**cup, "shape": {"inner_profile_mm": [[0, 5], [30, 6], [40, 80]], "outer_profile_mm": [[34, 0], [43, 80]]}, "fill_mm": 20, "surface": {"tilt_deg": 2, "tilt_azimuth_deg": 30, "ripples": [{"wavelength_mm": 15, "amplitude_mm": 0.2, "azimuth_deg": 10, "phase_deg": 0}]}}]},
+         "cups": [{**cup, "shape": {"inner_profile_mm": [[0, 5], [30, 6], [40, 80]], "outer_profile_mm": [[0, 0], [34, 0], [43, 80]]}, "fill_mm": 20, "surface": {"tilt_deg": 2, "tilt_azimuth_deg": 30, "ripples": [{"wavelength_mm": 15, "amplitude_mm": 0.2, "azimuth_deg": 10, "phase_deg": 0}]}}]},
         {"sensor": {**TINY, "optics": {"f_number": 2.8, "focus_mm": 900, "camera_k1": -0.02}, "matcher": {"method": "device", "hole_max_px": 4}},
          "desk": {"albedo": 0.5, "size_mm": [1400, 1000], "glaze": {"roughness": 0.2}},
          "cups": [{**cup, "shape": {**CUP, "albedo": 0.7}, "glaze": {"roughness": 0.1, "index": 1.5}, "position_mm": [20, 280]}],
@@ -93,7 +97,7 @@ class Seeds:
         self.rig, self.frames = table()
         self.points = points()
         self.clutter = json.dumps({**json.loads((SCENES / "clutter" / "desk.json").read_text()), "sensor": {**TINY, "aim_mm": [0, 350, 0], "noise": "basic"}})
-        self.poses = json.dumps({"world_from_camera": [[[1, 0, 0, 0], [0, 0.5, 0.86, 0], [0, -0.86, 0.5, 0.65]]] * 2})
+        self.poses = json.dumps({"world_from_camera": [[[1, 0, 0, 0], [0, -0.6, 0.8, 0], [0, -0.8, -0.6, 0.65]]] * 2})
         self.config = json.dumps({"templates": ["cup.json"]})
         self.template = (SCENES / "templates" / "paper_cup.json").read_text().replace("paper_cup.pcd", "cup.pcd")
         self.template_cloud = (SCENES / "templates" / "paper_cup.pcd").read_bytes()
@@ -108,7 +112,35 @@ class Seeds:
             subprocess.run([program, *arguments, "--quiet"], cwd=folder, env=env, check=True, stdout=subprocess.DEVNULL)
         self.disparity = (self.recording / "disparity.exr").read_bytes()
         self.record = (self.recording / "run.json").read_text()
-        mutate_image.parse_exr(self.disparity)
+        self.require_good(program, folder, env)
+
+    def require_good(self, program, folder, env):
+        """Mutants of what is refused anyway would show nothing."""
+        good = folder / "good"
+        (good / "heights").mkdir(parents=True)
+        for i, scene in enumerate(self.scenes):
+            (good / f"scene{i}.json").write_text(scene)
+        tree = json.loads(self.scenes[0])
+        tree["sensor"]["pattern"] = PATTERN
+        (good / "pattern.json").write_text(json.dumps({**tree, "objects": [{"gltf": "box.gltf", "position_mm": [120, 300, 0]}]}))
+        text, data = mutate_gltf.box()
+        (good / "box.gltf").write_text(json.dumps(text))
+        (good / "box.bin").write_bytes(data)
+        (good / "pattern.png").write_bytes(mutate_image.grey_png(64, 64))
+        for name, value in {"model.json": self.model, "clutter.json": self.clutter, "poses.json": self.poses, "config.json": self.config, "cup.json": self.template,
+                            "cups_groundtruth.csv": self.labels, "heights/rig.json": self.rig, "heights/frames.csv": self.frames}.items():
+            (good / name).write_text(value)
+        (good / "cup.pcd").write_bytes(self.template_cloud)
+        for kind in ("ascii", "binary", "binary_compressed"):
+            (good / f"{kind}.pcd").write_bytes(mutate_cloud.write_pcd(self.points, len(self.points), 1, kind))
+        shutil.copy(good / "binary.pcd", good / "cloud.pcd")  # which the labels name
+        commands = [["capture", f"scene{i}.json", "--mode", "geometric"] for i in range(len(self.scenes))] + [
+            ["capture", "pattern.json", "--mode", "geometric"], ["capture", "scene0.json", "--mode", "geometric", "--model", "model.json"], ["measure", "heights"],
+            ["measure", str(self.clouds)], ["diagnose", "heights", "--model", "model.json"], ["detect", "ascii.pcd", "--config", "config.json"],
+            ["detect", "binary.pcd", "binary_compressed.pcd", "--poses", "poses.json"], ["template", "binary.pcd", "--name", "x"],
+            ["evaluate", "recognition", "--trials", "1", "--clutter", "clutter.json"], ["evaluate", "."], ["detect", "--live", str(self.recording)]]
+        for i, command in enumerate(commands):
+            subprocess.run([program, *command, "-o", str(folder / f"out{i}"), "--quiet"], cwd=good, env=env, check=True, stdout=subprocess.DEVNULL)
 
     def copy_recording(self, folder):
         shutil.copytree(self.recording, folder)
