@@ -15,11 +15,11 @@
 
 #include "app/commands.h"
 #include "app/number_option.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/input_policy.h"
 #include "core/memory.h"
 #include "core/standard_streams.h"
-#include "core/visible_text.h"
 
 namespace {
 
@@ -37,7 +37,7 @@ void check_command(int argc, char** argv) {
 }
 
 int bad_usage(const std::string& what) {
-  fathom::say(fmt::format("error: {}\nRun with --help for more information.\n", fathom::on_one_line(what)));
+  fathom::print_error(what, "Run with --help for more information.\n");
   return kBadUsage;
 }
 
@@ -94,9 +94,9 @@ int main(int argc, char** argv) {
   } catch (const fathom::UsageError& problem) {
     return bad_usage(problem.what());
   } catch (const std::bad_alloc&) {
-    fathom::say("error: out of memory\n");
+    fathom::print_error("out of memory");
   } catch (const std::exception& problem) {
-    fathom::say(fmt::format("error: {}\n", fathom::on_one_line(problem.what())));
+    fathom::print_error(problem.what());
   }
   return kFailed;
 }

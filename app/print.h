@@ -8,6 +8,12 @@ namespace fathom {
 /// Lines on stdout, in JSON too: control characters are written as JSON writes it.
 void print_text(std::string_view text);
 
+/// One line on stderr, of what is going on.
+void print_status(std::string_view sentence);
+
+/// One line on stderr, at most some screens long: whatever a message quotes of a file.
+void print_error(std::string_view message, std::string_view below = "");
+
 /// One line on stderr: "warning: " or "note: " and the sentence.
 void print_warning(std::string_view sentence);
 void print_note(std::string_view sentence);

@@ -8,6 +8,8 @@
 #include "core/table.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/scene/vessels.h"
+#include "tests/scene/write_gltf.h"
 
 namespace fathom {
 namespace {
@@ -80,6 +82,20 @@ TEST_F(EvaluateClutter, GoesOnWhereItStoppedWithTheSameBytes) {
   ASSERT_EQ(evaluate("recognition", lone_cup(), "--trials 3 " + output("pieces")).exit_code, 0);
   ASSERT_EQ(evaluate("recognition", lone_cup(), "--trials 3 --threads 1 " + output("whole")).exit_code, 0);
   EXPECT_EQ(cups("pieces"), cups("whole"));
+}
+
+TEST_F(EvaluateClutter, TrialsOfAnotherMeshAreNeverMixedIn) {
+  const auto write_cup = [&](double radius) {
+    write_gltf(folder / "cup.gltf", sheet_of_revolution({{0.0, 0.004}, {radius, 0.004}, {radius, 0.09}}));
+  };
+  Json clutter = lone_cup();
+  clutter["cups"]["kinds"] = {{{"shape", "cup.gltf"}}};
+  write_cup(0.040);
+  ASSERT_EQ(evaluate("recognition", clutter, "--trials 1 " + output("out")).exit_code, 0);
+  write_cup(0.038);  // the same text in cup.gltf, other numbers in its buffer
+  const ProgramRun run = evaluate("recognition", clutter, "--trials 2 " + output("out"));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("cup.bin has changed; choose another folder"), std::string::npos) << run.err;
 }
 
 TEST_F(EvaluateClutter, RefusesAFolderOfAnotherEvaluation) {

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "core/files.h"
@@ -46,6 +47,28 @@ TEST(NobodyListens, NoFileIsTakenForStdout) {
   EXPECT_EQ(exit_code_of(fmt::format("{} theory -o {} >&- 2>/dev/null", program, quoted(folder / "closed"))), 1);
   if (std::filesystem::exists(folder / "closed/theory.csv"))
     EXPECT_EQ(read_text(folder / "closed/theory.csv"), read_text(folder / "right/theory.csv"));
+}
+
+TEST(NobodyListens, PicturesAreDrawnWithoutAWordInAnyLocale) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_fathom(fmt::format("reproduce fig10 -o {} --quiet", quoted(folder / "out")), "LC_ALL=C");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(HostileFiles, AnErrorFitsOnAScreenWhateverItQuotes) {
+  const TemporaryFolder folder;
+  for (const char* piece : {"x", "é", "\\u001b"}) {
+    std::string key;
+    while (key.size() < 1'000'000) key += piece;
+    write_text(folder / "scene.json", "{\"" + key + "\": 1}");
+    const ProgramRun run =
+        run_fathom(fmt::format("capture {} -o {}", quoted(folder / "scene.json"), quoted(folder / "out")));
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_LT(run.err.size(), 20'000U);
+    EXPECT_TRUE(run.err.ends_with(" …\n")) << run.err.substr(0, 100);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+  }
 }
 
 TEST(HostileFiles, APipeIsNoScene) {
