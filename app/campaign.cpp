@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/nominal_rig.h"
 #include "app/output_size.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
@@ -252,10 +253,10 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   manifest.finish();
   const Table frames = frames_table(spec, placements);
   write_table(common.output / kFramesFile, frames);  // last: its presence says that the campaign is complete
-  fmt::print("{}", format_rows({{"placements", static_cast<double>(placements.size()), ""},
-                                {"frames", static_cast<double>(frames.rows()), ""},
-                                {"frames_shot_now", static_cast<double>(shot), ""}},
-                               common.json));
+  print_text(format_rows({{"placements", static_cast<double>(placements.size()), ""},
+                          {"frames", static_cast<double>(frames.rows()), ""},
+                          {"frames_shot_now", static_cast<double>(shot), ""}},
+                         common.json));
 }
 
 }  // namespace

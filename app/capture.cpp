@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/output_size.h"
+#include "app/print.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
@@ -18,7 +19,6 @@
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rows.h"
-#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/effects/effects_json.h"
 #include "sim/scene/setup.h"
@@ -88,6 +88,11 @@ class CaptureFolder {
     for (const std::string& name : names_) manifest_.add(noted(number, name));
   }
 
+  void write(const ResolvedScene& resolved) {
+    write_scene_files(folder_, resolved);
+    for (const NamedFile& file : resolved.files) manifest_.add(file.name);
+  }
+
   /// Last: the presence of run.json says that the capture is complete.
   void finish(const Json& record) {
     manifest_.add("truth.exr");
@@ -121,6 +126,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const std::string sentence = require_space(common, size, options.yes);
   if (options.frames > 1) announce(common, sentence);
   Camera camera(setup, mode, options.spp, common.seed, light);
+  const SensorModel& sensor = camera.setup().rig.sensor;
+  const ResolvedScene resolved = resolved_scene(camera.setup());  // before anything goes that it may name
   CaptureFolder folder(common.output,
                        {"capture",
                         {{"seed", common.seed},
@@ -131,6 +138,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
                          {"device_outputs", options.device_outputs}},
                         inputs.files()},
                        options.frames, frame_files(mode == CaptureMode::photometric, options.device_outputs));
+  folder.write(resolved);
   write_truth(common.output, camera.truth());
   Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
@@ -144,13 +152,13 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
     make_directory(place);
     remove_leftovers(place);
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(i));
-    write_frame(place, frame, camera.truth(), setup.rig.sensor.noise.bits);
-    if (options.device_outputs) write_device_outputs(place, setup.rig.sensor, frame);
+    write_frame(place, frame, camera.truth(), sensor.noise.bits);
+    if (options.device_outputs) write_device_outputs(place, sensor, frame);
     folder.note(i);
     without_depth += !has_depth(frame.depth);
     if (i == 0) rows = summary(frame, camera.truth());
   }
-  Json record = run_record(camera);
+  Json record = run_record(camera, resolved);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
   record["light"] = options.light;
@@ -161,9 +169,9 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   record["timing"]["total_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   folder.finish(record);
   if (without_depth > 0)
-    say(fmt::format("warning: {}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?\n",
-                    options.scene.string(), without_depth, options.frames));
-  fmt::print("{}", format_rows(rows, common.json));
+    print_warning(fmt::format("{}: frames without a pixel that has a depth: {} of {}; is anything lit and in range?",
+                              options.scene.string(), without_depth, options.frames));
+  print_text(format_rows(rows, common.json));
 }
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include "app/detector_options.h"
 #include "app/live_cloud.h"
 #include "app/poses.h"
+#include "app/print.h"
 #include "app/results.h"
+#include "core/json_text.h"
 #include "core/progress.h"
 #include "detector/fuse.h"
 #include "detector/read_cloud.h"
@@ -39,7 +41,7 @@ void run_fused(const DetectOptions& options, const DetectorSettings& settings, c
     views.push_back({detect_robust(read_cloud(options.clouds[i]), settings), poses[i]});
   const Detection detection = fuse_views(views, settings);
   if (common.json)
-    print_results(common, "detection", ".json", detection_json(detection).dump(2) + "\n");
+    print_results(common, "detection", ".json", json_text(detection_json(detection)));
   else
     print_results(common, "detection", ".txt",
                   format_rows(detection_rows(options.clouds.front().string(), detection), false));
@@ -69,14 +71,14 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
       all.back().update(detection_json(detection));
     } else {
       const std::string text = format_rows(detection_rows(name, detection), false);
-      fmt::print("{}", text);
+      print_text(text);
       std::fflush(stdout);  // into pipes too, while the next cloud is worked on
       rows += text;
     }
     progress.step();
   }
   if (common.json)
-    print_results(common, "detection", ".json", all.dump(2) + "\n");
+    print_results(common, "detection", ".json", json_text(all));
   else
     keep_results(common, "detection", ".txt", rows);
 }

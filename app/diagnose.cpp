@@ -12,10 +12,13 @@
 #include "app/diagnosis_words.h"
 #include "app/gnuplot.h"
 #include "app/next_campaign.h"
+#include "app/print.h"
 #include "app/ray_traced_report.h"
+#include "app/remove_diagnosis.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
-#include "core/rows.h"
+#include "core/json_text.h"
+#include "core/visible_text.h"
 #include "diagnosis/measurement/joined.h"
 #include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/designs.h"
@@ -106,11 +109,11 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
 
 std::string rows_text(const Diagnosis& diagnosis, const std::vector<std::string>& notes, const fs::path& output,
                       bool as_json) {
-  if (as_json) return json_from(diagnosis).dump(2) + "\n";
-  std::string text = answer(diagnosis) + "\n";
+  if (as_json) return json_text(json_from(diagnosis));
+  std::string text = on_one_line(answer(diagnosis)) + "\n";
   for (const auto& sentences : {notes, diagnosis.warnings})
-    for (const std::string& sentence : sentences) text += "note: " + sentence + "\n";
-  return text + fmt::format("report: {}\n", (output / "report.html").string());
+    for (const std::string& sentence : sentences) text += "note: " + on_one_line(sentence) + "\n";
+  return text + fmt::format("report: {}\n", on_one_line((output / "report.html").string()));
 }
 
 /// next.json, and beside it a campaign's file for each measurement that would settle something.
@@ -183,11 +186,12 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   report["answer"] = answer(campaign.diagnosis);
   report["notes"] = campaign.notes;
   report["provenance"] = provenance;
+  remove_diagnosis(common.output);
   write_diagnosis_report(common.output, campaign);
   write_next(common.output, campaign.diagnosis, plans, measurement.rig);
   write_json(common.output / "model.json", model_json(earlier, campaign.diagnosis, provenance));
-  write_json(common.output / "report.json", report);
-  fmt::print("{}", rows_text(campaign.diagnosis, measurement.notes, common.output, common.json));
+  write_json(common.output / "report.json", report);  // last: its presence says that the diagnosis is complete
+  print_text(rows_text(campaign.diagnosis, measurement.notes, common.output, common.json));
 }
 
 }  // namespace

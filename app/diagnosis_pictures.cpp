@@ -8,7 +8,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "app/fonts.h"
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "core/table.h"
 #include "diagnosis/measurement/cup_regions.h"
 
@@ -29,19 +31,28 @@ std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observ
 }
 
 /// A label in the middle of each liquid's stretch, and a line between two.
-std::string liquid_marks(const std::vector<Observation>& observations, const std::vector<std::size_t>& rows) {
-  std::string marks;
+struct LiquidMarks {
+  std::string commands, before_svg;  ///< as draw() takes them
+};
+
+LiquidMarks liquid_marks(const std::vector<Observation>& observations, const std::vector<std::size_t>& rows) {
+  LiquidMarks marks;
+  int number = 0;
   for (std::size_t first = 0; first < rows.size();) {
     const std::string& liquid = observations[rows[first]].factors.liquid;
     std::size_t end = first;
     while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
-    std::string words = liquid;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    marks += fmt::format("set label '{}' at {}, graph 0.96 center textcolor rgb ink\n", words,
-                         0.5 * static_cast<double>(first + end - 1));
+    ++number;
+    const auto label = [&](const std::string& text) {
+      return fmt::format("set label {} {} at {}, graph 0.96 center textcolor rgb ink noenhanced\n", number,
+                         gnuplot_text(text), 0.5 * static_cast<double>(first + end - 1));
+    };
+    const std::string drawable = drawable_text(liquid);
+    marks.commands += label(drawable);
+    if (drawable != liquid) marks.before_svg += label(liquid);
     if (first > 0)
-      marks += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
-                           static_cast<double>(first) - 0.5);
+      marks.commands += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
+                                    static_cast<double>(first) - 0.5);
     first = end;
   }
   return marks;
@@ -102,6 +113,7 @@ bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& 
                fmt::format("{:.4f}", campaign.diagnosis.after[rows[i]]),
                fmt::format("{:.4f}", campaign.diagnosis.error[rows[i]])});
   write_table(folder / "heights.csv", table);
+  const LiquidMarks marks = liquid_marks(campaign.observations, rows);
   draw(folder, "heights",
        fmt::format(R"(
 set title 'Heights in the cup: measured minus model'
@@ -112,7 +124,8 @@ set xrange [-1:{}]; set offsets 0, 0, graph 0.12, graph 0.05; set key below; set
 plot 0 lc rgb ink notitle, \
      'heights.csv' using 'number':'before_mm' with points pt 7 ps 0.6 lc rgb orange title 'before', \
      '' using 'number':'after_mm':'sigma_mm' with yerrorbars pt 7 ps 0.6 lc rgb blue title 'after, with 1 σ')",
-                   rows.size(), liquid_marks(campaign.observations, rows)));
+                   rows.size(), marks.commands),
+       marks.before_svg);
   return true;
 }
 

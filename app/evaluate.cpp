@@ -139,6 +139,7 @@ void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
   std::optional<FolderOwner> owner;
   if (!common.output.empty()) {
     owner.emplace(common.output);
+    remove_results(common, "evaluation", ".txt");
     write_table(common.output / "containers.csv", containers_table(result));
   }
   print_results(common, "evaluation", ".txt", format_rows(summary(result), common.json));

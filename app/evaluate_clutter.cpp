@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/liquid_rates.h"
+#include "app/results.h"
 #include "app/share_rows.h"
 #include "core/median.h"
 #include "core/progress.h"

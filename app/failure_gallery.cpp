@@ -72,7 +72,7 @@ void write_failure_gallery(const fs::path& folder) {
       const TrialResult trial = trial_from_json(JsonReader(json, file.string()));
       if (++count == 1) figures += fmt::format("<h2 id=\"{}\">{}</h2>\n", kind.name, kind.name);
       figures += fmt::format("<figure><img src=\"{0}.png\" alt=\"{0}\"><figcaption>{0}: {1}</figcaption></figure>\n",
-                             name, caption(trial));
+                             html_escaped(name), caption(trial));
     }
     counts.push_back({fmt::format("{}", count), std::string(kind.name), std::string(kind.words)});
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/files.h"
+#include "core/visible_text.h"
 
 namespace fathom {
 namespace {
@@ -39,7 +40,22 @@ std::string row_html(const std::vector<std::string>& cells, const char* tag) {
 
 std::string html_escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
+  for (const char c : visible_text(text)) switch (c) {
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '&':
+        result += "&amp;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
   return result;
 }
 
@@ -64,11 +80,11 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
 }
 
 std::string html_details(const Table& table, const std::string& file) {
-  if (table.rows() == 0) return fmt::format("<p>Data: <code>{}</code></p>\n", file);
+  if (table.rows() == 0) return fmt::format("<p>Data: <code>{}</code></p>\n", html_escaped(file));
   std::vector<std::vector<std::string>> rows(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row)
     for (const std::string& column : table.columns()) rows[row].push_back(table.text(row, column));
-  return fmt::format("<details><summary>{} ({} rows)</summary>{}</details>\n", file, table.rows(),
+  return fmt::format("<details><summary>{} ({} rows)</summary>{}</details>\n", html_escaped(file), table.rows(),
                      html_table(table.columns(), rows, true));
 }
 

@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-/// "<", "&" and ">" as HTML writes them.
+/// Text of any characters for HTML, also between the quotation marks (") of an attribute; visible_text().
 std::string html_escaped(std::string_view text);
 
 /// The page from its doctype to its closing tag. `title` is plain text, `body` is HTML.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/gnuplot.h"
+#include "app/results.h"
 #include "app/share_rows.h"
 
 namespace fathom {
@@ -140,7 +141,11 @@ Table reliability_table(const std::vector<TrialResult>& trials) {
 
 void write_reliability(const std::filesystem::path& folder, const std::vector<TrialResult>& trials) {
   const Table table = reliability_table(trials);
-  if (table.rows() == 0) return;
+  if (table.rows() == 0) {
+    remove_drawing(folder, "reliability");
+    remove_if_ours(folder / "reliability.csv", "p_low,p_high");
+    return;
+  }
   write_table(folder / "reliability.csv", table);
   draw(folder, "reliability", R"(
 set title 'P(liquid) as told, and the share of such cups that are filled (95 % intervals, numbers of cups)'

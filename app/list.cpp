@@ -8,7 +8,7 @@
 #include "app/commands.h"
 #include "app/results.h"
 #include "core/files.h"
-#include "core/json.h"
+#include "core/json_text.h"
 #include "core/units.h"
 #include "sim/effects/registry.h"
 #include "sim/scene/library.h"
@@ -57,7 +57,7 @@ std::string effects_text(bool as_json) {
     list.push_back(json_of(effect));
     text += lines_of(effect);
   }
-  return as_json ? list.dump(2) + "\n" : text;
+  return as_json ? json_text(list) : text;
 }
 
 /// {"n": 1.336, "at_nm": 830} as "n 1.336, at_nm 830"; anything else as it stands.
@@ -79,7 +79,7 @@ std::string library_text(const std::string& library, bool as_json) {
     const CupShape shape = cup_shape_from_json(JsonReader(as_shape, "list"));
     entries[name]["capacity_ml"] = ml_from_cubic_metres(shape.volume(shape.height() - shape.bottom()));
   }
-  if (as_json) return entries.dump(2) + "\n";
+  if (as_json) return json_text(entries);
   std::string text;
   for (const auto& [name, entry] : entries.items()) {
     text += name + "\n";

@@ -19,18 +19,12 @@
 #include "core/input_policy.h"
 #include "core/memory.h"
 #include "core/standard_streams.h"
+#include "core/visible_text.h"
 
 namespace {
 
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
-
-/// Messages quote what files hold; control characters must not break the line.
-std::string on_one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  return text;
-}
 
 /// The word that should be a command must be one: CLI11 would only say that it did not expect it.
 void check_command(int argc, char** argv) {
@@ -43,7 +37,7 @@ void check_command(int argc, char** argv) {
 }
 
 int bad_usage(const std::string& what) {
-  fathom::say(fmt::format("error: {}\nRun with --help for more information.\n", on_one_line(what)));
+  fathom::say(fmt::format("error: {}\nRun with --help for more information.\n", fathom::on_one_line(what)));
   return kBadUsage;
 }
 
@@ -102,7 +96,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fathom::say("error: out of memory\n");
   } catch (const std::exception& problem) {
-    fathom::say(fmt::format("error: {}\n", on_one_line(problem.what())));
+    fathom::say(fmt::format("error: {}\n", fathom::on_one_line(problem.what())));
   }
   return kFailed;
 }

@@ -4,17 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/cup_height.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/folder_owner.h"
 #include "core/progress.h"
 #include "core/rows.h"
-#include "core/standard_streams.h"
 #include "core/table.h"
 #include "core/units.h"
 #include "diagnosis/measurement/frame_cloud.h"
@@ -36,9 +35,9 @@ Cloud read_cloud_of(const FrameRecord& frame, const Table& frames, std::size_t r
 /// One line, with the first few frames by name.
 void warn(NoHeight reason, const std::vector<std::string>& frames) {
   constexpr std::size_t kNamed = 5;
-  say(fmt::format("warning: {} frames have no height because {}: {}{}\n", frames.size(), name_of(reason),
-                  fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
-                  frames.size() > kNamed ? ", …" : ""));
+  print_warning(fmt::format("{} frames have no height because {}: {}{}", frames.size(), name_of(reason),
+                            fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
+                            frames.size() > kNamed ? ", …" : ""));
 }
 
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
@@ -73,9 +72,9 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
   const FolderOwner owner(output);
   write_table(output / "heights.csv", frames);
   for (const auto& [reason, numbers] : frames_without) warn(reason, numbers);
-  fmt::print("{}", format_rows({{"clouds_with_cup", static_cast<double>(clouds), ""},
-                                {"heights_measured", static_cast<double>(measured), ""}},
-                               common.json));
+  print_text(format_rows(
+      {{"clouds_with_cup", static_cast<double>(clouds), ""}, {"heights_measured", static_cast<double>(measured), ""}},
+      common.json));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/print.h"
 #include "core/error.h"
 
 namespace fathom {
@@ -74,7 +75,7 @@ std::string require_space(const CommonOptions& common, const OutputSize& size, b
 }
 
 void announce(const CommonOptions& common, const std::string& sentence) {
-  if (!common.quiet) fmt::print(stderr, "{}: {}\n", common.output.string(), sentence);
+  if (!common.quiet) print_status(fmt::format("{}: {}", common.output.string(), sentence));
 }
 
 }  // namespace fathom

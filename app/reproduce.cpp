@@ -12,8 +12,12 @@
 
 #include "app/commands.h"
 #include "app/gnuplot.h"
+#include "app/print.h"
+#include "app/results.h"
+#include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
+#include "core/json_text.h"
 
 namespace fathom {
 namespace {
@@ -78,6 +82,7 @@ Json json_of(const Figure& figure) {
 void run_reproduce(const ReproduceOptions& options, const CommonOptions& common) {
   require_gnuplot();
   const FolderOwner owner(common.output);
+  remove_if_ours(common.output / "report.html", kReportTitle);  // it comes last, and is of the figures beside it
   Reproduction reproduction(
       {.folder = common.output, .trials = options.trials, .seed = common.seed, .quiet = common.quiet});
   const auto asked = [&](const std::string& name) {
@@ -89,10 +94,10 @@ void run_reproduce(const ReproduceOptions& options, const CommonOptions& common)
     if (!(asked("all") && entry.of_paper) && !asked(entry.name)) continue;
     figures.push_back(std::visit(reproduction, entry.reproduce));
     json.push_back(json_of(figures.back()));
-    if (!common.json) fmt::print("{}", text_of(figures.back()));
+    if (!common.json) print_text(text_of(figures.back()));
   }
   write_report(common.output, figures);
-  if (common.json) fmt::print("{}\n", json.dump(2));
+  if (common.json) print_text(json_text(json));
 }
 
 }  // namespace

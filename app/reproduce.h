@@ -56,6 +56,8 @@ Figure reproduce_scattering(const ReproduceSettings& settings);
 /// A length in the figures' tables: three decimals, no "-0.000".
 std::string mm_text(double mm);
 
+inline constexpr const char* kReportTitle = "Fathom: the figures of the paper, remade";
+
 /// report.html: pictures, facts and tables in one file.
 void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures);
 

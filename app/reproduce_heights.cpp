@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/reproduce.h"
 
 namespace fathom {
@@ -178,7 +179,7 @@ Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& hei
      '' using ($0+0.27):'few_500_mm' with points pt 2 ps 1 lw 2 lc rgb ink title 'few points left by the near wall')";
   draw(settings.folder, figure.name,
        fmt::format(R"(
-set title 'Measured height of the liquid''s surface or the raised bottom (simulated captures, {} each, ±1σ)'
+set title {}
 set ylabel 'height above the desk [mm]'
 set yrange [0:42]; set xrange [-0.6:6.6]; set ytics 5
 set grid noxtics
@@ -194,7 +195,10 @@ plot for [i=1:4] 'fig5_bars.csv' using (column(2*i)):(column(2*i+1)):xtic(1) lc 
        title sprintf('%d mm', 100*i+100), \
      '' using ($0-0.42):'true_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red \
        title 'true surface (empty: bottom)'{})",
-                   settings.shots(), any_few ? kFewPoints : ""));
+                   gnuplot_text(fmt::format("Measured height of the liquid's surface or the raised bottom (simulated "
+                                            "captures, {} each, ±1σ)",
+                                            settings.shots())),
+                   any_few ? kFewPoints : ""));
   return figure;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/reproduce.h"
 #include "core/units.h"
 #include "theory/raised_bottom.h"
@@ -45,9 +46,10 @@ std::string series(const std::array<HeightRow, kPaperFillings.size()>& rows, con
       tens.push_back(fmt::format("{:g}", kPaperFillings[f].fill_mm / 10.0));
   if (tens.empty()) return "";
   return fmt::format(
-      ", \\\n     for [i in '{}'] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && {} \\\n       with {} "
-      "title (i eq '{}' ? '{}' : '')",
-      fmt::join(tens, " "), using_y, style, tens.front(), title);
+      ", \\\n     for [i in {}] 'fig14.csv' using 'distance_mm':(column('fill_mm') == 10*i && {} \\\n       with {} "
+      "title (i eq {} ? {} : '')",
+      gnuplot_text(fmt::format("{}", fmt::join(tens, " "))), using_y, style, gnuplot_text(tens.front()),
+      gnuplot_text(title));
 }
 
 /// What was measured, in the three ways that fig14.csv holds.

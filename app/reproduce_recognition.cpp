@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/reproduce.h"
 #include "app/reproduce_desks.h"
 #include "core/wilson.h"
@@ -122,8 +123,9 @@ Figure reproduce_recognition(const ReproduceSettings& settings) {
   write_table(settings.folder / "recognition.csv", figure.table);
   write_table(settings.folder / "recognition_bars.csv", bars);
   draw(settings.folder, figure.name,
-       fmt::format(R"(
-set title 'Cups recognised on random desks, {} of each kind (95 % intervals), over what the paper does not say'
+       fmt::format(
+           R"(
+set title {}
 set ylabel 'share of the cups that are recognised'
 set yrange [0:1.05]; set xrange [-0.6:{}.6]; set ytics 0.25
 set xtics scale 0 rotate by -35
@@ -134,7 +136,10 @@ plot 'recognition_bars.csv' using ($0-0.1):'paper':'paper_low':'paper_high':xtic
      0.75 with lines lw 1.5 dt 2 lc rgb blue title 'printed: 15/20', \
      'recognition.csv' using (strcol('method') eq 'sac-ia' ? 0.3 : NaN):'share':'share_low':'share_high' with yerrorbars pt 9 ps 1.6 lw 2 lc rgb red title 'SAC-IA', \
      0.20 with lines lw 1.5 dt 2 lc rgb red title 'printed SAC-IA: 4/20')",
-                   desks, kConditions.size() - 1));
+           gnuplot_text(fmt::format("Cups recognised on random desks, {} of each kind (95 % intervals), over what "
+                                    "the paper does not say",
+                                    desks)),
+           kConditions.size() - 1));
   return figure;
 }
 

@@ -28,7 +28,7 @@ void write_report(const std::filesystem::path& folder, const std::vector<Figure>
     html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n{}{}{}", html_escaped(figure.title), html_escaped(figure.sentence),
                         html_picture(folder / (figure.name + ".png"), figure.title), facts_html(figure.facts),
                         html_details(figure.table, figure.name + ".csv"));
-  write_text(folder / "report.html", html_page("Fathom: the figures of the paper, remade", html));
+  write_text(folder / "report.html", html_page(kReportTitle, html));
 }
 
 }  // namespace fathom

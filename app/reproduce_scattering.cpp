@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/reproduce.h"
 #include "core/progress.h"
 #include "core/units.h"
@@ -90,8 +91,9 @@ Figure reproduce_scattering(const ReproduceSettings& settings) {
       {"μs′ at which both hold", "both", interval_text(both)}};
   write_table(settings.folder / "scattering.csv", figure.table);
   draw(settings.folder, figure.name,
-       fmt::format(R"(
-set title '{:g} mm of milk tea, {:g} mm away: what the sensor matches, over its reduced scattering'
+       fmt::format(
+           R"(
+set title {}
 set xlabel 'reduced scattering coefficient μs'' [1/mm]'
 set ylabel 'mean depth below the surface of what is matched [mm]' textcolor rgb blue
 set y2label 'share of the surface that is matched' textcolor rgb orange
@@ -102,7 +104,9 @@ set label 1 'the paper: 1–2 mm low' at graph 0.02, first 1.5 textcolor rgb ink
 plot 'scattering.csv' using 'reduced_scattering_per_mm':'low_mm' with linespoints lw 3 pt 7 lc rgb blue title 'reads low by', \
      '' using 'reduced_scattering_per_mm':'matched_share' axes x1y2 with linespoints lw 3 pt 5 lc rgb orange \
        title 'matched share')",
-                   kFillMm, kDistanceMm));
+           gnuplot_text(fmt::format("{:g} mm of milk tea, {:g} mm away: what the sensor matches, over its reduced "
+                                    "scattering",
+                                    kFillMm, kDistanceMm))));
   return figure;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/reproduce.h"
 #include "app/reproduce_desks.h"
 #include "core/error.h"
@@ -63,9 +64,7 @@ Tally tally_of(const std::vector<TrialResult>& trials) {
 
 std::string label_of(const Json& filling) {
   if (filling.empty()) return "empty";
-  std::string liquid = filling["liquid"];
-  std::replace(liquid.begin(), liquid.end(), '_', ' ');
-  return fmt::format("{} {:g} mm", liquid, filling["fill_mm"].get<double>());
+  return fmt::format("{} {:g} mm", filling["liquid"].get<std::string>(), filling["fill_mm"].get<double>());
 }
 
 /// Of one kind of desk: the tally of each filling by each method.
@@ -120,6 +119,7 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
       .table = Table({"liquid", "fill_mm", "printed_of", "printed_recognised", "printed_liquid", "things", "method",
                       "cups", "recognised", "liquid_yes", "liquid_unknown"})};
   Table bars({"filling", "printed", "paper", "robust", "printed_liquid", "paper_liquid", "robust_liquid"});
+  std::vector<std::string> labels;
   for (std::size_t i = 0; i < kPrinted.size(); ++i) {
     const Json& filling = crowd.fillings[i];
     for (const bool many : {false, true})
@@ -133,7 +133,8 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
       }
     const auto share = [&](int count) { return fmt::format("{:.3f}", static_cast<double>(count) / desks); };
     const auto& row = beside_one[i];
-    bars.add({label_of(filling), fmt::format("{:.1f}", 0.1 * kPrinted[i].recognised), share(row[0].recognised),
+    labels.push_back(label_of(filling));
+    bars.add({labels.back(), fmt::format("{:.1f}", 0.1 * kPrinted[i].recognised), share(row[0].recognised),
               share(row[1].recognised), fmt::format("{:.1f}", 0.1 * kPrinted[i].liquid), share(row[0].liquid),
               share(row[1].liquid)});
   }
@@ -143,7 +144,8 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
   add_facts(among_many, 1, "Robust, 3 to 6 things", figure.facts);
   write_table(settings.folder / "table1.csv", figure.table);
   write_table(settings.folder / "table1_bars.csv", bars);
-  draw(settings.folder, figure.name, R"(
+  draw(settings.folder, figure.name,
+       fmt::format(R"(
 set title 'Table I: cups recognised (bars) and liquids detected in them (dots), one thing beside the cup'
 set ylabel 'share of the cups'
 set yrange [0:1.05]; set xrange [-0.6:15.6]; set ytics 0.25
@@ -152,13 +154,14 @@ set style data histogram
 set style histogram clustered gap 1
 set style fill solid 0.9 border lc rgb ink
 set boxwidth 0.95
-set xtics scale 0 rotate by -40
+{}set xtics scale 0 rotate by -40
 set rmargin 6
 set key below horizontal
 array colour[3] = [pale, blue, green]
 array who[3] = ['printed', 'method as printed, here', 'robust']
-plot for [i=1:3] 'table1_bars.csv' using (column(i+1)):xtic(1) lc rgb colour[i] title who[i], \
-     for [i=1:3] '' using ($0+(i-2)/4.0):(column(i+4)) with points pt 7 ps 1.1 lc rgb orange title (i == 1 ? 'liquid detected' : ''))");
+plot for [i=1:3] 'table1_bars.csv' using (column(i+1)) lc rgb colour[i] title who[i], \
+     for [i=1:3] '' using ($0+(i-2)/4.0):(column(i+4)) with points pt 7 ps 1.1 lc rgb orange title (i == 1 ? 'liquid detected' : ''))",
+                   gnuplot_xtics(labels)));
   return figure;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/paper_scene.h"
 #include "app/reproduce.h"
 #include "core/units.h"
@@ -136,10 +137,10 @@ Figure reproduce_fig13(const ReproduceSettings& settings) {
   for (int mm = 0; mm <= 1000; mm += 10)
     figure.table.add({number(mm), number(eq6(metres_from_mm(mm))), number(exact(metres_from_mm(mm)))});
   write_table(settings.folder / "fig13.csv", figure.table);
-  const std::string title = fmt::format(
-      "set title 'Incidence angle of the beams over the distance of the cup (sensor {:g} mm above the bottom)'",
-      mm_from_metres(kHeight));
-  draw(settings.folder, figure.name, title + R"(
+  const std::string title =
+      fmt::format("Incidence angle of the beams over the distance of the cup (sensor {:g} mm above the bottom)",
+                  mm_from_metres(kHeight));
+  draw(settings.folder, figure.name, "set title " + gnuplot_text(title) + R"(
 set xlabel 'horizontal distance of the bottom point from the sensor [mm]'
 set ylabel 'incidence angle [deg]'
 set xrange [0:1000]; set yrange [0:60]; set xtics 100; set ytics 10

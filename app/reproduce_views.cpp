@@ -6,6 +6,7 @@
 
 #include "app/cup_height.h"
 #include "app/gnuplot.h"
+#include "app/gnuplot_text.h"
 #include "app/paper_scene.h"
 #include "app/reproduce.h"
 #include "core/units.h"
@@ -51,12 +52,13 @@ set object 3 rectangle from {inner_far},0 to {outer_far},{rim} fillcolor rgb wal
 set arrow 1 from {near},0 to {far},0 nohead lw 2 lc rgb ink front
 set arrow 2 from {inner_near},{bottom} to {inner_far},{bottom} nohead lw 2.5 lc rgb green front
 set label 1 'desk' at {far}-2,3 right textcolor rgb ink
-set label 2 'true bottom {bottom:g} mm' at {outer_far}+4,{bottom}+9 left textcolor rgb green
+set label 2 {words} at {outer_far}+4,{bottom}+9 left textcolor rgb green
 set arrow 3 from {outer_far}+3.5,{bottom}+8 to {inner_far}-2,{bottom}+0.6 lw 1.5 lc rgb green head filled size 2,18 front
 )",
                      fmt::arg("near", kDistanceMm - kShownHalfMm), fmt::arg("far", kDistanceMm + kShownHalfMm),
                      fmt::arg("inner_near", kDistanceMm - inner), fmt::arg("inner_far", kDistanceMm + inner),
                      fmt::arg("outer_near", kDistanceMm - outer), fmt::arg("outer_far", kDistanceMm + outer),
+                     fmt::arg("words", gnuplot_text(fmt::format("true bottom {:g} mm", mm_from_metres(cup.bottom())))),
                      fmt::arg("bottom", mm_from_metres(cup.bottom())), fmt::arg("rim", mm_from_metres(cup.height())));
 }
 
@@ -66,47 +68,49 @@ std::string liquid_plot(const PaperFilling& filling, const CupShape& cup) {
   return fmt::format(
       R"(set object 4 rectangle from {near},{bottom} to {far},{surface} fillcolor rgb {colour} fillstyle solid 1 noborder back
 set arrow 4 from {near},{surface} to {far},{surface} nohead lw 2.5 dt 2 lc rgb blue front
-set label 3 'true surface {surface:g} mm' at {outer}+4,{surface}+8 left textcolor rgb blue
+set label 3 {words} at {outer}+4,{surface}+8 left textcolor rgb blue
 set arrow 5 from {outer}+3.5,{surface}+8 to {far}+0.5,{surface} lw 1.5 lc rgb blue head filled size 2,18 front
 )",
       fmt::arg("near", kDistanceMm - inner), fmt::arg("far", kDistanceMm + inner),
       fmt::arg("outer", kDistanceMm + outer), fmt::arg("bottom", bottom), fmt::arg("surface", bottom + filling.fill_mm),
+      fmt::arg("words", gnuplot_text(fmt::format("true surface {:g} mm", bottom + filling.fill_mm))),
       fmt::arg("colour", filling.liquid == "water" ? "0xE3F1FA" : "0xF3E6D3"));
 }
 
 /// The mean height inside; of water also how far it lies above the true bottom.
 std::string measured_plot(const View& view, double measured_mm, double bottom_mm) {
-  std::string text = fmt::format(R"(set label 4 '{0} {1:.1f} mm' at {2}-37,{1}+10 left textcolor rgb red front
+  std::string text =
+      fmt::format(R"(set label 4 {0} at {2}-37,{1}+10 left textcolor rgb red front
 set arrow 6 from {2}-5,{1}+7.5 to {2}+5,{1}+2 lw 1.5 lc rgb red head filled size 2,18 front
 )",
-                                 view.what, measured_mm, kDistanceMm);
+                  gnuplot_text(fmt::format("{} {:.1f} mm", view.what, measured_mm)), measured_mm, kDistanceMm);
   if (view.filling.liquid == "water")
     text += fmt::format(
         R"(set arrow 7 from {0}+20,{1}+0.4 to {0}+20,{2}-0.8 heads filled size 1.6,18 lw 1.8 lc rgb ink front
-set label 5 '+{3:.1f} mm' at {0}+22,{1}+4.5 left textcolor rgb ink front
+set label 5 {3} at {0}+22,{1}+4.5 left textcolor rgb ink front
 )",
-        kDistanceMm, bottom_mm, measured_mm, measured_mm - bottom_mm);
+        kDistanceMm, bottom_mm, measured_mm, gnuplot_text(fmt::format("+{:.1f} mm", measured_mm - bottom_mm)));
   return text;
 }
 
 /// The cup, the liquid, and the points of NAME.csv.
 std::string plot_of(const View& view, const CupShape& cup, const Table& points, std::optional<double> measured_mm) {
   std::string text = fmt::format(R"(
-set title '{}'
+set title {}
 set xlabel 'distance from the sensor y [mm]'
 set ylabel 'height above the desk z [mm]'
 set size ratio -1
 unset grid
 set key off
 wall = 0xF1ECE4)",
-                                 view.title);
+                                 gnuplot_text(view.title));
   text += cup_plot(cup);
   if (view.filling.fill_mm > 0.0) text += liquid_plot(view.filling, cup);
   if (measured_mm) text += measured_plot(view, *measured_mm, mm_from_metres(cup.bottom()));
   text += fmt::format(
-      "plot '{}.csv' using 'y_mm':(column('inside') == 0 ? column('z_mm') : NaN) with points pt 7 ps 0.45 "
+      "plot {} using 'y_mm':(column('inside') == 0 ? column('z_mm') : NaN) with points pt 7 ps 0.45 "
       "lc rgb 0x9A9A9A",
-      view.name);
+      gnuplot_text(view.name + std::string(".csv")));
   bool any_inside = false;
   for (std::size_t row = 0; row < points.rows(); ++row) any_inside = any_inside || points.text(row, "inside") == "1";
   if (any_inside)

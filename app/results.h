@@ -1,7 +1,9 @@
 // Where the results of a command go that has no files of its own: to stdout, and with -o DIR to a file there too.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "app/command.h"
 
@@ -10,6 +12,12 @@ namespace fathom {
 /// DIR/NAME.json with --json, else DIR/NAME and `extension`. Does nothing without -o.
 void keep_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                   const std::string& text);
+
+/// Removes DIR/NAME.json and DIR/NAME with `extension`, where they say that the files beside them are complete.
+void remove_results(const CommonOptions& common, const std::string& name, const std::string& extension);
+
+/// Removes a file if its first 1,000 bytes hold these words, by which ours is known.
+void remove_if_ours(const std::filesystem::path& file, std::string_view words);
 
 /// Prints the text, and keeps it.
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/detector_options.h"
 #include "app/number_option.h"
+#include "app/print.h"
 #include "core/error.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
@@ -49,11 +50,11 @@ void run_template(const TemplateOptions& options, const CommonOptions& common) {
                                                threshold_m, options.cloud.string());
   const FolderOwner owner(common.output);
   save_template(common.output, cup);
-  fmt::print("{}", format_rows({{"radius", mm_from_metres(cup.radius_m), "mm"},
-                                {"height", mm_from_metres(cup.height_m), "mm"},
-                                {"liquid_threshold", mm_from_metres(cup.liquid_threshold_m), "mm"},
-                                {"points", static_cast<double>(cup.points.size()), ""}},
-                               common.json));
+  print_text(format_rows({{"radius", mm_from_metres(cup.radius_m), "mm"},
+                          {"height", mm_from_metres(cup.height_m), "mm"},
+                          {"liquid_threshold", mm_from_metres(cup.liquid_threshold_m), "mm"},
+                          {"points", static_cast<double>(cup.points.size()), ""}},
+                         common.json));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "app/commands.h"
 #include "app/number_option.h"
 #include "app/results.h"
-#include "core/json.h"
+#include "core/json_text.h"
 #include "core/rows.h"
 #include "core/units.h"
 #include "theory/raised_bottom.h"
@@ -90,7 +90,7 @@ std::string json(const std::vector<TheoryRow>& rows) {
     for (std::size_t i = 0; i < row.size(); ++i) object[kColumns[i]] = row[i];
     list.push_back(std::move(object));
   }
-  return list.dump(2) + "\n";
+  return json_text(list);
 }
 
 std::string theory_text(const TheoryOptions& options, bool as_json) {

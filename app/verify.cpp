@@ -9,13 +9,13 @@
 
 #include "app/commands.h"
 #include "app/number_option.h"
+#include "app/print.h"
 #include "app/results.h"
 #include "app/verify_cases.h"
 #include "core/decimal.h"
 #include "core/error.h"
-#include "core/json.h"
+#include "core/json_text.h"
 #include "core/progress.h"
-#include "core/standard_streams.h"
 #include "core/units.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/layer_light.h"
@@ -64,7 +64,7 @@ std::string text_of(const Estimates& estimates, bool as_json) {
   Json object = Json::object();
   for (const auto& [name, estimate] : estimates)
     object[name] = {{"value", estimate.value}, {"standard_error", estimate.standard_error}};
-  if (as_json) return object.dump(2) + "\n";
+  if (as_json) return json_text(object);
   std::string text = fmt::format("{:<21}  {:>9}  {:>14}\n", "", "value", "standard error");
   for (const auto& [name, estimate] : estimates)
     text += fmt::format("{:<21}  {:>9.6f}  {:>14.6f}\n", name, estimate.value, estimate.standard_error);
@@ -107,8 +107,7 @@ void verify_slab(const VerifyOptions& options, const CommonOptions& common) {
   if (light.absorptance) estimates.emplace_back("absorptance", *light.absorptance);
   print_results(common, "slab", ".txt", text_of(estimates, common.json));
   if (!light.reached)
-    say(fmt::format("note: gave up after {} walks, before the standard errors were 0.2 % of the values\n",
-                    light.walks));
+    print_note(fmt::format("gave up after {} walks, before the standard errors were 0.2 % of the values", light.walks));
 }
 
 void verify_fresnel(const VerifyOptions& options, const CommonOptions& common) {
@@ -152,7 +151,7 @@ void verify_cases(const std::string& name, std::initializer_list<const std::vect
       Progress progress(std::string(row.name), 0, common.quiet);
       text += compare(row, row.compute(common.seed, plan_with(progress, 0)), rows, failures);
     }
-  print_results(common, name, ".txt", common.json ? rows.dump(2) + "\n" : text);
+  print_results(common, name, ".txt", common.json ? json_text(rows) : text);
   if (failures > 0)
     throw Error("verify", fmt::format("{} of {} quantities lie off their values", failures, rows.size()));
 }

@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <fmt/format.h>
 #include <png.h>
 
@@ -171,6 +172,18 @@ bool read_rows(PngFile& from, Image<std::uint16_t>& image, std::vector<std::uint
   return true;
 }
 
+bool read_to_the_end(PngFile& from, std::vector<std::uint8_t>& row) {
+  if (setjmp(png_jmpbuf(from.png))) return false;
+  const int passes = png_set_interlace_handling(from.png);
+  png_read_update_info(from.png, from.info);
+  row.resize(png_get_rowbytes(from.png, from.info));
+  for (int pass = 0; pass < passes; ++pass)
+    for (png_uint_32 y = 0; y < png_get_image_height(from.png, from.info); ++y)
+      png_read_row(from.png, row.data(), nullptr);
+  png_read_end(from.png, nullptr);
+  return true;
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>& channels) {
@@ -187,11 +200,14 @@ void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>&
     auto* base = const_cast<char*>(reinterpret_cast<const char*>(channel.image.pixels().data()));
     frame.insert(channel.name, Imf::Slice(Imf::FLOAT, base, sizeof(float), sizeof(float) * width));
   }
-  write_atomically(path, [&](const std::filesystem::path& beside) {
-    Imf::OutputFile file(beside.c_str(), header);
+  // Into memory first: what OpenEXR's destructors write to a full disk is lost without a word.
+  Imf::StdOSStream bytes;
+  {
+    Imf::OutputFile file(bytes, header);
     file.setFrameBuffer(frame);
     file.writePixels(height);
-  });
+  }
+  write_text(path, bytes.str());
 }
 
 void check_exr(const std::filesystem::path& path, int width, int height) try {
@@ -278,6 +294,14 @@ Image<std::uint16_t> read_png_grey(const std::filesystem::path& path) {
   std::vector<std::uint8_t> row(row_bytes);
   if (!read_rows(from, image, row)) fail();
   return image;
+}
+
+bool is_whole_png(const std::filesystem::path& path) {
+  std::string content = read_text(path);
+  if (content.empty()) return false;
+  PngFile from(path, content);
+  std::vector<std::uint8_t> row;
+  return read_header(from) && read_to_the_end(from, row);
 }
 
 }  // namespace fathom

@@ -39,4 +39,7 @@ void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb);
 /// 16-bit grey; 8-bit files are read as they are (0…255). Throws Error when the file is no grey PNG.
 Image<std::uint16_t> read_png_grey(const std::filesystem::path& path);
 
+/// Whether the file is a PNG of any kind whose every row and end can be read.
+bool is_whole_png(const std::filesystem::path& path);
+
 }  // namespace fathom

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/json_text.h"
 #include "core/modest_json.h"
 #include "core/units.h"
 
@@ -132,6 +133,6 @@ Json read_json(const std::filesystem::path& path) {
   }
 }
 
-void write_json(const std::filesystem::path& path, const Json& value) { write_text(path, value.dump(2) + "\n"); }
+void write_json(const std::filesystem::path& path, const Json& value) { write_text(path, json_text(value)); }
 
 }  // namespace fathom

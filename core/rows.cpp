@@ -4,13 +4,14 @@
 
 #include <algorithm>
 
-#include "core/json.h"
+#include "core/json_text.h"
+#include "core/visible_text.h"
 
 namespace fathom {
 namespace {
 
 std::string text_of(double number) { return fmt::format("{:>12.6g}", number); }
-std::string text_of(const std::string& text) { return fmt::format("{:>12}", text); }
+std::string text_of(const std::string& text) { return fmt::format("{:>12}", on_one_line(text)); }
 
 std::string text_of(const Row& row) {
   return std::visit([](const auto& value) { return text_of(value); }, row.value);
@@ -26,7 +27,7 @@ std::string format_rows(const std::vector<Row>& rows, bool json) {
   if (json) {
     Json object = Json::object();
     for (const Row& row : rows) object[row.name] = {{"value", json_of(row)}, {"unit", row.unit}};
-    return object.dump(2) + "\n";
+    return json_text(object);
   }
   std::size_t width = 0;
   for (const Row& row : rows) width = std::max(width, row.name.size());

@@ -22,6 +22,7 @@ Device::Device(const std::string& uri, oni::driver::DriverServices& services, St
     : uri_(uri), services_(services), player_(open_source(uri), [state_changed](const std::string& problem) {
         state_changed(problem.empty() ? ONI_DEVICE_STATE_EOF : ONI_DEVICE_STATE_ERROR, problem);
       }) {
+  registered_ = player_.source().setup().processing.colour_view;
   const SensorModel& sensor = player_.source().sensor();
   for (const OniPixelFormat format :
        {ONI_PIXEL_FORMAT_DEPTH_1_MM, ONI_PIXEL_FORMAT_DEPTH_100_UM, ONI_PIXEL_FORMAT_SHIFT_9_2})

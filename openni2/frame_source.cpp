@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "sim/effects/effects_json.h"
 #include "sim/sensor/read_capture.h"
 
 namespace fathom {
@@ -10,9 +11,9 @@ namespace {
 /// A scene in direct light, as `fathom capture` shoots it: rendered once, with new noise, matching and depth each time.
 class LiveScene : public FrameSource {
  public:
-  explicit LiveScene(const std::filesystem::path& path) : setup_(read_setup(path)) {}
+  explicit LiveScene(const std::filesystem::path& path) : setup_(with_effects(read_setup(path))) {}
 
-  const SensorModel& sensor() const override { return setup_.rig.sensor; }
+  const Setup& setup() const override { return setup_; }
   bool has_infrared() const override { return true; }
   std::optional<int> frames() const override { return std::nullopt; }
   void prepare() override {
@@ -32,12 +33,12 @@ class PlayedFolder : public FrameSource {
   explicit PlayedFolder(const std::filesystem::path& folder) : capture_(read_capture(folder)) {
     check_frames(capture_);
     constexpr std::size_t kMostKept = std::size_t{256} << 20;  // [bytes] 40 frames of the Xtion
-    const SensorModel& model = capture_.sensor;
+    const SensorModel& model = capture_.sensor();
     const std::size_t pixels = std::size_t(model.width) * model.height + std::size_t(model.ir_width) * model.ir_height;
     if (capture_.frames.size() * pixels * sizeof(float) <= kMostKept) kept_.resize(capture_.frames.size());
   }
 
-  const SensorModel& sensor() const override { return capture_.sensor; }
+  const Setup& setup() const override { return capture_.setup; }
   bool has_infrared() const override { return capture_.infrared; }
   std::optional<int> frames() const override { return static_cast<int>(capture_.frames.size()); }
   void prepare() override { shoot(0, capture_.infrared); }

@@ -13,7 +13,8 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  virtual const SensorModel& sensor() const = 0;
+  /// What is shot, its effects switched on.
+  virtual const Setup& setup() const = 0;
   virtual bool has_infrared() const = 0;
   /// How many frames there are to be played; nothing when every frame is new.
   virtual std::optional<int> frames() const = 0;
@@ -22,6 +23,8 @@ class FrameSource {
   virtual void prepare() {}
   /// Disparities and, where wanted, infrared image of the frame of that number, counted from 0. Throws Error.
   virtual Frame shoot(int frame, bool infrared) = 0;
+
+  const SensorModel& sensor() const { return setup().rig.sensor; }
 };
 
 /// Whether a device's URI is meant for this driver: the name of a scene file, whether or not it exists, or a folder.

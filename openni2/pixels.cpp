@@ -9,9 +9,15 @@
 
 namespace fathom {
 
-Image<std::uint16_t> depth_pixels(const SensorModel& sensor, const Frame& frame, double unit, bool registered) {
-  const Image<float> depth = depth_image(sensor, frame.disparity_px, unit);
-  return depth_in_units(registered ? registered_to_colour(depth, sensor.focal_px, sensor.focal_px) : depth, unit);
+double colour_focal_px(const Setup& setup) {
+  return setup.processing.colour_view ? kColourFocalPx : setup.rig.sensor.focal_px;
+}
+
+Image<std::uint16_t> depth_pixels(const Setup& setup, const Frame& frame, double unit, bool registered) {
+  const SensorModel& sensor = setup.rig.sensor;
+  const Image<float> depth = depth_image(sensor, frame.disparity_px, cut_of(sensor, unit));
+  return depth_in_units(registered ? registered_to_colour(depth, sensor.focal_px, colour_focal_px(setup)) : depth,
+                        unit);
 }
 
 int infrared_full_scale(const SensorModel& sensor) {

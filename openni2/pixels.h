@@ -7,9 +7,12 @@
 
 namespace fathom {
 
+/// Focal length of the colour camera's image that depths are registered to.
+double colour_focal_px(const Setup& setup);
+
 /// Depth in whole multiples of `unit` [m] on the device's law, if asked for as the colour camera sees it; 0 = nothing
 /// measured.
-Image<std::uint16_t> depth_pixels(const SensorModel& sensor, const Frame& frame, double unit, bool registered);
+Image<std::uint16_t> depth_pixels(const Setup& setup, const Frame& frame, double unit, bool registered);
 
 /// The infrared image in DN, whole or, when `width` is the depth image's, at its size. 0 … infrared_full_scale().
 Image<std::uint16_t> infrared_pixels(const SensorModel& sensor, const Frame& frame, int width);

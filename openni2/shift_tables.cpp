@@ -8,7 +8,7 @@ namespace fathom {
 std::vector<std::uint16_t> shift_to_depth(const SensorModel& sensor, double unit) {
   Image<float> depth(kMaxShift + 1, 1);
   for (int shift = 0; shift < kMaxShift; ++shift) {
-    const auto metres = device_depth(sensor, shift - kShiftOfCodeZero, unit);
+    const auto metres = device_depth(sensor, shift - kShiftOfCodeZero, cut_of(sensor, unit));
     if (metres && *metres >= sensor.near && *metres <= sensor.far) depth(shift, 0) = static_cast<float>(*metres);
   }
   const Image<std::uint16_t> whole = depth_in_units(depth, unit);

@@ -22,10 +22,9 @@ Region region_of(const OniCropping& cropping) {
 }
 
 /// Shifts stay where the infrared camera has them: the device registers what its table made of them.
-Image<std::uint16_t> measured_pixels(const SensorModel& sensor, const Frame& frame, const StreamState& state,
-                                     bool registered) {
-  if (state.mode.pixelFormat == ONI_PIXEL_FORMAT_SHIFT_9_2) return shift_image(sensor, frame.disparity_px);
-  return depth_pixels(sensor, frame, state.depth_unit(), registered);
+Image<std::uint16_t> measured_pixels(const Setup& setup, const Frame& frame, const StreamState& state) {
+  if (state.mode.pixelFormat == ONI_PIXEL_FORMAT_SHIFT_9_2) return shift_image(setup.rig.sensor, frame.disparity_px);
+  return depth_pixels(setup, frame, state.depth_unit(), state.registered);
 }
 
 }  // namespace
@@ -36,11 +35,13 @@ Stream::Stream(OniSensorType type, std::span<const OniVideoMode> modes, Player& 
       player_(player),
       registered_(registered),
       services_(services),
-      state_{type, modes.front(), whole_image(modes.front()), false} {}
+      state_{type, modes.front(), whole_image(modes.front()), false, false} {}
 
 StreamState Stream::state() const {
   const std::lock_guard lock(mutex_);
-  return state_;
+  StreamState now = state_;
+  now.registered = registered_;
+  return now;
 }
 
 OniStatus Stream::start() {
@@ -135,11 +136,11 @@ void Stream::notifyAllProperties() {
 void Stream::deliver(const Shot& shot) {
   const StreamState now = state();
   if (now.type == ONI_SENSOR_IR && shot.frame.ir.empty()) return;  // taken before this stream was started
-  const SensorModel& sensor = player_.source().sensor();
+  const Setup& setup = player_.source().setup();
   const Region region = region_of(now.cropping);
   const Image<std::uint16_t> image = now.type == ONI_SENSOR_DEPTH
-                                         ? measured_pixels(sensor, shot.frame, now, registered_)
-                                         : infrared_pixels(sensor, shot.frame, now.mode.resolutionX);
+                                         ? measured_pixels(setup, shot.frame, now)
+                                         : infrared_pixels(setup.rig.sensor, shot.frame, now.mode.resolutionX);
   OniFrame* frame = getServices().acquireFrame();
   if (!frame) return;
   copy_region(image, region, now.mirrored, static_cast<std::uint16_t*>(frame->data));

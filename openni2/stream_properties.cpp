@@ -18,6 +18,12 @@ constexpr double kCentimetre = 0.01;
 
 using Value = std::optional<PropertyValue>;
 
+/// As clients make points with: what the device believes of itself, or of the colour camera.
+double announced_focal_px(const FrameSource& source, const StreamState& state) {
+  const bool of_colour = state.type == ONI_SENSOR_DEPTH && state.registered && source.setup().processing.colour_view;
+  return of_colour ? colour_focal_px(source.setup()) : source.sensor().calibration().focal_px;
+}
+
 double field_of_view(int pixels, double focal_px) { return 2.0 * std::atan(0.5 * pixels / focal_px); }
 
 int max_depth(const SensorModel& sensor, double unit) {
@@ -52,10 +58,12 @@ PropertyValue zero_plane_distance(const SensorModel& sensor, const StreamState&)
 
 /// Of the 1280 pixels that the imager has for the image's 640, on the reference plane.
 PropertyValue zero_plane_pixel_size(const SensorModel& sensor, const StreamState&) {
-  return sensor.reference / kCentimetre / (2.0 * sensor.focal_px);
+  return sensor.reference / kCentimetre / (2.0 * sensor.calibration().focal_px);
 }
 
-PropertyValue emitter_to_camera(const SensorModel& sensor, const StreamState&) { return sensor.baseline / kCentimetre; }
+PropertyValue emitter_to_camera(const SensorModel& sensor, const StreamState&) {
+  return sensor.calibration().baseline / kCentimetre;
+}
 
 PropertyValue s2d(const SensorModel& sensor, const StreamState& state) {
   return table(shift_to_depth(sensor, state.depth_unit()));
@@ -74,15 +82,16 @@ constexpr std::array kProperties{
     StreamProperty{ONI_STREAM_PROPERTY_MIRRORING,
                    [](const FrameSource&, const StreamState& state) -> Value { return std::int64_t{state.mirrored}; }},
     StreamProperty{ONI_STREAM_PROPERTY_HORIZONTAL_FOV,
-                   [](const FrameSource& source, const StreamState&) -> Value {
-                     return field_of_view(source.sensor().width, source.sensor().focal_px);
+                   [](const FrameSource& source, const StreamState& state) -> Value {
+                     return field_of_view(source.sensor().width, announced_focal_px(source, state));
                    }},
     StreamProperty{ONI_STREAM_PROPERTY_VERTICAL_FOV,
                    [](const FrameSource& source, const StreamState& state) -> Value {
                      const SensorModel& sensor = source.sensor();
                      const bool whole_imager = state.mode.resolutionX == sensor.ir_width;
-                     return whole_imager ? field_of_view(sensor.ir_height, sensor.ir_scale() * sensor.focal_px)
-                                         : field_of_view(sensor.height, sensor.focal_px);
+                     const double focal_px = announced_focal_px(source, state);
+                     return whole_imager ? field_of_view(sensor.ir_height, sensor.ir_scale() * focal_px)
+                                         : field_of_view(sensor.height, focal_px);
                    }},
     StreamProperty{ONI_STREAM_PROPERTY_MIN_VALUE,
                    [](const FrameSource&, const StreamState&) -> Value { return std::int64_t{0}; }},

@@ -17,6 +17,7 @@ struct StreamState {
   OniVideoMode mode;
   OniCropping cropping;  ///< the whole image when it is not enabled
   bool mirrored;
+  bool registered;  ///< depth as the colour camera sees it, which is the device's setting
 
   double depth_unit() const;  ///< [m] of the mode's pixel format
 };

@@ -10,7 +10,9 @@ array bottom[4] = [650, 650, 170, 170]
 set multiplot
 unset key; unset border; unset tics
 do for [column = 1:columns] {
-  folder = system(sprintf("basename $(dirname %s) | tr _ ' '", value(sprintf("ARG%d", column + 1))))
+  folder = value(sprintf("ARG%d", column + 1))
+  folder = folder[1:strlen(folder) - strlen("/preview.png")]
+  while (strstrt(folder, "/")) { folder = folder[strstrt(folder, "/") + 1:*] }
   do for [row = 1:4] {
     set lmargin at screen (side + (column - 1) * tile + 2) / width
     set rmargin at screen (side + column * tile - 2) / width
@@ -19,7 +21,7 @@ do for [column = 1:columns] {
     set xrange [left[row]:left[row] + 160]
     set yrange [bottom[row]:bottom[row] + 160]
     unset label
-    if (row == 1) { set label 1 folder at graph 0.5, 1.09 center }
+    if (row == 1) { set label 1 folder at graph 0.5, 1.09 center noenhanced }
     if (column == 1) { set label 2 rows[row] at graph -0.04, 0.5 right }
     plot value(sprintf("ARG%d", column + 1)) binary filetype=png with rgbimage
   }

@@ -62,6 +62,13 @@ class Layers(unittest.TestCase):
         self.write("core/error.h", "// nothing\n")
         self.assert_only_breach("core/error.h", "#pragma once")
 
+    def test_what_prints_past_the_program_s_own_way_is_caught(self):
+        self.write("app/print.cpp", 'fmt::print("{}", text);\n')
+        self.write("app/capture.cpp", 'const auto text = fmt::format("{}", 1);\n// fmt::print(text)\n')
+        self.assertEqual(list(layers.breaches(self.root)), [])
+        self.write("app/capture.cpp", '\nfmt::print("{}", text);\n')
+        self.assert_only_breach("app/capture.cpp:2", "app/print.h")
+
     def test_a_folder_outside_the_table_is_caught(self):
         self.write("misc/helper.h", "#pragma once\n")
         self.assert_only_breach("misc/helper.h", "not in the table")

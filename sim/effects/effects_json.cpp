@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "sim/effects/registry.h"
@@ -51,8 +52,10 @@ void switch_on(const JsonReader& json, Setup& setup) {
 Setup with_effects(Setup setup) {
   const Json list = std::move(setup.effects);
   setup.effects = Json::array();
-  for (std::size_t i = 0; i < list.size(); ++i)
+  for (std::size_t i = 0; i < list.size(); ++i) {
     switch_on(JsonReader(list[i], setup.file, fmt::format("/effects/{}", i)), setup);
+    setup.switched_on.push_back(list[i]);
+  }
   return setup;
 }
 
@@ -67,8 +70,10 @@ Json effects_of_model(const std::filesystem::path& model) {
 Setup with_effects_of_model(Setup setup, const std::filesystem::path& model) {
   setup = with_effects(std::move(setup));
   setup.effects = effects_of_model(model);
-  setup.file = model.string();
-  return with_effects(std::move(setup));
+  const std::string scene = std::exchange(setup.file, model.string());
+  setup = with_effects(std::move(setup));
+  setup.file = scene;
+  return setup;
 }
 
 }  // namespace fathom

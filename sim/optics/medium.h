@@ -10,12 +10,16 @@ namespace fathom {
 /// The same index at every wavelength inside the cited range.
 struct ConstantIndex {
   double n = 1.0;
+
+  bool operator==(const ConstantIndex&) const = default;
 };
 
 /// Sellmeier's n² − 1 = Σ Aᵢ λ² / (λ² − Bᵢ), λ in µm.
 struct SellmeierIndex {
   std::vector<double> a;      ///< dimensionless
   std::vector<double> b_um2;  ///< µm²
+
+  bool operator==(const SellmeierIndex&) const = default;
 };
 
 /// Water's index (see water.h) plus a difference that is the same at every wavelength and temperature: for liquids that
@@ -23,6 +27,8 @@ struct SellmeierIndex {
 struct WaterIndex {
   double temperature_c = 20.0;
   double above_water = 0.0;
+
+  bool operator==(const WaterIndex&) const = default;
 };
 
 struct Medium {
@@ -40,6 +46,8 @@ struct Medium {
   double n(double wavelength_nm) const;
   bool scatters() const { return scattering > 0.0; }
   double reduced_scattering() const { return scattering * (1.0 - anisotropy); }  ///< μs′ [1/m]
+
+  bool operator==(const Medium&) const = default;
 };
 
 /// Beer–Lambert: the fraction of light left after `path` [m] in a medium of extinction coefficient `coefficient` [1/m].

@@ -119,8 +119,9 @@ std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, Bo
   return follow(world, sight_of(world, camera_ray, inside), world.first_hit(camera_ray));
 }
 
-Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays) {
+Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays, Packet<Hit>* first) {
   const Packet<Hit> hits = world.first_hits(camera_rays);
+  if (first) *first = hits;
   Packet<SeenPoint> seen;
   for (std::size_t i = 0; i < camera_rays.size(); ++i)
     if (const Hit* hit = hits.find(i)) {

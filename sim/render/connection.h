@@ -42,8 +42,9 @@ struct Illumination {
 /// Follows a ray that starts in the bodies `inside` (none: in air). Where it cannot leave a body it is totally
 /// reflected; partial reflections are left to see_mirrored().
 std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
-/// The same for at most kPacket rays in air that lie side by side.
-Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays);
+/// The same for at most kPacket rays in air that lie side by side. `first` gets the surfaces that they meet first, if
+/// it is asked for.
+Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays, Packet<Hit>* first = nullptr);
 
 /// The partial mirror images on a ray in air: calls `visit` with what stands mirrored in the first interface, and for
 /// all further reflections, within bodies and of mirror images, with some that stand for them by chance. In a scene

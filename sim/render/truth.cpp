@@ -17,12 +17,16 @@ void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std
   std::array<Ray, kPacket> chiefs;
   for (std::size_t i = 0; i < pixels.size(); ++i)
     chiefs[i] = {rig.camera_in_world(), rig.direction_in_world(x + static_cast<int>(i) + 0.5, y + 0.5)};
-  const Packet<SeenPoint> seen = see(projector.world(), std::span(chiefs).first(pixels.size()));
+  Packet<Hit> first;
+  const Packet<SeenPoint> seen = see(projector.world(), std::span(chiefs).first(pixels.size()), &first);
   const Packet<Illumination> lights = illuminate(projector, seen);
+  const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
+    TruePixel& pixel = pixels[i];
+    if (const Hit* met = first.find(i))
+      pixel.first = {met->surface->object, forward.dot(met->point - rig.camera_in_world())};
     const SeenPoint* at = seen.find(i);
     if (!at) continue;
-    TruePixel& pixel = pixels[i];
     pixel.position = at->point;
     pixel.object = at->object;
     pixel.path = path_of(*at);

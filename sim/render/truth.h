@@ -13,6 +13,12 @@ namespace fathom {
 /// How a pixel sees its point; the codes of truth.exr's channel `path`.
 enum class PathKind { nothing = 0, direct = 1, refracted = 2, scattered = 3 };
 
+/// The first surface of any kind that a pixel's chief ray meets: a liquid's and a clear wall's, too.
+struct FirstSurface {
+  int object;
+  double depth;  ///< [m] camera frame
+};
+
 struct TruePixel {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] world, first diffuse point on the refracted chief ray
   std::optional<double>
@@ -20,6 +26,7 @@ struct TruePixel {
   double intensity = 0.0;  ///< [DN] of a dot's centre there
   int object = 0;
   PathKind path = PathKind::nothing;
+  std::optional<FirstSurface> first;  ///< may be there where the point is not: behind glass lies nothing
 };
 
 /// Depth from the horizontal parallax of two rays: Z = b / (ξ_camera − ξ_projector) [m]; nothing when they do not meet

@@ -7,6 +7,8 @@ namespace fathom {
 struct Coat {
   double roughness;  ///< α of optics/ggx.h, at least kLeastRoughness
   double index = 1.5;
+
+  bool operator==(const Coat&) const = default;
 };
 
 /// The highlight of a smoother coat on a wall of 40 mm, whose normal turns by this angle [rad] over 0.8 mm, would be

@@ -34,6 +34,12 @@ double floor_of(const MeshCup& mesh) { return cavity(mesh).floor(); }
 
 }  // namespace
 
+bool MeshCup::operator==(const MeshCup& other) const {
+  // The cavity follows from the parts.
+  return name == other.name && parts == other.parts && world_from_mesh.matrix() == other.world_from_mesh.matrix() &&
+         (cavity == nullptr) == (other.cavity == nullptr);
+}
+
 const std::string& cup_name(const Cup& cup) {
   return std::visit([](const auto& shape) -> const std::string& { return shape.name; }, cup.shape);
 }
@@ -47,6 +53,11 @@ bool is_clear(const Cup& cup) {
 Pose world_from_shape(const Cup& cup) {
   return Eigen::Translation3d(cup.position.x(), cup.position.y(), 0.0) *
          Eigen::AngleAxisd(cup.yaw, Eigen::Vector3d::UnitZ());
+}
+
+Pose world_from_cup(const Cup& cup) {
+  const auto* mesh = std::get_if<MeshCup>(&cup.shape);
+  return mesh ? mesh->world_from_mesh : world_from_shape(cup);
 }
 
 std::vector<GltfPart> cup_parts(const Cup& cup) {

@@ -18,6 +18,9 @@ const std::string& cup_name(const Cup& cup);
 /// Pose of a cup of revolution, whose own frame has the axis at the origin and the desk at 0.
 Pose world_from_shape(const Cup& cup);
 
+/// Of the frame in which the cup is described: its own, or its glTF file's, z up.
+Pose world_from_cup(const Cup& cup);
+
 /// Whether light enters the cup's wall, or part of it.
 bool is_clear(const Cup& cup);
 

@@ -23,7 +23,7 @@ namespace {
 MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   const JsonReader shape = json.at("shape");
   const std::filesystem::path file = path_named_in(shape.file(), shape.pointer(), shape.text());
-  MeshCup cup{file.filename().string(), read_gltf(file), nullptr};
+  MeshCup cup{file.filename().string(), read_gltf(file), Pose::Identity(), nullptr};
   const Pose turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * rotation_from_json(json));
   Eigen::AlignedBox3d box;
   for (GltfPart& part : cup.parts) {
@@ -37,6 +37,7 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
                            size_mm, kSmallestMm, kCupLengthMm.high));
   const Pose place(put_down(json, box.min().z()));
   for (GltfPart& part : cup.parts) part.transform(place);
+  cup.world_from_mesh = place * turn;
   return cup;
 }
 

@@ -35,13 +35,15 @@ class Builder {
     top.mesh.add_triangle(0, 2, 3);
     top.albedo = desk.albedo;
     top.coat = desk.glaze;
-    add_opaque(std::move(top), new_object("desk"));
+    const Pose place(Eigen::Translation3d(desk.centre.x(), desk.centre.y(), 0.0));
+    add_opaque(std::move(top), new_object("desk", place));
   }
 
   void add_cup(const Cup& cup, std::size_t index, bool on_desk) {
     const std::string prefix = fmt::format("cup {} ", index);
-    const int object = new_object(prefix + cup_name(cup));
+    const int object = new_object(prefix + cup_name(cup), world_from_cup(cup));
     const std::optional<int> liquid = cup.filling ? std::optional(add_filling(cup, prefix)) : std::nullopt;
+    geometry_.cups.push_back({object, liquid ? std::optional(bodies_[*liquid].body.object) : std::nullopt});
     const auto* shape = std::get_if<CupShape>(&cup.shape);
     const auto* mesh = std::get_if<MeshCup>(&cup.shape);
     if (shape && shape->material)
@@ -53,7 +55,8 @@ class Builder {
   }
 
   void add_object(const Object& object, std::size_t index, bool on_desk) {
-    add_parts(object_parts(object), new_object(fmt::format("object {} {}", index, object_name(object))), on_desk);
+    const int number = new_object(fmt::format("object {} {}", index, object_name(object)), object.world_from_object);
+    add_parts(object_parts(object), number, on_desk);
   }
 
   /// A scene of many things that are small enough by themselves may be too large.
@@ -88,8 +91,9 @@ class Builder {
   }
 
  private:
-  int new_object(std::string name) {
+  int new_object(std::string name, const Pose& world_from_object) {
     geometry_.objects.push_back(std::move(name));
+    geometry_.world_from_object.push_back(world_from_object);
     return static_cast<int>(geometry_.objects.size());
   }
 
@@ -219,7 +223,7 @@ class Builder {
   /// Returns the liquid's body.
   int add_filling(const Cup& cup, const std::string& prefix) {
     const Filling& filling = *cup.filling;
-    const int object = new_object(prefix + filling.medium.name);
+    const int object = new_object(prefix + filling.medium.name, world_from_cup(cup));
     const auto* shape = std::get_if<CupShape>(&cup.shape);
     const bool in_clear_wall = is_clear(cup), plain = filling.form.level() && !in_clear_wall;
     const double level = liquid_level(cup);

@@ -311,7 +311,10 @@ struct Buffers {
   static bool read(std::vector<unsigned char>* to, std::string*, const std::string& name, void* self) {
     auto& buffers = *static_cast<Buffers*>(self);
     try {
-      const std::string content = read_text(path_named_in(buffers.file, "/buffers", name));
+      const std::filesystem::path path = path_named_in(buffers.file, "/buffers", name);
+      if (std::error_code missing; !std::filesystem::exists(path, missing))
+        throw Error(buffers.file, "/buffers", fmt::format("there is no file {}", path.string()));
+      const std::string content = read_text(path);
       buffers.bytes += content.size();
       require_within_limit(buffers.file, "/buffers", buffers.bytes, "buffers");
       to->assign(content.begin(), content.end());

@@ -22,6 +22,8 @@ struct GltfPart {
   int body = 0;                  ///< parts of equal number bound the same clear body
 
   void transform(const Pose& pose);  ///< `pose` without scaling
+
+  bool operator==(const GltfPart&) const = default;
 };
 
 /// Reads the default scene's triangle meshes with their node transformations. A transmissive material makes each mesh

@@ -109,14 +109,26 @@ void dilute(Medium& medium, WaterIndex& index, double share, const Medium& water
   medium.scattering *= share;
 }
 
-/// {"name": …, "temperature_c": …, "dilution": …}
+/// Only what absorbs may be described otherwise than water.
+Medium described_water(const JsonReader& json) {
+  const Medium medium = described_medium(json);
+  const auto* index = std::get_if<WaterIndex>(&medium.index);
+  if (!index || index->above_water != 0.0 || medium.scatters())
+    json.fail("must be water: of the index {\"dispersion\": \"water\"}, without scattering");
+  return medium;
+}
+
+/// {"name": …, "temperature_c": …, "dilution": …}; in place of the name the description "of" what is changed and of the
+/// water that it is diluted "in".
 Medium changed_medium(const JsonReader& json) {
-  json.allow_only({"name", "temperature_c", "dilution"});
-  Medium medium = library_medium(json.text("name"), json.at("name"));
+  json.allow_only({"name", "of", "in", "temperature_c", "dilution"});
+  if (json.has("name") && json.has("of")) json.fail_at("of", "cannot stand beside name, which already says it");
+  Medium medium = json.has("of") ? described_medium(json.at("of")) : library_medium(json.text("name"), json.at("name"));
   auto* index = std::get_if<WaterIndex>(&medium.index);
   if (!index) json.fail("cannot be changed: its index is not known to follow water's");
   if (json.has("dilution"))
-    dilute(medium, *index, json.number("dilution", {0.0, 1.0, true}), library_medium("water", json.at("name")));
+    dilute(medium, *index, json.number("dilution", {0.0, 1.0, true}),
+           json.has("in") ? described_water(json.at("in")) : library_medium("water", json));
   const double temperature_c = json.number_or("temperature_c", kRoomC, {0.0, 100.0});
   index->temperature_c = temperature_c;
   medium.absorption += medium.absorption_per_kelvin * (temperature_c - kRoomC);
@@ -127,7 +139,8 @@ Medium changed_medium(const JsonReader& json) {
 
 Medium medium_from_json(const JsonReader& json) {
   if (json.value().is_string()) return library_medium(json.text(), json);
-  return json.has("name") && !json.has("index") ? changed_medium(json) : described_medium(json);
+  const bool is_changed = json.has("of") || (json.has("name") && !json.has("index"));
+  return is_changed ? changed_medium(json) : described_medium(json);
 }
 
 Medium wall_from_json(const JsonReader& json) {

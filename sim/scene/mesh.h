@@ -26,6 +26,8 @@ struct Mesh {
     vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
     for (const Eigen::Vector3i& triangle : other.triangles) triangles.emplace_back(triangle + shift);
   }
+
+  bool operator==(const Mesh&) const = default;
 };
 
 /// Unit normals at the vertices, those of the triangles around each weighed by their areas: of a smooth mesh.

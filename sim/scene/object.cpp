@@ -34,6 +34,13 @@ std::vector<GltfPart> parts_of(const Solid& solid) {
 
 }  // namespace
 
+bool Object::operator==(const Object& other) const {
+  if (thing.index() != other.thing.index() || world_from_object.matrix() != other.world_from_object.matrix())
+    return false;
+  if (const auto* solid = std::get_if<Solid>(&thing)) return *solid == std::get<Solid>(other.thing);
+  return object_name(*this) == object_name(other) && object_parts(*this) == object_parts(other);
+}
+
 std::string object_name(const Object& object) {
   const auto* solid = std::get_if<Solid>(&object.thing);
   return solid ? solid->name : std::get<std::filesystem::path>(object.thing).filename().string();

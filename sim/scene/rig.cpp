@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/image_file.h"
@@ -14,6 +16,8 @@
 
 namespace fathom {
 namespace {
+
+constexpr Range kFocalPx{1.0, 1e6}, kPrincipalPx{-1e6, 1e6};
 
 constexpr std::uint64_t kBytesPerPosition = 16;  // of a pattern: its brightness, sharp and blurred
 
@@ -88,6 +92,12 @@ Eigen::Vector2i size_from_json(const JsonReader& json) {
   return {items[0].integer(16, 8192), items[1].integer(16, 8192)};
 }
 
+Calibration calibration_from_json(const JsonReader& json) {
+  json.allow_only({"baseline_mm", "focal_px", "principal_px"});
+  return {json.metres("baseline_mm", kLengthMm), json.number("focal_px", kFocalPx),
+          json.at("principal_px").vector2(kPrincipalPx)};
+}
+
 /// Everything but the pose.
 void read_model(const JsonReader& json, SensorModel& sensor) {
   sensor.baseline = json.metres_or("baseline_mm", sensor.baseline, kLengthMm);
@@ -112,8 +122,8 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
                        bytes_of({static_cast<std::uint64_t>(sensor.ir_width),
                                  static_cast<std::uint64_t>(sensor.ir_height), kBytesPerPixel}),
                        "pixels");
-  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, {1.0, 1e6});
-  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2({-1e6, 1e6});
+  sensor.focal_px = json.number_or("focal_px", sensor.focal_px, kFocalPx);
+  if (json.has("principal_px")) sensor.principal_px = json.at("principal_px").vector2(kPrincipalPx);
   sensor.reference = json.metres_or("reference_mm", sensor.reference, kLengthMm);
   sensor.near = json.metres_or("near_mm", sensor.near, kLengthMm);
   sensor.far = json.metres_or("far_mm", sensor.far, kLengthMm);
@@ -128,9 +138,38 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
     const std::string choices[] = {"device", "off"};
     sensor.quantized = json.at("quantization").choice(choices, "quantization") == 0;
   }
+  sensor.step_phase = json.number_or("depth_step_phase", sensor.step_phase, {-2.0, 2.0});
+  sensor.codes_per_step = json.integer_or("codes_per_step", sensor.codes_per_step, 1, 64);
+  sensor.cut = json.metres_or("depth_cut_mm", sensor.cut, {0.0, 100.0});
+  if (json.has("believed")) sensor.believed = calibration_from_json(json.at("believed"));
+}
+
+/// Four rows of four numbers, as run.json has them: a turn and a place [m].
+Pose pose_from_rows(const JsonReader& json) {
+  constexpr double kRight = 1e-9;  // rounding of numbers that were written down
+  const std::vector<JsonReader> rows = json.items();
+  if (rows.size() != 4) json.fail("must be 4 rows of 4 numbers");
+  Eigen::Matrix4d matrix;
+  for (int i = 0; i < 4; ++i) {
+    const std::vector<double> row = rows[i].numbers();
+    if (row.size() != 4) rows[i].fail("must be 4 numbers");
+    matrix.row(i) = Eigen::RowVector4d::Map(row.data());
+  }
+  const Eigen::Matrix3d turn = matrix.topLeftCorner<3, 3>();
+  if (!(turn * turn.transpose()).isIdentity(kRight) || turn.determinant() < 0.0)
+    json.fail("must turn without stretching or mirroring: three rows at right angles, of length 1");
+  if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > metres_from_mm(kPlaceMm.high))
+    json.fail(fmt::format("must place the camera within {:g} m", metres_from_mm(kPlaceMm.high)));
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) rows[3].fail("must be 0, 0, 0, 1");
+  return Pose(matrix);
 }
 
 Pose pose_from_json(const JsonReader& json, double baseline) {
+  if (json.has("world_from_camera")) {
+    for (const char* key : {"height_mm", "aim_mm", "pitch_deg", "roll_deg"})
+      if (json.has(key)) json.fail_at(key, "cannot stand beside world_from_camera, which already says it");
+    return pose_from_rows(json.at("world_from_camera"));
+  }
   const double height = json.metres("height_mm", kLengthMm);
   const Eigen::Vector3d midpoint(0.0, 0.0, height);
   const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, {-180.0, 180.0}));
@@ -151,16 +190,28 @@ Eigen::Vector3d level_right(const Eigen::Vector3d& forward) {
   return {forward.y() / horizontal, -forward.x() / horizontal, 0.0};
 }
 
-/// Pitch and roll, or the aim where the sensor looks to the side.
-void add_direction(const Eigen::Matrix3d& world_from_camera, const Eigen::Vector3d& midpoint_in_world, Json& json) {
-  const Eigen::Vector3d forward = world_from_camera.col(2);
-  if (level_right(forward) == Eigen::Vector3d::UnitX()) {
-    json["pitch_deg"] = deg_from_radians(std::atan2(-forward.z(), forward.head<2>().norm()));
-  } else {
-    const Eigen::Vector3d aim_mm = (midpoint_in_world + forward) / kMetresPerMm;
-    json["aim_mm"] = {aim_mm.x(), aim_mm.y(), aim_mm.z()};
-  }
-  json["roll_deg"] = deg_from_radians(roll_of(world_from_camera));
+/// The number of millimetres that reads back as this length, where there is one: of forty-four lengths one lies between
+/// those that millimetres of double precision can say.
+double mm_that_read_back(double metres) {
+  const double mm = mm_from_metres(metres), infinite = std::numeric_limits<double>::infinity();
+  for (const double near : {mm, std::nextafter(mm, infinite), std::nextafter(mm, -infinite)})
+    if (metres_from_mm(near) == metres) return near;
+  return mm;
+}
+
+Json json_from_calibration(const Calibration& calibration) {
+  const auto& [baseline, focal_px, principal_px] = calibration;
+  return {{"baseline_mm", mm_that_read_back(baseline)},
+          {"focal_px", focal_px},
+          {"principal_px", {principal_px.x(), principal_px.y()}}};
+}
+
+/// All but the image. A new member does not compile until it is here or left out.
+auto numbers_of(const PatternModel& pattern) {
+  const auto& [tile_columns, tile_rows, tiles_across, tiles_down, step_px, dots_per_tile, dot_sigma_ir_px, zero_order,
+               tile_spread, seed, image, image_file] = pattern;
+  return std::tie(tile_columns, tile_rows, tiles_across, tiles_down, step_px, dots_per_tile, dot_sigma_ir_px,
+                  zero_order, tile_spread, seed);
 }
 
 }  // namespace
@@ -183,23 +234,62 @@ double roll_of(const Eigen::Matrix3d& world_from_camera) {
   return std::atan2(right.dot(forward.cross(level)), right.dot(level));
 }
 
+bool PatternModel::operator==(const PatternModel& other) const {
+  if (numbers_of(*this) != numbers_of(other) || (image == nullptr) != (other.image == nullptr)) return false;
+  return image == other.image ||
+         (image->width() == other.image->width() && std::ranges::equal(image->pixels(), other.image->pixels()));
+}
+
+Json json_from_pose(const Pose& pose) {
+  Json rows = Json::array();
+  for (int i = 0; i < 4; ++i) rows.push_back({pose(i, 0), pose(i, 1), pose(i, 2), pose(i, 3)});
+  return rows;
+}
+
 Rig rig_from_json(const JsonReader& json) {
-  json.allow_only(
-      {"model",          "height_mm",     "aim_mm",   "pitch_deg",    "roll_deg",     "baseline_mm", "wavelength_nm",
-       "ir_size_px",     "depth_size_px", "focal_px", "principal_px", "reference_mm", "near_mm",     "far_mm",
-       "radiant_dn_mm2", "optics",        "noise",    "quantization", "pattern",      "matcher",     "unit"});
+  json.allow_only({"model",
+                   "name",
+                   "height_mm",
+                   "aim_mm",
+                   "pitch_deg",
+                   "roll_deg",
+                   "world_from_camera",
+                   "baseline_mm",
+                   "wavelength_nm",
+                   "ir_size_px",
+                   "depth_size_px",
+                   "focal_px",
+                   "principal_px",
+                   "reference_mm",
+                   "near_mm",
+                   "far_mm",
+                   "radiant_dn_mm2",
+                   "optics",
+                   "noise",
+                   "quantization",
+                   "depth_step_phase",
+                   "codes_per_step",
+                   "depth_cut_mm",
+                   "believed",
+                   "pattern",
+                   "matcher",
+                   "unit"});
   Rig rig;
   rig.sensor.noise = basic_noise();
-  rig.sensor.name.clear();  // a full description has no model's name
+  rig.sensor.name = json.text_or("name", "");  // of a full description
   if (json.has("model")) {
+    if (json.has("name")) json.fail_at("name", "cannot stand beside model, which already says it");
     const std::string name = json.text("model");
     const std::filesystem::path file =
         library_file("sensors", "sensor model", name, json.file(), json.pointer() + "/model");
     const Json text = read_json(file);
     const JsonReader model(text, file.string());
-    model.allow_only({"source", "baseline_mm", "wavelength_nm", "ir_size_px", "depth_size_px", "focal_px",
-                      "principal_px", "reference_mm", "near_mm", "far_mm", "radiant_dn_mm2", "optics", "noise",
-                      "quantization", "pattern", "matcher", "unit"});
+    model.allow_only({"source",        "baseline_mm",  "wavelength_nm",    "ir_size_px",
+                      "depth_size_px", "focal_px",     "principal_px",     "reference_mm",
+                      "near_mm",       "far_mm",       "radiant_dn_mm2",   "optics",
+                      "noise",         "quantization", "depth_step_phase", "codes_per_step",
+                      "depth_cut_mm",  "believed",     "pattern",          "matcher",
+                      "unit"});
     read_model(model, rig.sensor);
     rig.sensor.name = name;
   }
@@ -209,51 +299,55 @@ Rig rig_from_json(const JsonReader& json) {
 }
 
 Json json_from_rig(const Rig& rig) {
-  const SensorModel& s = rig.sensor;
-  const Eigen::Vector3d midpoint = 0.5 * (rig.camera_in_world() + rig.projector_in_world());
+  const auto& [name, baseline, wavelength_nm, ir_width, ir_height, width, height, focal_px, principal_px, reference,
+               near, far, radiant_dn_mm2, quantized, step_phase, codes_per_step, cut, pattern, optics, noise, matcher,
+               unit, believed] = rig.sensor;
   Json json = Json::object();
-  if (!s.name.empty()) json["model"] = s.name;
-  json["height_mm"] = mm_from_metres(midpoint.z());
-  add_direction(rig.world_from_camera.linear(), midpoint, json);
+  if (!name.empty()) json["name"] = name;
   json.update({
-      {"baseline_mm", mm_from_metres(s.baseline)},
-      {"wavelength_nm", s.wavelength_nm},
-      {"ir_size_px", {s.ir_width, s.ir_height}},
-      {"depth_size_px", {s.width, s.height}},
-      {"focal_px", s.focal_px},
-      {"principal_px", {s.principal_px.x(), s.principal_px.y()}},
-      {"reference_mm", mm_from_metres(s.reference)},
-      {"near_mm", mm_from_metres(s.near)},
-      {"far_mm", mm_from_metres(s.far)},
-      {"radiant_dn_mm2", s.radiant_dn_mm2},
-      {"quantization", s.quantized ? "device" : "off"},
-      {"optics", json_from_optics(s.optics)},
-      {"noise", json_from_noise(s.noise)},
-      {"unit", json_from_unit(s.unit)},
+      {"world_from_camera", json_from_pose(rig.world_from_camera)},
+      {"baseline_mm", mm_that_read_back(baseline)},
+      {"wavelength_nm", wavelength_nm},
+      {"ir_size_px", {ir_width, ir_height}},
+      {"depth_size_px", {width, height}},
+      {"focal_px", focal_px},
+      {"principal_px", {principal_px.x(), principal_px.y()}},
+      {"reference_mm", mm_that_read_back(reference)},
+      {"near_mm", mm_that_read_back(near)},
+      {"far_mm", mm_that_read_back(far)},
+      {"radiant_dn_mm2", radiant_dn_mm2},
+      {"quantization", quantized ? "device" : "off"},
+      {"depth_step_phase", step_phase},
+      {"codes_per_step", codes_per_step},
+      {"depth_cut_mm", mm_that_read_back(cut)},
+      {"optics", json_from_optics(optics)},
+      {"noise", json_from_noise(noise)},
+      {"unit", json_from_unit(unit)},
       {"pattern",
-       {{"tile_columns", s.pattern.tile_columns},
-        {"tile_rows", s.pattern.tile_rows},
-        {"tiles_across", s.pattern.tiles_across},
-        {"tiles_down", s.pattern.tiles_down},
-        {"step_px", s.pattern.step_px},
-        {"dots_per_tile", s.pattern.dots_per_tile},
-        {"dot_sigma_ir_px", s.pattern.dot_sigma_ir_px},
-        {"zero_order", s.pattern.zero_order},
-        {"tile_spread", s.pattern.tile_spread},
-        {"seed", s.pattern.seed}}},
+       {{"tile_columns", pattern.tile_columns},
+        {"tile_rows", pattern.tile_rows},
+        {"tiles_across", pattern.tiles_across},
+        {"tiles_down", pattern.tiles_down},
+        {"step_px", pattern.step_px},
+        {"dots_per_tile", pattern.dots_per_tile},
+        {"dot_sigma_ir_px", pattern.dot_sigma_ir_px},
+        {"zero_order", pattern.zero_order},
+        {"tile_spread", pattern.tile_spread},
+        {"seed", pattern.seed}}},
       {"matcher",
-       {{"method", s.matcher.method == MatchMethod::device ? "device" : "precise"},
-        {"window_columns", s.matcher.window_columns},
-        {"window_rows", s.matcher.window_rows},
-        {"disparity_min_px", s.matcher.disparity_min_px},
-        {"disparity_max_px", s.matcher.disparity_max_px},
-        {"correlation_min", s.matcher.correlation_min},
-        {"contrast_min_dn", s.matcher.contrast_min},
-        {"relative_contrast_min", s.matcher.relative_contrast_min},
-        {"compression_dn", s.matcher.compression},
-        {"hole_max_px", s.matcher.hole_max_px}}},
+       {{"method", matcher.method == MatchMethod::device ? "device" : "precise"},
+        {"window_columns", matcher.window_columns},
+        {"window_rows", matcher.window_rows},
+        {"disparity_min_px", matcher.disparity_min_px},
+        {"disparity_max_px", matcher.disparity_max_px},
+        {"correlation_min", matcher.correlation_min},
+        {"contrast_min_dn", matcher.contrast_min},
+        {"relative_contrast_min", matcher.relative_contrast_min},
+        {"compression_dn", matcher.compression},
+        {"hole_max_px", matcher.hole_max_px}}},
   });
-  if (s.pattern.image) json["pattern"]["image"] = s.pattern.image_file;
+  if (believed) json["believed"] = json_from_calibration(*believed);
+  if (pattern.image) json["pattern"]["image"] = pattern.image_file;
   return json;
 }
 

@@ -32,7 +32,8 @@ struct PatternModel {
   std::shared_ptr<const Image<float>> image;
   std::string image_file;
 
-  bool operator==(const PatternModel&) const = default;
+  /// Images are the same that have the same brightness, whatever file they came from.
+  bool operator==(const PatternModel& other) const;
 };
 
 enum class MatchMethod {
@@ -137,5 +138,8 @@ Rig rig_from_json(const JsonReader& json);
 
 /// The whole description, as it can be read back.
 Json json_from_rig(const Rig& rig);
+
+/// Four rows of four numbers; lengths in metres.
+Json json_from_pose(const Pose& pose);
 
 }  // namespace fathom

@@ -23,6 +23,8 @@ struct Desk {
   std::optional<Coat> glaze;
   Eigen::Vector2d size{1.4, 1.0};    ///< along x and y
   Eigen::Vector2d centre{0.0, 0.5};  ///< so that the near edge stands under the sensor
+
+  bool operator==(const Desk&) const = default;
 };
 
 /// A handle: a tube of circular section, bent into half an ellipse in the vertical plane at the cup's yaw.
@@ -31,6 +33,8 @@ struct Handle {
   double high = 0.070;   ///< height where it joins the wall again
   double reach = 0.030;  ///< how far its centre line stands out of the wall
   double tube_radius = 0.005;
+
+  bool operator==(const Handle&) const = default;
 };
 
 /// A body of revolution. Profiles run from the axis (radius 0) to the rim as (radius, height above the desk).
@@ -53,13 +57,18 @@ struct CupShape {
   double volume(double depth) const;
   /// Angle by which the inner wall leans outward there, over 1 mm.
   double wall_lean(double height_above_desk) const;
+
+  bool operator==(const CupShape&) const = default;
 };
 
 /// A cup from a glTF file, placed in the world.
 struct MeshCup {
   std::string name;                      ///< the file's
   std::vector<GltfPart> parts;           ///< in the world
+  Pose world_from_mesh;                  ///< after glTF's +Y up became z up
   std::shared_ptr<const Cavity> cavity;  ///< of the parts, where a liquid is asked for
+
+  bool operator==(const MeshCup& other) const;
 };
 
 struct Ripple {
@@ -67,12 +76,16 @@ struct Ripple {
   double amplitude;
   double azimuth;  ///< of the direction in which the phase grows, from +x towards +y in the world
   double phase;    ///< at the cup's axis; 0: level there, rising
+
+  bool operator==(const Ripple&) const = default;
 };
 
 /// How a liquid meets an upright wall.
 struct Wetting {
   double contact_angle;  ///< in the liquid; below π/2 it climbs the wall
   double capillary_length;
+
+  bool operator==(const Wetting&) const = default;
 };
 
 /// What makes a liquid's surface other than level. The parts are added.
@@ -83,6 +96,8 @@ struct LiquidForm {
   std::optional<Wetting> wetting;
 
   bool level() const { return tilt == 0.0 && ripples.empty() && !wetting; }
+
+  bool operator==(const LiquidForm&) const = default;
 };
 
 struct Filling {
@@ -91,6 +106,8 @@ struct Filling {
   /// and meniscus.
   double depth = 0.0;
   LiquidForm form = {};
+
+  bool operator==(const Filling&) const = default;
 };
 
 struct Cup {
@@ -98,15 +115,21 @@ struct Cup {
   Eigen::Vector2d position{0.0, 0.4};  ///< of the axis, or the glTF file's origin, on the desk
   double yaw = 0.0;                    ///< direction of the handle, from +x towards +y
   std::optional<Filling> filling;
+
+  bool operator==(const Cup&) const = default;
 };
 
 struct Box {
   Eigen::Vector3d size;  ///< along x, y, z; the middle of its base is the origin
+
+  bool operator==(const Box&) const = default;
 };
 
 /// Bounded by what a profile sweeps: (radius, height) from the axis, round the outside, back to the axis above.
 struct Revolved {
   std::vector<Eigen::Vector2d> profile;
+
+  bool operator==(const Revolved&) const = default;
 };
 
 /// What stands or lies about, without refraction: goods, crockery, an empty cup turned over.
@@ -114,17 +137,25 @@ struct Solid {
   std::string name;
   std::variant<Box, Revolved, CupShape> form;
   double albedo = 0.5;
+
+  bool operator==(const Solid&) const = default;
 };
 
 struct Object {
   std::variant<std::filesystem::path, Solid> thing;  ///< a glTF file, or
   Pose world_from_object = Pose::Identity();         ///< after glTF's +Y up became z up
+
+  /// glTF files are the same that have the same name and the same triangles, wherever they lie. Throws Error when one
+  /// cannot be read.
+  bool operator==(const Object& other) const;
 };
 
 struct Scene {
   std::optional<Desk> desk = Desk{};
   std::vector<Cup> cups;
   std::vector<Object> objects;
+
+  bool operator==(const Scene&) const = default;
 };
 
 /// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes come from

@@ -14,6 +14,8 @@ struct Circumstances {
   double stood_s = 0.0;              ///< how long the cups have been filled by then
   std::string liquid;                ///< as labelled; empty: by the medium's name
   std::vector<Medium> liquids = {};  ///< all that the campaign pours, in the order of their labels
+
+  bool operator==(const Circumstances&) const = default;
 };
 
 /// Disparities that differ by less [px] belong to one surface, for windows that average.
@@ -24,6 +26,8 @@ struct Processing {
   double window_px = 0.0;    ///< disparities are means over a square of this width, within a surface; 0: own
   bool colour_view = false;  ///< depths are moved to where the colour camera has them (sensor/registration.h)
   double bisector = 0.0;     ///< share of the paper's approximation in what is predicted of raised bottoms, 0 … 1
+
+  bool operator==(const Processing&) const = default;
 };
 
 /// Shares of the light that takes other ways than from the projector to what the camera sees; images only have all or
@@ -33,22 +37,33 @@ struct IndirectLight {
   double mirrored = 0.0;   ///< in surfaces of liquids
 
   bool any() const { return thrown_on > 0.0 || mirrored > 0.0; }
+
+  bool operator==(const IndirectLight&) const = default;
 };
 
 struct Setup {
   Scene scene;
   Rig rig;
-  Json source = {};              ///< the file's text, kept for run.json
-  std::string file = {};         ///< its name, for errors
-  Json effects = Json::array();  ///< switched on by sim/effects; as in the file
+  Json source = {};                  ///< the file's text, kept for run.json
+  std::string file = {};             ///< its name, for errors
+  Json effects = Json::array();      ///< to be switched on by sim/effects; as in the file
+  Json switched_on = Json::array();  ///< those that are, in their order
   Circumstances circumstances = {};
   Processing processing = {};
   IndirectLight light = {};
+
+  /// Whether the same is shot, whatever file says it.
+  bool operator==(const Setup& other) const;
 };
 
 /// Reads a scene file. Throws Error naming file, path, what is wrong and what is allowed.
 Setup read_setup(const std::filesystem::path& path);
-Setup setup_from_json(const Json& json, const std::string& file);
+/// `pointer` is where in the file it stands.
+Setup setup_from_json(const Json& json, const std::string& file, const std::string& pointer = "");
+
+/// How it is processed and what light is added, for run.json.
+Json json_from_processing(const Processing& processing);
+Json json_from_light(const IndirectLight& light);
 
 /// Throws Error, as coming from `json`, when the medium's numbers do not hold at the sensor's wavelength.
 void require_index(const JsonReader& json, const Medium& medium, double wavelength_nm);

@@ -47,7 +47,7 @@ Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, 
 
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
   json.allow_only({"disparity_offset_px", "disparity_sigma_px", "scale_sigma", "serial", "residue_px",
-                   "residue_reach_px", "warm_up_px", "warm_up_s", "on_for_s", "wander_px"});
+                   "residue_reach_px", "warm_up_px", "warm_up_s", "on_for_s", "wander_px", "frame_interval_s"});
   unit.disparity_offset_px = json.number_or("disparity_offset_px", unit.disparity_offset_px, {-4.0, 4.0});
   unit.wander_px = json.number_or("wander_px", unit.wander_px, {0.0, 4.0});
   unit.disparity_sigma_px = json.number_or("disparity_sigma_px", unit.disparity_sigma_px, {0.0, 4.0});
@@ -58,6 +58,7 @@ UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
   unit.warm_up_px = json.number_or("warm_up_px", unit.warm_up_px, {-4.0, 4.0});
   unit.warm_up_s = json.number_or("warm_up_s", unit.warm_up_s, kPositive);
   unit.on_for_s = json.number_or("on_for_s", unit.on_for_s, kNonNegative);
+  unit.frame_interval_s = json.number_or("frame_interval_s", unit.frame_interval_s, kPositive);
   return unit;
 }
 
@@ -71,7 +72,8 @@ Json json_from_unit(const UnitModel& unit) {
           {"residue_reach_px", unit.residue_reach_px},
           {"warm_up_px", unit.warm_up_px},
           {"warm_up_s", unit.warm_up_s},
-          {"on_for_s", unit.on_for_s}};
+          {"on_for_s", unit.on_for_s},
+          {"frame_interval_s", unit.frame_interval_s}};
 }
 
 }  // namespace fathom

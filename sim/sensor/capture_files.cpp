@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/files.h"
 #include "core/image_file.h"
@@ -43,6 +44,30 @@ bool is_frame_folder(const std::string& name) {
          name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
 }
 
+/// The numbers of objects that occur in the truth: first on the pixels' rays, and finally.
+Json numbers_in_sight(const Image<TruePixel>& truth) {
+  std::set<int> first, finally;
+  for (const TruePixel& pixel : truth.pixels()) {
+    if (pixel.first) first.insert(pixel.first->object);
+    if (pixel.object > 0) finally.insert(pixel.object);
+  }
+  return {{"first", first}, {"finally", finally}};
+}
+
+/// Of what is there, not of what the device believes.
+Json camera_matrix(const SensorModel& sensor) {
+  return {{sensor.focal_px, 0.0, sensor.principal_px.x()},
+          {0.0, sensor.focal_px, sensor.principal_px.y()},
+          {0.0, 0.0, 1.0}};
+}
+
+/// The sensor after all effects, with the pattern where the record has it.
+Json sensor_record(const Rig& rig, const ResolvedScene& resolved) {
+  Json sensor = json_from_rig(rig);
+  if (rig.sensor.pattern.image) sensor["pattern"]["image"] = resolved.scene["sensor"]["pattern"]["image"];
+  return sensor;
+}
+
 }  // namespace
 
 std::vector<std::string> frame_files(bool infrared, bool device_outputs) {
@@ -53,8 +78,10 @@ std::vector<std::string> frame_files(bool infrared, bool device_outputs) {
 }
 
 void remove_capture(const std::filesystem::path& folder) {
+  const bool is_ours = std::filesystem::exists(folder / "manifest.jsonl");
   for (const char* name : {"run.json", "manifest.jsonl", "truth.exr"}) std::filesystem::remove(folder / name);
   for (const std::string& name : frame_files(true, true)) std::filesystem::remove(folder / name);
+  if (is_ours) std::filesystem::remove_all(folder / kSceneFiles);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.is_directory() && !entry.is_symlink() && is_frame_folder(entry.path().filename().string()))
@@ -85,10 +112,13 @@ void write_frame(const std::filesystem::path& folder, const Frame& frame, const 
 
 void write_device_outputs(const std::filesystem::path& folder, const SensorModel& sensor, const Frame& frame) {
   constexpr double kTenth = 0.1 * kMetresPerMm;
-  write_png(folder / "depth_100um.png", depth_in_units(depth_image(sensor, frame.disparity_px, kTenth), kTenth));
+  write_png(folder / "depth_100um.png",
+            depth_in_units(depth_image(sensor, frame.disparity_px, cut_of(sensor, kTenth)), kTenth));
   write_png(folder / "shift.png", shift_image(sensor, frame.disparity_px));
   write_png(folder / "depth_registered.png",
-            depth_in_units(registered_to_colour(frame.depth, sensor.focal_px, sensor.focal_px), kMetresPerMm));
+            depth_in_units(registered_to_colour(depth_image(sensor, frame.disparity_px, sensor.cut), sensor.focal_px,
+                                                sensor.focal_px),
+                           kMetresPerMm));
 }
 
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth) {
@@ -97,19 +127,32 @@ void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& tr
              channel("position.Y", truth, [](const TruePixel& p) { return p.position.y(); }),
              channel("position.Z", truth, [](const TruePixel& p) { return p.position.z(); }),
              channel("apparent.Z", truth, [](const TruePixel& p) { return p.apparent_depth.value_or(0.0); }),
+             channel("first.object", truth, [](const TruePixel& p) { return p.first ? p.first->object : 0; }),
+             channel("first.Z", truth, [](const TruePixel& p) { return p.first ? p.first->depth : 0.0; }),
              channel("object", truth, [](const TruePixel& p) { return p.object; }),
              channel("path", truth, [](const TruePixel& p) { return static_cast<int>(p.path); })});
 }
 
-Json run_record(const Camera& camera) {
+void write_scene_files(const std::filesystem::path& folder, const ResolvedScene& resolved) {
+  for (const NamedFile& file : resolved.files) {
+    make_directory((folder / file.name).parent_path());
+    write_text(folder / file.name, file.content);
+  }
+}
+
+Json run_record(const Camera& camera, const ResolvedScene& resolved) {
   const Setup& setup = camera.setup();
+  const Geometry& geometry = camera.geometry();
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
   Json media = Json::object(), cups = Json::object();
   for (std::size_t i = 0; i < setup.scene.cups.size(); ++i) {
     const Cup& cup = setup.scene.cups[i];
+    const CupObjects& numbers = geometry.cups[i];
     if (!cup.filling) continue;
     const Medium& medium = cup.filling->medium;
     cups["cup " + std::to_string(i) + " " + cup_name(cup)] = {
+        {"object", numbers.cup},
+        {"liquid", *numbers.liquid},
         {"cavity_depth_mm", mm_from_metres(cup_depth(cup))},
         {"cavity_ml", ml_from_cubic_metres(cup_capacity(cup))},
         {"fill_mm", mm_from_metres(cup.filling->depth)},
@@ -120,16 +163,25 @@ Json run_record(const Camera& camera) {
                                                              {"anisotropy", medium.anisotropy},
                                                              {"source", medium.source}};
   }
-  Json objects = Json::object();
-  const std::vector<std::string>& names = camera.geometry().objects;
-  for (std::size_t i = 0; i < names.size(); ++i) objects[std::to_string(i + 1)] = names[i];
+  Json objects = Json::object(), poses = Json::object();
+  for (std::size_t i = 0; i < geometry.objects.size(); ++i) {
+    objects[std::to_string(i + 1)] = geometry.objects[i];
+    poses[std::to_string(i + 1)] = json_from_pose(geometry.world_from_object[i]);
+  }
   const CaptureStatistics& s = camera.statistics();
   return {{"scene", setup.source},
-          {"sensor", json_from_rig(setup.rig)},
+          {"resolved_scene", resolved.scene},
+          {"sensor", sensor_record(setup.rig, resolved)},
+          {"camera_matrix", camera_matrix(setup.rig.sensor)},
+          {"world_from_camera", json_from_pose(setup.rig.world_from_camera)},
+          {"processing", json_from_processing(setup.processing)},
+          {"indirect_light", json_from_light(setup.light)},
           {"cups", cups},
           {"media", media},
           {"objects", objects},
-          {"approximations", camera.geometry().approximations},
+          {"world_from_object", poses},
+          {"in_sight", numbers_in_sight(camera.truth())},
+          {"approximations", geometry.approximations},
           {"timing",
            {{"build_s", s.build_s},
             {"truth_s", s.truth_s},

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/json.h"
+#include "sim/scene/resolved_scene.h"
 #include "sim/sensor/capture.h"
 
 namespace fathom {
@@ -28,11 +29,14 @@ void write_frame(const std::filesystem::path& folder, const Frame& frame, const 
 /// What the device itself would send of a frame: depth_100um.png, shift.png and depth_registered.png.
 void write_device_outputs(const std::filesystem::path& folder, const SensorModel& sensor, const Frame& frame);
 
-/// truth.exr: position.X/Y/Z, apparent.Z, object, path.
+/// truth.exr: position.X/Y/Z, apparent.Z, first.object, first.Z, object, path.
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth);
 
+/// Copies of the files that a scene names.
+void write_scene_files(const std::filesystem::path& folder, const ResolvedScene& resolved);
+
 /// The part of run.json that follows from what is shot: scene, effective sensor, media, objects, approximations,
-/// timing, rays, threads.
-Json run_record(const Camera& camera);
+/// timing, rays, threads. `resolved` is the camera's set-up as it can be read again.
+Json run_record(const Camera& camera, const ResolvedScene& resolved);
 
 }  // namespace fathom

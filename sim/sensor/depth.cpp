@@ -22,6 +22,8 @@ std::optional<double> device_depth(const SensorModel& sensor, int code, double u
   return metres_from_mm(unit_mm > 0.0 ? std::floor(1.0 / inverse_mm / unit_mm) * unit_mm : 1.0 / inverse_mm);
 }
 
+double cut_of(const SensorModel& sensor, double unit) { return sensor.cut / kMetresPerMm * unit; }
+
 int device_code(const SensorModel& sensor, double depth) {
   const double inverse_mm = 1.0 / mm_from_metres(depth);
   const double code =

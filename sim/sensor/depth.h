@@ -18,6 +18,10 @@ namespace fathom {
 /// nothing; the device has outputs of 1 and 0.1 mm.
 std::optional<double> device_depth(const SensorModel& sensor, int code, double unit = kMetresPerMm);
 
+/// What depths are cut to [m] in an output of the unit `unit` [m]: to as many units as to millimetres in the sensor's
+/// own.
+double cut_of(const SensorModel& sensor, double unit);
+
 /// The code whose exact depth (before truncation to whole mm) is nearest in disparity to `depth` [m]; of those that
 /// come together the middle one, or of an even number the farther of the two there.
 int device_code(const SensorModel& sensor, double depth);

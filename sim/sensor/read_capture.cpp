@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/image_file.h"
+#include "sim/effects/effects_json.h"
 #include "sim/sensor/capture_files.h"
 
 namespace fathom {
@@ -25,14 +26,17 @@ RecordedCapture read_capture(const std::filesystem::path& folder) {
     throw Error(folder.string(), "holds no complete capture: there is no run.json");
   const Json value = read_json(record);
   const JsonReader json(value, record.string());
-  RecordedCapture capture{rig_from_json(json.at("sensor")).sensor, json.text("mode") == "photometric", {}};
+  const JsonReader scene = json.at("resolved_scene");
+  RecordedCapture capture{with_effects(setup_from_json(scene.value(), scene.file(), scene.pointer())),
+                          json.text("mode") == "photometric",
+                          {}};
   const int frames = json.at("frames").integer(1, kMostFrames);
   for (int i = 0; i < frames; ++i) capture.frames.push_back(frame_folder(folder, i, frames));
   return capture;
 }
 
 void check_frames(const RecordedCapture& capture) {
-  const SensorModel& sensor = capture.sensor;
+  const SensorModel& sensor = capture.sensor();
   for (const std::filesystem::path& folder : capture.frames) {
     if (capture.infrared) check_exr(folder / "ir.exr", sensor.ir_width, sensor.ir_height);
     check_exr(folder / "disparity.exr", sensor.width, sensor.height);
@@ -40,7 +44,7 @@ void check_frames(const RecordedCapture& capture) {
 }
 
 Frame read_frame(const RecordedCapture& capture, std::size_t index, bool infrared) {
-  const SensorModel& sensor = capture.sensor;
+  const SensorModel& sensor = capture.sensor();
   const std::filesystem::path& folder = capture.frames.at(index);
   Frame frame;
   if (infrared && capture.infrared) frame.ir = read_image(folder / "ir.exr", sensor.ir_width, sensor.ir_height);

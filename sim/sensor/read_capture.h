@@ -9,12 +9,14 @@
 namespace fathom {
 
 struct RecordedCapture {
-  SensorModel sensor;
+  Setup setup;                                ///< what was shot, its effects switched on
   bool infrared;                              ///< photometric mode, so that its frames have infrared images
   std::vector<std::filesystem::path> frames;  ///< the folder of each, at least one
+
+  const SensorModel& sensor() const { return setup.rig.sensor; }
 };
 
-/// Reads run.json. Throws Error when the folder holds no complete capture.
+/// Reads run.json, which need not lie where it was written. Throws Error when the folder holds no complete capture.
 RecordedCapture read_capture(const std::filesystem::path& folder);
 
 /// Throws Error naming the first frame's file that is missing, no image of the sensor's size, or cut short. Reads

@@ -187,24 +187,20 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
 
 std::shared_ptr<const Reference> remembered(const SensorModel& sensor, const Pattern& pattern, int samples_across) {
   struct Kept {
-    std::string sensor;
-    std::shared_ptr<const Image<float>> drawn;
+    SensorModel sensor;
     int samples_across = 0;
     std::shared_ptr<const Reference> reference;
   };
   static std::mutex mutex;
   static Kept kept;
-  const std::string described = json_from_rig({sensor, Pose::Identity()}).dump();
   {
     const std::lock_guard lock(mutex);
-    if (kept.reference && kept.sensor == described && kept.drawn == sensor.pattern.image &&
-        kept.samples_across == samples_across)
-      return kept.reference;
+    if (kept.reference && kept.sensor == sensor && kept.samples_across == samples_across) return kept.reference;
   }
   // Not under the lock: a thread that waits within may take up a task that asks for a reference itself.
   auto made = std::make_shared<const Reference>(remember(sensor, pattern, samples_across));
   const std::lock_guard lock(mutex);
-  kept = {described, sensor.pattern.image, samples_across, made};
+  kept = {sensor, samples_across, made};
   return made;
 }
 

@@ -4,14 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "core/files.h"
 #include "core/image_file.h"
 #include "core/json.h"
+#include "sim/effects/effects_json.h"
+#include "sim/scene/resolved_scene.h"
+#include "sim/sensor/depth.h"
 #include "sim/sensor/read_capture.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/scene/write_gltf.h"
 
 namespace fathom {
 namespace {
@@ -53,8 +59,8 @@ TEST_F(CaptureCommand, WritesTheFilesOfTheContract) {
 
   std::vector<std::string> names;
   for (const ExrChannel& channel : read_exr(out / "truth.exr")) names.push_back(channel.name);
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"apparent.Z", "object", "path", "position.X", "position.Y", "position.Z"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"apparent.Z", "first.Z", "first.object", "object", "path", "position.X",
+                                             "position.Y", "position.Z"}));
 
   const Image<float> depth = read_exr_channel(out / "depth.exr", "Z");
   const Image<std::uint16_t> depth_mm = read_png_grey(out / "depth.png");
@@ -84,6 +90,90 @@ TEST_F(CaptureCommand, RecordsWhatItDid) {
     EXPECT_GE(record["timing"][time].get<double>(), 0.0) << time;
 }
 
+TEST_F(CaptureCommand, EveryNumberInSightOccursAndNoOther) {
+  const std::filesystem::path out = capture("out", "--mode geometric");
+  const Json record = read_json(out / "run.json");
+  EXPECT_EQ(record["cups"]["cup 0 paper_cup"]["object"], 2);
+  EXPECT_EQ(record["cups"]["cup 0 paper_cup"]["liquid"], 3);
+  EXPECT_EQ(record["in_sight"], Json::parse(R"({"first": [1, 2, 3], "finally": [1, 2]})"));
+  for (const auto& [channel, key] : {std::pair("first.object", "first"), std::pair("object", "finally")}) {
+    std::set<int> numbers;
+    for (const float number : read_exr_channel(out / "truth.exr", channel).pixels())
+      numbers.insert(std::lround(number));
+    numbers.erase(0);
+    EXPECT_EQ(Json(numbers), record["in_sight"][key]) << channel;
+  }
+}
+
+TEST_F(CaptureCommand, SaysWhereCameraAndObjectsStand) {
+  const std::filesystem::path out = capture("out", "--mode geometric");
+  const Json record = read_json(out / "run.json");
+  const RecordedCapture recorded = read_capture(out);
+  EXPECT_EQ(record["camera_matrix"], Json::parse("[[285.0, 0.0, 160.0], [0.0, 285.0, 120.0], [0.0, 0.0, 1.0]]"));
+  EXPECT_EQ(record["world_from_camera"], json_from_pose(recorded.setup.rig.world_from_camera));
+  const Json at_cup =
+      Json::parse("[[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.3], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]");
+  EXPECT_EQ(record["world_from_object"]["2"], at_cup);
+  EXPECT_EQ(record["world_from_object"]["3"], at_cup);
+}
+
+TEST_F(CaptureCommand, IsReadBackWithItsEffectsAndAModels) {
+  Json scene = small_scene();
+  scene["effects"] = Json::parse(R"([{"name": "baseline", "baseline_mm": 0.3}, {"name": "fill_scale", "scale": 0.1}])");
+  write_json(scene_, scene);
+  write_json(folder_ / "model.json",
+             {{"effects", Json::parse(R"([{"name": "depth_step_phase", "phase_steps": 0.5}])")}});
+  const std::filesystem::path out =
+      capture("out", "--mode geometric --device-outputs --model " + (folder_ / "model.json").string());
+  const RecordedCapture recorded = read_capture(out);
+  const SensorModel& sensor = recorded.sensor();
+  EXPECT_EQ(recorded.setup, with_effects_of_model(read_setup(scene_), folder_ / "model.json"));
+  EXPECT_EQ(sensor.believed->baseline, 0.075);
+  EXPECT_EQ(sensor.step_phase, 1.0);
+  const Image<float> disparity = read_frame(recorded, 0, false).disparity_px,
+                     depth = read_exr_channel(out / "depth.exr", "Z");
+  EXPECT_TRUE(std::ranges::equal(depth_image(sensor, disparity, sensor.cut).pixels(), depth.pixels()));
+  EXPECT_TRUE(std::ranges::equal(depth_in_units(depth_image(sensor, disparity, cut_of(sensor, 1e-4)), 1e-4).pixels(),
+                                 read_png_grey(out / "depth_100um.png").pixels()));
+}
+
+TEST_F(CaptureCommand, IsReadBackElsewhereWithoutTheFilesThatItsSceneNamed) {
+  const std::filesystem::path things = folder_ / "things";
+  make_directory(things);
+  Mesh plate;
+  for (const auto& [x, y] : {std::pair(-0.02, -0.02), {0.02, -0.02}, {0.02, 0.02}, {-0.02, 0.02}})
+    plate.add_vertex({x, y, 0.01});
+  plate.add_triangle(0, 1, 2), plate.add_triangle(0, 2, 3);
+  write_gltf(things / "a plate.gltf", plate);
+  Image<std::uint16_t> dots(64, 64);
+  for (int i = 0; i < 64; i += 3)
+    for (int j = 0; j < 64; j += 2) dots((i * 7 + j) % 64, i) = 65535;
+  write_png(things / "dots.png", dots);
+  Json scene = small_scene();
+  scene["sensor"]["pattern"] = {{"image", "things/dots.png"}};
+  scene["objects"] = Json::parse(R"([{"gltf": "things/a plate.gltf", "position_mm": [100, 300, 0]},
+                                     {"gltf": "things/a plate.gltf", "position_mm": [-100, 300, 0]}])");
+  scene["cups"].push_back(Json::parse(R"({"shape": "things/a plate.gltf", "position_mm": [0, 500], "yaw_deg": 20})"));
+  write_json(scene_, scene);
+  const fathom::Setup shot = read_setup(scene_);
+  const Geometry before = build_geometry(shot.scene, 830.0);
+  std::filesystem::rename(capture("out", "--mode geometric"), folder_ / "moved");
+  const RecordedCapture moved = read_capture(folder_ / "moved");
+  EXPECT_EQ(moved.setup, shot);
+  std::filesystem::remove_all(things);
+  const RecordedCapture alone = read_capture(folder_ / "moved");
+  EXPECT_TRUE(alone.setup.rig.sensor == shot.rig.sensor);
+  const Geometry after = build_geometry(alone.setup.scene, 830.0);
+  ASSERT_EQ(after.surfaces.size(), before.surfaces.size());
+  for (std::size_t i = 0; i < after.surfaces.size(); ++i)
+    EXPECT_TRUE(after.surfaces[i].mesh == before.surfaces[i].mesh);
+  // The next capture takes away what this one brought.
+  std::filesystem::rename(folder_ / "moved", folder_ / "out");
+  write_json(scene_, small_scene());
+  capture("out", "--mode geometric");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / kSceneFiles));
+}
+
 TEST_F(CaptureCommand, SameSeedSameBytesForAnyNumberOfThreads) {
   const std::filesystem::path one = capture("one", "--seed 3 --threads 1"),
                               two = capture("two", "--seed 3 --threads 2");
@@ -105,8 +195,8 @@ TEST_F(CaptureCommand, IsReadBackAsItWasShot) {
   const std::filesystem::path out = capture("out", "--frames 2 --seed 3");
   const RecordedCapture recorded = read_capture(out);
   const fathom::Setup setup = setup_from_json(small_scene(), "scene");
-  EXPECT_EQ(recorded.sensor.focal_px, setup.rig.sensor.focal_px);
-  EXPECT_EQ(recorded.sensor.noise.bits, 10);
+  EXPECT_EQ(recorded.sensor().focal_px, setup.rig.sensor.focal_px);
+  EXPECT_EQ(recorded.sensor().noise.bits, 10);
   ASSERT_EQ(recorded.frames.size(), 2u);
   Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, 3);
   for (std::size_t i = 0; i < 2; ++i) {

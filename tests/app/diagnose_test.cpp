@@ -5,12 +5,19 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
+#include "app/whole_picture.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/rng.h"
 #include "core/table.h"
+#include "core/units.h"
 #include "tests/app/run_fathom.h"
+#include "tests/app/svg_text.h"
+#include "tests/core/file_size_limit.h"
 #include "tests/core/temporary_folder.h"
+#include "theory/raised_bottom.h"
 
 namespace fathom {
 namespace {
@@ -214,6 +221,148 @@ TEST_F(DiagnoseCommand, AKilledRunLeavesWholeFilesOnly) {
   diagnosis("out");
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
     EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
+}
+
+/// A table of heights alone, as the theory has them and a little noise, of liquids that are all water.
+void write_heights(const std::filesystem::path& campaign, const std::vector<std::string>& labels) {
+  Json rig = {{"sensor", {{"model", "xtion_pro_live"}, {"height_mm", 650}, {"pitch_deg", 58.4}}},
+              {"cup", {{"shape", "paper_cup"}}}};
+  Table frames({"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm", "distance_mm",
+                "lateral_mm", "cloud", "height_mm", "height_sd_mm", "points"});
+  Rng rng(1);
+  int pour = 0;
+  for (const std::string& label : labels) {
+    rig["liquids"][label] = "water";
+    for (const double fill_mm : {10.0, 30.0})
+      for (int i = 0; i < 3; ++i, ++pour)
+        for (const double distance_mm : {200.0, 300.0, 400.0}) {
+          const double raised_m = theory::raised_height_at(
+              metres_from_mm(fill_mm), {.h = 0.643, .b = 0.075, .d = metres_from_mm(distance_mm), .n = 1.329});
+          const std::string number = fmt::format("{}", frames.rows());
+          frames.add({number, "0", fmt::format("{}", pour), number, "0", fmt::format("{}", 10 * frames.rows()), label,
+                      fmt::format("{}", fill_mm), fmt::format("{}", distance_mm), "0", "",
+                      fmt::format("{:.3f}", 7.0 + mm_from_metres(raised_m) + 0.3 * rng.normal()), "1.0", "900"});
+        }
+  }
+  make_directory(campaign);
+  write_json(campaign / "rig.json", rig);
+  write_table(campaign / "frames.csv", frames);
+}
+
+TEST_F(DiagnoseCommand, APictureShowsTheLabelsAsWrittenAndNobodyObeysThem) {
+  const std::vector<std::string> labels{
+      "x'; system('touch pwned'); set label 'y", "farmer's milk", "a`touch pwned`b",
+      "@x $y \"z\" \\n {/Bold b}_1^2",           "牛乳_α, ½",     "no font has \U0010FFFD"};
+  write_heights(folder / "campaign", labels);
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  const Json report = diagnosis("out");
+  std::filesystem::current_path(here);
+  ASSERT_NE(report["verdict"], "insufficient") << report["answer"];
+  for (const bool again : {false, true}) {
+    if (again) {
+      std::filesystem::remove(folder / "out" / "heights.svg");
+      ASSERT_EQ(std::system(fmt::format("cd {} && gnuplot -d heights.gp", path("out")).c_str()), 0);
+    }
+    const std::string svg = read_text(folder / "out" / "heights.svg");
+    for (const std::string& label : labels) EXPECT_TRUE(shows(svg, label)) << label;
+    // In the PNG a box in its place would cover all.
+    const std::string script = read_text(folder / "out" / "heights.gp");
+    EXPECT_LT(script.find("no font has \\134u10fffd"), script.find("no font has \U0010FFFD"));
+    for (const char* place : {"pwned", "out/pwned", "campaign/pwned"})
+      EXPECT_FALSE(std::filesystem::exists(folder / place)) << place;
+  }
+}
+
+TEST_F(DiagnoseCommand, WhatIsPrintedCarriesNoControlCharacters) {
+  write_heights(folder / "campaign\x1b[2J", {"water\x1b]0;title\x07", "tea\u009b2J"});
+  for (const char* options : {"", " --json"}) {
+    const ProgramRun run =
+        run_fathom("diagnose '" + path("campaign\x1b[2J") + "' -o '" + path("o\x1b[2Jut") + "'" + options);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* control : {"\x1b", "\x07", "\u009b"}) EXPECT_EQ(run.out.find(control), std::string::npos);
+  }
+  EXPECT_EQ(read_text(folder / "o\x1b[2Jut" / "report.html").find('\x1b'), std::string::npos);
+}
+
+std::map<std::string, std::string> files_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files[entry.path().filename().string()] = read_text(entry.path());
+  return files;
+}
+
+TEST_F(DiagnoseCommand, LeavesNothingOfAnOlderDiagnosisAndAllThatIsNotOfOne) {
+  write_heights(folder / "campaign", {"water"});
+  diagnosis("out");
+  for (const char* name : {"notes.txt", "next_week.json", "next_.json", "map.pdf"})
+    write_text(folder / "out" / name, "mine");
+  write_text(folder / "out" / "next_7.json", "{}");
+  write_text(folder / "campaign" / "frames.csv",
+             "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud,height_mm\n"
+             "0,0,0,0,0,0,water,20,200,0,,13.2\n");
+  EXPECT_EQ(diagnosis("out")["verdict"], "insufficient");
+  auto left = files_in(folder / "out");
+  for (const char* name : {"notes.txt", "next_week.json", "next_.json", "map.pdf"})
+    EXPECT_EQ(left.extract(name).mapped(), "mine") << name;
+  diagnosis("fresh");
+  EXPECT_EQ(left, files_in(folder / "fresh"));
+}
+
+TEST_F(DiagnoseCommand, InAMeasurementsFolderItLeavesWhatWasMeasured) {
+  write_heights(folder / "campaign", {"water"});
+  ASSERT_EQ(run_fathom("measure " + path("campaign")).exit_code, 0);
+  const std::string rows =
+      "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud,height_mm\n"
+      "0,0,0,0,0,0,water,20,200,0,,13.2\n";
+  write_text(folder / "campaign" / "frames.csv", rows);
+  const std::string heights = read_text(folder / "campaign" / "heights.csv");
+  EXPECT_EQ(diagnosis("campaign")["verdict"], "insufficient");
+  EXPECT_EQ(read_text(folder / "campaign" / "frames.csv"), rows);
+  EXPECT_EQ(read_text(folder / "campaign" / "heights.csv"), heights);
+}
+
+// Whoever finds report.json finds one diagnosis, the older or the newer.
+TEST_F(DiagnoseCommand, AKilledRunLeavesNoReportOfTwo) {
+  write_heights(folder / "campaign", {"water"});
+  diagnosis("older");
+  write_heights(folder / "campaign", {"water", "tea"});
+  diagnosis("newer");
+  const auto older = files_in(folder / "older"), newer = files_in(folder / "newer");
+  for (const char* file : {"heights.csv", "heights.gp", "report.html", "model.json"}) {
+    std::filesystem::remove_all(folder / "out");
+    std::filesystem::copy(folder / "older", folder / "out");
+    write_text(folder / "stamp", "");
+    const std::string killed = fmt::format(
+        "{} diagnose {} -o {} > /dev/null 2>&1 & run=$!; "
+        "until [ {} -nt {} ] || ! kill -0 $run; do sleep 0.001; done; kill -KILL $run; wait $run; true",
+        FATHOM_PROGRAM, path("campaign"), path("out"), path(std::string("out/") + file), path("stamp"));
+    ASSERT_EQ(std::system(killed.c_str()), 0);
+    auto left = files_in(folder / "out");
+    std::erase_if(left, [](const auto& one) { return one.first.starts_with('.'); });
+    EXPECT_TRUE(!left.contains("report.json") || left == older || left == newer) << file;
+  }
+  diagnosis("out");
+  EXPECT_EQ(files_in(folder / "out"), newer);
+}
+
+TEST_F(DiagnoseCommand, OnAFullDiskNoHalfPictureIsLeftAndNoReport) {
+  write_heights(folder / "campaign", {"water"});
+  diagnosis("out");
+  const std::uintmax_t png = std::filesystem::file_size(folder / "out" / "heights.png"),
+                       svg = std::filesystem::file_size(folder / "out" / "heights.svg");
+  for (const std::uintmax_t room : {png - 1, svg - 1}) {
+    const FileSizeLimit limit(room);
+    const ProgramRun run = run_fathom("diagnose " + path("campaign") + " -o " + path("out"));
+    EXPECT_EQ(run.exit_code, 1) << room;
+    EXPECT_EQ(run.err.rfind("error: " + path("out/"), 0), 0u) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out" / "report.json"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+      const bool is_picture = entry.path().extension() == ".png" || entry.path().extension() == ".svg";
+      EXPECT_TRUE(!is_picture || is_whole_picture(entry.path())) << entry.path();
+    }
+  }
+  EXPECT_NE(diagnosis("out")["verdict"], "insufficient");
 }
 
 TEST_F(DiagnoseCommand, KnowsTwoFidelities) {

@@ -4,11 +4,13 @@
 #include <cstdlib>
 #include <set>
 
+#include "app/whole_picture.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/table.h"
 #include "core/units.h"
 #include "tests/app/run_fathom.h"
+#include "tests/core/file_size_limit.h"
 #include "tests/core/temporary_folder.h"
 #include "theory/raised_bottom.h"
 
@@ -82,6 +84,23 @@ TEST_F(ReproduceCommand, OnlyWholePicturesAreLeftInTheFolder) {
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder / "out")) files.insert(entry.path().filename().string());
   EXPECT_EQ(files, (std::set<std::string>{"fig13.csv", "fig13.gp", "fig13.png", "fig13.svg", "report.html"}));
+}
+
+// Gnuplot itself says nothing of it.
+TEST_F(ReproduceCommand, OnAFullDiskNoHalfPictureIsLeft) {
+  ASSERT_EQ(reproduce("fig13").exit_code, 0);
+  const std::uintmax_t png = fs::file_size(folder / "out" / "fig13.png"),
+                       svg = fs::file_size(folder / "out" / "fig13.svg");
+  for (const std::uintmax_t room : {png - 1, svg - 1, std::max(png, svg) - 1, std::min(png, svg) / 2}) {
+    const FileSizeLimit limit(room);
+    for (const char* file : {"fig13.png", "fig13.svg"}) fs::remove(folder / "out" / file);
+    const ProgramRun run = reproduce("fig13");
+    EXPECT_EQ(run.exit_code, 1) << room;
+    EXPECT_EQ(run.err.rfind("error: " + (folder / "out/fig13.").string(), 0), 0u) << run.err;
+    for (const char* file : {"fig13.png", "fig13.svg"})
+      EXPECT_TRUE(!fs::exists(folder / "out" / file) || is_whole_picture(folder / "out" / file)) << room;
+    EXPECT_FALSE(fs::exists(folder / "out" / "report.html"));
+  }
 }
 
 TEST_F(ReproduceCommand, UnknownFiguresAreBadUsage) { EXPECT_EQ(reproduce("fig11").exit_code, 2); }

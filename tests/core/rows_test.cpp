@@ -22,6 +22,11 @@ TEST(Rows, AreOneJsonObjectWithEveryDigit) {
                                                "points_in_cup": {"value": 1234.0, "unit": ""}})"));
 }
 
+TEST(Rows, AreOneLineEachWhateverTheyHold) {
+  EXPECT_EQ(format_rows({{"why", "because\nrecognised 1\x1b[2J"}}, false),
+            "why  because\\u000arecognised 1\\u001b[2J\n");
+}
+
 TEST(Rows, HoldTextsToo) {
   const std::vector<Row> rows{{"liquid", "yes"}, {"why", "because it is higher than the bottom"}};
   EXPECT_EQ(format_rows(rows, false),

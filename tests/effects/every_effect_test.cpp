@@ -26,6 +26,7 @@ Setup stood(const char* liquid, const char* quantization) {
         {"quantization", quantization}}},
       {"cups", {{{"shape", "paper_cup"}, {"position_mm", {0, 300}}, {"liquid", liquid}, {"fill_mm", 30}}}}};
   Setup setup = setup_from_json(json, "scene.json");
+  setup.rig.sensor.cut = 0.0;  // steps of depth are not cut to millimetres before an effect does it
   setup.circumstances.time_s = 300.0;
   setup.circumstances.stood_s = 200.0;
   const auto medium_of = [&](const char* name) {
@@ -33,7 +34,7 @@ Setup stood(const char* liquid, const char* quantization) {
     other["cups"][0]["liquid"] = name;
     return setup_from_json(other, "scene.json").scene.cups[0].filling->medium;
   };
-  setup.circumstances.liquids = {medium_of("milk"), medium_of("water")};
+  setup.circumstances.liquids = {medium_of("milk_tea"), medium_of("water")};
   return setup;
 }
 
@@ -66,7 +67,7 @@ class EveryEffect : public testing::TestWithParam<std::string> {};
 TEST_P(EveryEffect, ChangesWhatIsMeasured) {
   const Effect& effect = *find_effect(GetParam());
   if (effect.id == "skew_approximation") {  // of how heights are reduced, not of a shot
-    Setup setup = stood("water", "off");
+    fathom::Setup setup = stood("water", "off");
     const std::vector<double> all{1.0};
     effect.apply(setup, {all, ""});
     EXPECT_EQ(setup.processing.bisector, 1.0);
@@ -75,8 +76,8 @@ TEST_P(EveryEffect, ChangesWhatIsMeasured) {
   const auto changes = [&](const EffectParameter& parameter) {
     for (const CaptureMode mode : {CaptureMode::geometric, CaptureMode::photometric})
       for (const char* quantization : {"off", "device"})
-        for (const char* liquid : {"water", "milk"}) {
-          Setup with = stood(liquid, quantization), without = with;
+        for (const char* liquid : {"water", "milk_tea"}) {
+          fathom::Setup with = stood(liquid, quantization), without = with;
           with.effects = {switched_on(effect, nullptr)};
           without.effects = {switched_on(effect, &parameter)};
           if (shot(with, mode) != shot(without, mode)) return true;
@@ -87,7 +88,7 @@ TEST_P(EveryEffect, ChangesWhatIsMeasured) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTheRegistry, EveryEffect, testing::ValuesIn(effect_ids()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& instance) { return instance.param; });
 
 }  // namespace
 }  // namespace fathom

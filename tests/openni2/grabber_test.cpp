@@ -18,8 +18,8 @@ TEST(Grabber, GivesOurCloud) {
   const RecordedCapture recorded = read_capture(captured.frames);
   std::vector<Image<CloudPoint>> ours;
   for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
-    const Image<float> depth = depth_image(recorded.sensor, read_frame(recorded, i, false).disparity_px);
-    ours.push_back(cloud_of_depth(recorded.sensor, depth, Image<float>(320, 240)));
+    const Image<float> depth = depth_image(recorded.sensor(), read_frame(recorded, i, false).disparity_px);
+    ours.push_back(cloud_of_depth(recorded.sensor(), depth, Image<float>(320, 240)));
   }
 
   pcl::io::OpenNI2Grabber grabber(captured.frames);

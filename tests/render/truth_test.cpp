@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/render/scenes.h"
 #include "theory/triangulation.h"
 
@@ -82,6 +84,72 @@ TEST(Truth, WhatIsDryIsMeasuredWhereItIs) {
   EXPECT_LT(worst, 1e-9);  // 1e-6 mm: rounding of the triangulation, 1e-16 · Z² / b
   EXPECT_GT(bottom, 100);
   EXPECT_GT(desk, 100000);
+}
+
+/// Point in the world at a depth on a pixel's chief ray.
+Eigen::Vector3d on_chief_ray(const Rig& rig, int x, int y, double depth) {
+  const Eigen::Vector3d direction = rig.direction_in_world(x + 0.5, y + 0.5);
+  return rig.camera_in_world() + direction * (depth / direction.dot(rig.world_from_camera.linear().col(2)));
+}
+
+TEST(Truth, ThroughWaterThePixelsMeetItsLevelFirstAndTheCupFinally) {
+  auto setup = cup_setup(30.0, 300.0, 300.0);
+  const Traced traced(setup);
+  ASSERT_EQ(traced.geometry.cups.size(), 1u);
+  const int cup = traced.geometry.cups[0].cup, water = *traced.geometry.cups[0].liquid;
+  const double level = kPaperCupBottom + 0.030;
+  int pixels = 0;
+  double worst = 0.0;
+  for (int y = 0; y < traced.truth.height(); ++y)
+    for (int x = 0; x < traced.truth.width(); ++x) {
+      const TruePixel& pixel = traced.truth(x, y);
+      if (pixel.path != PathKind::refracted) continue;
+      ASSERT_TRUE(pixel.first);
+      EXPECT_EQ(pixel.first->object, water);
+      EXPECT_EQ(pixel.object, cup);
+      worst = std::max(worst, std::fabs(on_chief_ray(traced.rig, x, y, pixel.first->depth).z() - level));
+      ++pixels;
+    }
+  EXPECT_GT(pixels, 1000);
+  EXPECT_LT(worst, 1e-9);  // rounding of doubles; the contract asks for a micrometre
+}
+
+TEST(Truth, WhatIsSeenDirectlyIsMetFirst) {
+  // An opaque liquid, cup and desk: no ray bends.
+  auto setup = cup_setup(30.0, 300.0, 300.0);
+  setup.scene.cups[0].filling->medium.scattering = 1e6;
+  const Traced traced(setup);
+  const Rig& rig = traced.rig;
+  std::array<int, 4> pixels{};
+  double worst = 0.0;
+  for (const TruePixel& pixel : traced.truth.pixels()) {
+    ASSERT_EQ(pixel.object > 0, pixel.first.has_value());
+    if (!pixel.first) continue;
+    ASSERT_EQ(pixel.first->object, pixel.object);
+    const double depth = (rig.world_from_camera.inverse() * pixel.position).z();
+    worst = std::max(worst, std::fabs(pixel.first->depth - depth));
+    ++pixels.at(pixel.object);
+  }
+  EXPECT_LT(worst, 1e-12);  // rounding
+  for (const int object : {1, traced.geometry.cups[0].cup, *traced.geometry.cups[0].liquid})
+    EXPECT_GT(pixels.at(object), 1000) << object;
+}
+
+TEST(Truth, BehindGlassThatNothingStandsBehindTheGlassIsStillMetFirst) {
+  const Traced traced(setup_from_json(Json::parse(R"({
+      "sensor": {"height_mm": 60, "pitch_deg": 0}, "desk": null,
+      "cups": [{"position_mm": [0, 500], "shape": {"height_mm": 120, "bottom_mm": 5, "inner_radius_mm": 37,
+                                                   "outer_radius_mm": 40, "material": {"index": 1.5}}}]})"),
+                                      "test"));
+  int through = 0;
+  for (const TruePixel& pixel : traced.truth.pixels())
+    if (pixel.first) {
+      EXPECT_EQ(pixel.first->object, 1);
+      EXPECT_GT(pixel.first->depth, 0.4);
+      EXPECT_LT(pixel.first->depth, 0.6);
+      through += pixel.object == 0;
+    }
+  EXPECT_GT(through, 1000);
 }
 
 TEST(Truth, BeyondHalfAMetreTheRimHidesTheEmptyCupsBottom) {

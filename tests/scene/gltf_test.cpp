@@ -276,7 +276,7 @@ TEST(Gltf, BuffersLieBesideTheirFile) {
     const InputPolicyScope scope({.allow_outside = true});
     EXPECT_NO_THROW(read_with(name));
   }
-  expect_error([&] { read_with("none.bin"); }, {"scene/none.bin: no such file"});
+  expect_error([&] { read_with("none.bin"); }, {"thing.gltf: /buffers: there is no file ", "scene/none.bin"});
 
   ASSERT_EQ(::mkfifo((folder / "scene/pipe.bin").c_str(), 0600), 0);
   ::alarm(20);  // whoever waits for the pipe's writer ends here

@@ -17,7 +17,9 @@ Json schema() { return read_json(std::filesystem::path(FATHOM_SCENES) / "schema.
 /// A scene in which every kind of object of the schema stands.
 Json full_scene() {
   return Json::parse(R"({
-    "sensor": {"height_mm": 650, "pitch_deg": 60, "optics": {}, "noise": {"disparity": {}}, "pattern": {}, "matcher": {}, "unit": {}},
+    "sensor": {"height_mm": 650, "pitch_deg": 60, "optics": {}, "noise": {"disparity": {}}, "pattern": {}, "matcher": {}, "unit": {},
+               "believed": {"baseline_mm": 75, "focal_px": 570, "principal_px": [320, 240]}},
+    "circumstances": {},
     "desk": {"glaze": {"roughness": 0.5}},
     "cups": [{"shape": {"height_mm": 80, "bottom_mm": 5, "inner_radius_mm": 30, "outer_radius_mm": 33, "handle": {}},
               "position_mm": [0, 400], "fill_mm": 20, "glaze": {"roughness": 0.1, "index": 1.5},
@@ -63,6 +65,8 @@ TEST(Schema, HasExactlyTheKeysOfTheParser) {
   const std::pair<const char*, const char*> places[] = {
       {"", ""},
       {"/sensor", "/$defs/sensor"},
+      {"/circumstances", "/$defs/circumstances"},
+      {"/sensor/believed", "/$defs/calibration"},
       {"/sensor/optics", "/$defs/optics"},
       {"/sensor/noise", "/$defs/noise"},
       {"/sensor/noise/disparity", "/$defs/disparity_noise"},

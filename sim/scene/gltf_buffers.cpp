@@ -1,0 +1,61 @@
+#include "sim/scene/gltf_buffers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/json.h"
+
+namespace fathom {
+namespace {
+
+/// The JSON of a .gltf file, or of the first chunk of a .glb file: "glTF", version, length, chunk's length, "JSON".
+std::string json_text(const std::string& content) {
+  constexpr std::size_t kHeader = 20, kLength = 12;
+  if (!content.starts_with("glTF")) return content;
+  if (content.size() < kHeader) return {};
+  std::uint32_t length = 0;
+  std::memcpy(&length, content.data() + kLength, sizeof length);
+  return content.substr(kHeader, length);
+}
+
+/// "%20" is a blank.
+std::string decoded(const std::string& uri) {
+  const auto hexadecimal = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] == '%' && i + 2 < uri.size() && hexadecimal(uri[i + 1]) && hexadecimal(uri[i + 2])) {
+      text += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      text += uri[i];
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> gltf_buffers(const std::filesystem::path& gltf, const std::string& content) {
+  const Json json = Json::parse(json_text(content), nullptr, false);
+  std::vector<std::string> names;
+  if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return names;
+  for (std::size_t i = 0; i < json["buffers"].size(); ++i) {
+    const Json& buffer = json["buffers"][i];
+    const std::string uri = buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string()
+                                ? buffer["uri"].get<std::string>()
+                                : std::string();
+    if (uri.empty() || uri.starts_with("data:")) continue;
+    const std::filesystem::path name = decoded(uri);
+    if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end())
+      throw Error(gltf.string(), fmt::format("/buffers/{}/uri", i),
+                  "lies outside the file's folder; a capture keeps copies of what is below it only");
+    names.push_back(name.string());
+  }
+  return names;
+}
+
+}  // namespace fathom
