@@ -27,7 +27,8 @@ def environment(program, folder):
         (folder / name).mkdir(parents=True, exist_ok=True)
     libraries = Path(program).resolve().parent.parent / "lib" / "fathom"
     keep = {name: value for name, value in os.environ.items() if name.endswith("SAN_OPTIONS")}
-    return {**keep, "PATH": os.environ["PATH"], "HOME": str(folder / "home"), "TMPDIR": str(folder / "tmp"), "LC_ALL": "C.UTF-8", "LD_LIBRARY_PATH": str(libraries)}
+    return {**keep, "PATH": os.environ["PATH"], "HOME": str(folder / "home"), "TMPDIR": str(folder / "tmp"), "LC_ALL": "C.UTF-8",
+            "LD_LIBRARY_PATH": str(libraries)}
 
 
 def try_one(program, seed, number, seeds, root, limits):
@@ -44,7 +45,9 @@ def try_one(program, seed, number, seeds, root, limits):
     wrong = judge.ending(run, limits)
     if not shell:
         wrong += judge.words(run) + judge.said(run)
-    wrong += judge.strays(before, judge.snapshot(root, {out}), root) + (judge.leftovers(out, run, arguments[0]) if not kind.startswith("resumed") else []) + judge.pwned(root, out, env)
+    wrong += judge.strays(before, judge.snapshot(root, {out}), root) + (judge.leftovers(out, run, arguments[0])
+                                                                        if not kind.startswith("resumed")
+                                                                        else []) + judge.pwned(root, out, env)
     if run.code == 0 and out.is_dir():
         wrong += results.problems(out)
     return kind, [*full[1:], *([shell] if shell else []), *(["LC_ALL=C"] if env["LC_ALL"] == "C" else [])], run, wrong
@@ -69,7 +72,8 @@ class Report:
                 self.failed[kind.split(",")[0]] += 1
                 kept = self.options.keep / f"{self.options.seed}-{number}-{kind.split(',')[0]}"
                 shutil.rmtree(kept, ignore_errors=True)
-                shutil.copytree(root, kept, symlinks=True, ignore=lambda folder, names: [n for n in names if is_pipe(Path(folder, n))])
+                shutil.copytree(root, kept, symlinks=True, ignore=lambda folder,
+                                names: [n for n in names if is_pipe(Path(folder, n))])
                 lines = [f"FAILED: mutant {number} ({kind}): {'; '.join(wrong)[:600]}", f"  fathom {' '.join(arguments)}",
                          f"  kept in {kept}; again: tests/hostile/hostile.py {self.options.program} --seed {self.options.seed} --number {number}"]
                 (kept / "why.txt").write_text("\n".join(lines) + "\n")
@@ -81,7 +85,8 @@ class Report:
         codes = ", ".join(f"{count} × {code}" for code, count in sorted(self.codes.items(), key=str))
         of_kinds = ", ".join(f"{kind} {count}" for kind, count in sorted(self.kinds.items()))
         return (f"{self.done} mutants of seed {self.options.seed} in {time.monotonic() - self.begin:.0f} s ({of_kinds}); exit codes {codes}; at most {self.slowest:.1f} s and "
-                f"{self.largest / 2**20:.0f} MB; failed: {sum(self.failed.values())}" + "".join(f", {kind} {count}" for kind, count in self.failed.items()))
+                f"{self.largest / 2**20:.0f} MB; failed: {sum(self.failed.values())}" + "".join(f", {kind} {count}" for kind,
+                                                                                                count in self.failed.items()))
 
 
 def is_pipe(path):
@@ -125,10 +130,12 @@ def main():
                 try:
                     kind, arguments, run, wrong = try_one(options.program, options.seed, number, seeds, root, limits)
                 except Exception as problem:  # of ours: no mutant may end the others
-                    kind, arguments, run, wrong = kinds.kind_of(options.seed, number).__name__, [], judge.Run(), [f"the test itself: {problem!r}"]
+                    kind, arguments, run, wrong = kinds.kind_of(options.seed,
+                                                                number).__name__, [], judge.Run(), [f"the test itself: {problem!r}"]
                 if options.number is not None:
                     print(f"fathom {' '.join(arguments)}\nexit {run.code} signal {run.signal} {run.stopped} {run.seconds:.2f} s {run.peak / 2**20:.0f} MB\n{run.err.decode('utf-8', 'replace')[:2000]}")
-                    shutil.copytree(root, options.keep / f"{options.seed}-{number}-{kind.split(',')[0]}", symlinks=True, dirs_exist_ok=True, ignore=lambda folder, names: [n for n in names if is_pipe(Path(folder, n))])
+                    shutil.copytree(root, options.keep / f"{options.seed}-{number}-{kind.split(',')[0]}", symlinks=True,
+                                    dirs_exist_ok=True, ignore=lambda folder, names: [n for n in names if is_pipe(Path(folder, n))])
                 report.add(number, kind, arguments, run, wrong, root)
         workers = [threading.Thread(target=work, args=(scratch / f"worker{i}",)) for i in range(options.jobs)]
         for worker in workers:

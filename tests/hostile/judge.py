@@ -167,7 +167,8 @@ def strays(before, after, root):
             for path in sorted(set(before) | set(after)) if before.get(path) != after.get(path)]
 
 
-MARKERS = {"capture": "run.json", "campaign": "frames.csv", "diagnose": "report.json", "evaluate": "rates.txt", "measure": "heights.csv"}
+MARKERS = {"capture": "run.json", "campaign": "frames.csv", "diagnose": "report.json", "evaluate": "rates.txt",
+           "measure": "heights.csv"}
 
 
 def leftovers(out, result, command):
@@ -187,6 +188,7 @@ def pwned(root, out, env):
         return found
     for script in out.rglob("*.gp"):
         if b"touch pwned" in script.read_bytes():
-            subprocess.run(["gnuplot", "-d", script.name], cwd=script.parent, env=env, stdin=subprocess.DEVNULL, capture_output=True, timeout=20)
+            subprocess.run(["gnuplot", "-d", script.name], cwd=script.parent, env=env, stdin=subprocess.DEVNULL,
+                           capture_output=True, timeout=20)
             found += [f"{script.name} runs a command out of data" for _ in root.rglob("pwned")]
     return found

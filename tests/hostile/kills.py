@@ -32,7 +32,8 @@ def uninterrupted(program, work, arguments, folder, env, out):
 
 def killed(command, folder, env, after_s, how):
     """Whether the signal came before the end."""
-    process = subprocess.Popen(command, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    process = subprocess.Popen(command, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         process.wait(after_s)
         return False
@@ -83,7 +84,8 @@ def try_once(program, work, rng, folder, env, references, out):
     if last.returncode != 0:
         wrong.append(f"the rerun fails: {last.stderr.decode('utf-8', 'replace')[:300]}")
     else:
-        wrong += [f"after the rerun: {what}" for what in works.differences(out, files) + works.leftovers(out) + results.problems(out)]
+        wrong += [f"after the rerun: {what}" for what in works.differences(out, files) + works.leftovers(out) +
+                  results.problems(out)]
     return kills, wrong
 
 
@@ -102,9 +104,11 @@ def main():
         references = {}
         for work in all_works:
             older = folder / f"older_{work.name}"
-            uninterrupted(options.program, work, work.arguments, folder, env, folder / "warm")  # libraries are in memory from now on
+            uninterrupted(options.program, work, work.arguments, folder, env,
+                          folder / "warm")  # libraries are in memory from now on
             shutil.rmtree(folder / "warm")
-            references[work.name] = (uninterrupted(options.program, work, work.arguments, folder, env, folder / f"whole_{work.name}"),
+            references[work.name] = (uninterrupted(options.program, work, work.arguments, folder, env,
+                                                   folder / f"whole_{work.name}"),
                                      uninterrupted(options.program, work, work.other, folder, env, older), older)
         turn = 0
         while sum(kills.values()) < options.kills:

@@ -132,7 +132,8 @@ def gltf(rng, seeds, here):
     if rng.random() < 0.7:
         tree["objects"] = [{"gltf": name, "position_mm": [120, 300, 0]}]
     else:
-        tree["cups"] = [{"shape": name, "position_mm": [0, 300], **rng.choice([{}, {"liquid": "water", "fill_mm": 10}, {"liquid": "water", "fill_ml": 30}])}]
+        tree["cups"] = [{"shape": name, "position_mm": [0, 300], **rng.choice([{}, {"liquid": "water", "fill_mm": 10},
+                                                                               {"liquid": "water", "fill_ml": 30}])}]
     (here / "scene.json").write_text(json.dumps(tree))
     return capture_of(rng)
 
@@ -146,7 +147,8 @@ def exr(rng, seeds, here):
     if rng.random() < BYTEWISE:
         data = mutate_bytes.mutate_bytes(rng, seeds.disparity, (here / "played" / "truth.exr").read_bytes())
     else:
-        data = mutate_image.mutate_exr(rng, rng.choice([seeds.disparity, seeds.disparity, (here / "played" / "truth.exr").read_bytes()]))
+        data = mutate_image.mutate_exr(rng, rng.choice([seeds.disparity, seeds.disparity,
+                                                        (here / "played" / "truth.exr").read_bytes()]))
     (here / "played" / "disparity.exr").write_bytes(data)
     return live(here)
 
@@ -177,12 +179,14 @@ def clutter(rng, seeds, here):
 def config(rng, seeds, here):
     """What detect takes beside clouds: a configuration with templates, poses, labels."""
     (here / "cloud.pcd").write_bytes(mutate_cloud.write_pcd(seeds.points, len(seeds.points), 1, "binary"))
-    files = {"config.json": seeds.config, "cup.json": seeds.template, "poses.json": seeds.poses, "cups_groundtruth.csv": seeds.labels}
+    files = {"config.json": seeds.config, "cup.json": seeds.template, "poses.json": seeds.poses,
+             "cups_groundtruth.csv": seeds.labels}
     what = rng.choice(list(files))
     for name, text in files.items():
         mutate = mutate_text.mutate_csv if name.endswith(".csv") else mutate_text.mutate_json
         (here / name).write_bytes(text_mutant(rng, text, here, seeds.rig, mutate) if name == what else text.encode())
-    (here / "cup.pcd").write_bytes(seeds.template_cloud if rng.random() < 0.8 else mutate_cloud.mutate_pcd(rng, seeds.points, len(seeds.points), 1))
+    (here / "cup.pcd").write_bytes(seeds.template_cloud if rng.random() < 0.8
+                                   else mutate_cloud.mutate_pcd(rng, seeds.points, len(seeds.points), 1))
     if what == "poses.json":
         return ["detect", "cloud.pcd", "cloud.pcd", "--poses", "poses.json"]
     if what == "cups_groundtruth.csv":
@@ -200,12 +204,14 @@ def resumed(rng, seeds, here):
     if path.suffix not in (".json", ".csv") or rng.random() < 0.5:
         path.write_bytes(mutate_bytes.mutate_bytes(rng, data))
     else:
-        path.write_bytes(text_mutant(rng, data.decode(), here, seeds.rig, mutate_text.mutate_csv if path.suffix == ".csv" else mutate_text.mutate_json))
+        path.write_bytes(text_mutant(rng, data.decode(), here, seeds.rig, mutate_text.mutate_csv if path.suffix == ".csv"
+                                     else mutate_text.mutate_json))
     return ["campaign", "spec.json"]
 
 
 # Kind: share of the mutants.
-KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, clutter: 2, config: 4, resumed: 2}
+KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, clutter: 2,
+         config: 4, resumed: 2}
 NAMES = [kind.__name__ for kind in KINDS]
 # How the program is called: what its streams lead to.
 STREAMS = ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full", ">&-", "<&-"]

@@ -17,7 +17,8 @@ def mutate_bytes(rng, data, other=b""):
         elif what == "byte":
             data[i] = rng.choice([0, 1, 0x7F, 0x80, 0xFF, 0x0A, 0x20, 0x22, 0x2D, 0x39, rng.randrange(256)])
         elif what == "word":
-            raw = struct.pack("<q", rng.choice([0, -1, 1, 2**31 - 1, -2**31, 2**32 - 1, 2**62, 0x7FC00000, 0x7F800000, 60_000, 2**24]))
+            raw = struct.pack("<q", rng.choice([0, -1, 1, 2**31 - 1, -2**31, 2**32 - 1, 2**62, 0x7FC00000, 0x7F800000, 60_000,
+                                                2**24]))
             data[i:i + 4] = raw[:len(data[i:i + 4])]
         elif what == "cut":
             del data[i:i + n]

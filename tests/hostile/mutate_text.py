@@ -46,7 +46,8 @@ def put(place, value):
 
 
 def other_type(rng):
-    return rng.choice([None, True, False, Raw("1"), Raw("-1.5"), "", "text", [], Object(), [[]], [Raw("1"), Raw("2"), Raw("3")], Object([("a", Raw("1"))]),
+    return rng.choice([None, True, False, Raw("1"), Raw("-1.5"), "", "text", [], Object(), [[]], [Raw("1"), Raw("2"), Raw("3")],
+                       Object([("a", Raw("1"))]),
                        [None], ["x"], Raw(rng.choice(extremes.NO_NUMBERS))])
 
 
@@ -88,7 +89,8 @@ def change(rng, tree, folder):
     elif what == "retype":
         put(place, other_type(rng))
     elif what == "rename" and isinstance(container, Object):
-        key = extremes.word(rng) if rng.random() < 0.5 else rng.choice(["", container[i][0].upper(), container[i][0] + " ", "x" + container[i][0]])
+        key = extremes.word(rng) if rng.random() < 0.5 else rng.choice(["", container[i][0].upper(), container[i][0] + " ",
+                                                                        "x" + container[i][0]])
         container[i] = (key, container[i][1])
     elif what == "length":
         lists = [get(p) for p in found if isinstance(get(p), list)] or [tree]
@@ -96,7 +98,8 @@ def change(rng, tree, folder):
         if isinstance(items, list) and items:
             count = rng.choice([0, 1, 2, len(items) + 1, 2 * len(items), 100, 3000])
             again = [(f"{k}_{n}", v) if isinstance(items, Object) else v
-                     for n, (k, v) in enumerate((e if isinstance(items, Object) else (None, e)) for e in items * (count // len(items) + 1))]
+                     for n, (k, v) in enumerate((e if isinstance(items, Object) else (None, e))
+                                                for e in items * (count // len(items) + 1))]
             items[:] = again[:count]
     elif what == "nest":
         put(place, nested(rng, get(place)))
@@ -121,8 +124,10 @@ def mutate_json(rng, text, folder):
         tree = parse(json_again) if (json_again := as_json(tree)) else tree  # shared parts become copies
     result = write(tree)
     if rng.random() < 0.04:
-        result = rng.choice([result + result, "\ufeff" + result, result + ",", "[" + result, result.replace(":", ",", 1), "// x\n" + result,
-                             result[:-1], " " * 1_000_000 + result, result + "\x00", result.replace('"', "'"), "null", "[]", "{}", "1"])
+        result = rng.choice([result + result, "\ufeff" + result, result + ",", "[" + result, result.replace(":", ",", 1), "// x\n" +
+                             result,
+                             result[:-1], " " * 1_000_000 + result, result + "\x00", result.replace('"', "'"), "null", "[]", "{}",
+                             "1"])
     return result
 
 
@@ -142,7 +147,8 @@ def mutate_csv(rng, text, folder):
         r, c = rng.randrange(len(rows)), rng.randrange(max(1, len(rows[0])))
         row = rows[r]
         c = min(c, len(row) - 1)
-        what = rng.choices(["cell", "column", "drop column", "double column", "swap columns", "drop row", "double row", "cut row", "many", "quote", "head"],
+        what = rng.choices(["cell", "column", "drop column", "double column", "swap columns", "drop row", "double row", "cut row",
+                            "many", "quote", "head"],
                            [40, 6, 5, 5, 5, 6, 6, 4, 2, 4, 5])[0]
         if what == "cell":
             row[c] = cell(rng, row[c], folder)

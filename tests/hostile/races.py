@@ -26,7 +26,8 @@ def race(program, work, rng, folder, env, references, out):
     stagger = rng.choice([0.0, 0.0, rng.uniform(0.0, 0.2 * shortest)])
     runs = []
     for name in settings:
-        runs.append(subprocess.Popen([program, *getattr(work, name), "-o", str(out)], cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE))
+        runs.append(subprocess.Popen([program, *getattr(work, name), "-o", str(out)], cwd=folder, env=env, stdin=subprocess.DEVNULL,
+                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE))
         time.sleep(stagger)
     said = [(run.communicate(timeout=600)[1].decode("utf-8", "replace"), run.returncode) for run in runs]
     wrong, owners = [], [i for i, (_, code) in enumerate(said) if code == 0]
@@ -56,7 +57,8 @@ def main():
         folder = Path(scratch)
         env = environment(options.program, folder)
         all_works = [w for w in works.make_works(options.program, folder, env) if options.work in (None, w.name)]
-        references = {work.name: {name: uninterrupted(options.program, work, getattr(work, name), folder, env, folder / f"{name}_{work.name}") for name in ("arguments", "other")}
+        references = {work.name: {name: uninterrupted(options.program, work, getattr(work, name), folder, env,
+                                                      folder / f"{name}_{work.name}") for name in ("arguments", "other")}
                       for work in all_works}
         for i in range(options.races):
             work = all_works[i % len(all_works)]

@@ -9,7 +9,8 @@ from itertools import accumulate
 
 import mutate_image
 
-SOURCES = {"scene", "spec", "clutter", "config", "model", "earlier", "model_effects"}  # of run.json and the like: the user's own text
+SOURCES = {"scene", "spec", "clutter", "config", "model", "earlier",
+           "model_effects"}  # of run.json and the like: the user's own text
 # As programs print them; those of the mutants have capitals, and may come back as names.
 NO_NUMBER = re.compile(r"(?<![\w.'\"-])[-+]?(nan|inf|infinity)(?![\w.'\"-])")
 MOST_PIXEL_BYTES = 2_000_000  # beyond these the values of an image are not looked at, which takes long here

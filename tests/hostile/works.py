@@ -24,19 +24,26 @@ class Work:
 
 def make_works(program, folder, env):
     """The works, with their inputs in `folder`, from which they are started."""
-    scene = {"sensor": {**TINY, "noise": "device"}, "cups": [{"shape": "paper_cup", "position_mm": [0, 300], "liquid": "water", "fill_mm": 30}]}
+    scene = {"sensor": {**TINY, "noise": "device"}, "cups": [{"shape": "paper_cup", "position_mm": [0, 300], "liquid": "water",
+                                                              "fill_mm": 30}]}
     spec = {**campaign(), "distance_mm": [250, 350], "trials": 4, "bare_desk_views": 2}
-    clutter = {**json.loads(CLUTTER.read_text()), "sensor": {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 350, 0], "ir_size_px": [640, 480], "depth_size_px": [320, 240], "focal_px": 285}}
+    clutter = {**json.loads(CLUTTER.read_text()), "sensor": {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 350, 0],
+                                                             "ir_size_px": [640, 480], "depth_size_px": [320, 240],
+                                                             "focal_px": 285}}
     seen = {**TINY, "noise": "device", "ir_size_px": [640, 480], "depth_size_px": [320, 240], "focal_px": 285}
     measured = {**campaign(), "sensor": seen, "distance_mm": [250, 350], "trials": 2, "bare_desk_views": 2}
-    for name, value in {"scene": scene, "spec": spec, "clutter": clutter, "measured": measured, "hidden": {**measured, "effects": []}}.items():
+    for name, value in {"scene": scene, "spec": spec, "clutter": clutter, "measured": measured,
+                        "hidden": {**measured, "effects": []}}.items():
         (folder / f"{name}.json").write_text(json.dumps(value))
     for name in ("measured", "hidden"):
-        subprocess.run([program, "campaign", f"{name}.json", "-o", name, "--quiet"], cwd=folder, env=env, check=True, stdout=subprocess.DEVNULL)
-    capture, evaluate = ["capture", "scene.json", "--mode", "geometric", "--frames", "12", "--quiet"], ["evaluate", "recognition", "--clutter", "clutter.json", "--trials", "3", "--quiet"]
+        subprocess.run([program, "campaign", f"{name}.json", "-o", name, "--quiet"], cwd=folder, env=env, check=True,
+                       stdout=subprocess.DEVNULL)
+    capture, evaluate = ["capture", "scene.json", "--mode", "geometric", "--frames", "12",
+                         "--quiet"], ["evaluate", "recognition", "--clutter", "clutter.json", "--trials", "3", "--quiet"]
     return [
         Work("capture", "run.json", capture, [*capture, "--seed", "2"]),
-        Work("campaign", "frames.csv", ["campaign", "spec.json", "--quiet"], ["campaign", "spec.json", "--quiet", "--seed", "2"], resumes=True),
+        Work("campaign", "frames.csv", ["campaign", "spec.json", "--quiet"], ["campaign", "spec.json", "--quiet", "--seed", "2"],
+             resumes=True),
         Work("diagnose", "report.json", ["diagnose", "measured", "--quiet"], ["diagnose", "hidden", "--quiet"]),
         Work("evaluate", "rates.txt", evaluate, [*evaluate, "--seed", "2"], resumes=True),
     ]
@@ -65,13 +72,15 @@ def content(path):
 
 def files(folder):
     """Every file but what is hidden: leftovers and locks."""
-    return {path.relative_to(folder): content(path) for path in folder.rglob("*") if path.is_file() and not any(p.startswith(".") for p in path.relative_to(folder).parts)}
+    return {path.relative_to(folder): content(path) for path in folder.rglob("*") if path.is_file()
+            and not any(p.startswith(".") for p in path.relative_to(folder).parts)}
 
 
 def differences(folder, wanted):
     """In words; nothing where `folder` holds just the files `wanted`."""
     found = files(folder)
-    return ([f"{name} is missing" for name in wanted if name not in found] + [f"{name} is too much" for name in found if name not in wanted] +
+    return ([f"{name} is missing" for name in wanted if name not in found] + [f"{name} is too much" for name in found
+                                                                              if name not in wanted] +
             [f"{name} differs" for name in wanted if name in found and found[name] != wanted[name]])
 
 
