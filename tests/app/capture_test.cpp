@@ -98,8 +98,8 @@ TEST_F(CaptureCommand, EveryNumberInSightOccursAndNoOther) {
   EXPECT_EQ(record["in_sight"], Json::parse(R"({"first": [1, 2, 3], "finally": [1, 2]})"));
   for (const auto& [channel, key] : {std::pair("first.object", "first"), std::pair("object", "finally")}) {
     std::set<int> numbers;
-    for (const float number : read_exr_channel(out / "truth.exr", channel).pixels())
-      numbers.insert(static_cast<int>(number));
+    const Image<float> image = read_exr_channel(out / "truth.exr", channel);
+    for (const float number : image.pixels()) numbers.insert(static_cast<int>(number));
     numbers.erase(0);
     EXPECT_EQ(Json(numbers), record["in_sight"][key]) << channel;
   }

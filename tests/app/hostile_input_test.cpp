@@ -121,7 +121,7 @@ TEST(HostileFiles, FramesNameCloudsBesideThem) {
                  "cup": {"shape": "paper_cup"}, "liquids": {"water": "water"}})");
   write_text(folder / "campaign/frames.csv",
              "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud\n"
-             "0,0,0,0,0,0,none,0,0,0,../secret.pcd\n");
+             "0,0,0,0,0,0,empty,0,400,0,../secret.pcd\n");
   for (const char* command : {"measure", "diagnose"}) {
     const std::string arguments =
         fmt::format("{} {} -o {}", command, quoted(folder / "campaign"), quoted(folder / "out"));

@@ -65,7 +65,7 @@ TEST(Medium, ChangesAreRefusedInWords) {
   expect_error([] { changed_medium(R"({"name": "water", "dilution": 0})"); }, {"/dilution: must be"});
   expect_error([] { changed_medium(R"({"name": "wtaer", "dilution": 1})"); }, {"/name: unknown liquid 'wtaer'"});
   expect_error([] { changed_medium(R"({"name": "water", "fill": 1})"); },
-               {"choose from name, temperature_c, dilution"});
+               {"choose from name, of, in, temperature_c, dilution"});
   expect_error([] { changed_medium(R"({"index": {"dispersion": "oil"}})"); }, {"/index", "'oil'", "water"});
   expect_error([] { changed_medium(R"({"index": {"dispersion": "water", "n": 1.34}})"); }, {"n and at_nm"});
   expect_error(

@@ -25,7 +25,7 @@ class GltfTumbler : public testing::TestWithParam<Shading> {
   /// The flared cup with `more` in it, from a file.
   fathom::Setup mesh_cup(const std::string& more) const {
     const auto file = write_tumbler(folder_ / "", flared_shape(), 1.51, 0.044, GetParam());
-    return cup_of(Json(file.string()).dump(), more);
+    return gltf_cup_of(file, more);
   }
 
  private:
@@ -123,7 +123,7 @@ TEST(FlatGltfTumbler, MakesNoLightAndCountsNoneTwice) {
   const Mesh mesh =
       sheet_of_revolution({{0.0, 0.0}, {0.033, 0.0}, {0.043, 0.087}, {0.040, 0.087}, {0.030, 0.007}, {0.0, 0.007}}, 12);
   const auto file = write_clear_gltf(folder / "", mesh, 1.51, 0.044);
-  fathom::Setup setup = cup_of(Json(file.string()).dump(), kWater);
+  fathom::Setup setup = gltf_cup_of(file, kWater);
   SensorModel& sensor = setup.rig.sensor;
   sensor.width = 60, sensor.height = 60, sensor.principal_px = {30.0, 30.0}, sensor.focal_px = 250.0;
   const LitScene scene(setup);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -67,13 +68,19 @@ inline void add_room(Geometry& geometry) {
   geometry.surfaces.push_back({static_cast<int>(geometry.objects.size()), std::move(room), Diffuse{0.0}});
 }
 
-/// The sensor over a cup of the given shape at 300 mm; `more` goes into the cup.
-inline Setup cup_of(const std::string& shape, const std::string& more) {
+/// The sensor over a cup of the given shape at 300 mm; `more` goes into the cup. `file` is where the scene would stand.
+inline Setup cup_of(const std::string& shape, const std::string& more, const std::string& file = "test") {
   return setup_from_json(Json::parse(fmt::format(R"({{"sensor": {{"height_mm": 650, "aim_mm": [0, 300, 0]}},
                                    "cups": [{{"shape": {}, "position_mm": [0, 300]{}}}]}})",
                                                  shape, more)),
-                         "test");
+                         file);
 }
+
+/// The same over a cup that is a glTF file.
+inline Setup gltf_cup_of(const std::filesystem::path& gltf, const std::string& more) {
+  return cup_of(Json(gltf.filename().string()).dump(), more, (gltf.parent_path() / "scene.json").string());
+}
+
 inline constexpr const char* kPaperCup = "\"paper_cup\"";
 inline constexpr const char* kGlassCup = R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40,
     "outer_radius_mm": 43, "material": {"index": 1.51, "absorption_per_mm": 0.044}})";

@@ -40,7 +40,7 @@ TEST(FilledTumbler, LooksLikeItsAnalyticTwin) {
   const CupShape shape = std::get<CupShape>(cup_of(kGlassCup, "").scene.cups[0].shape);
   const auto of_mesh = [&](Shading shading) {
     const auto file = write_tumbler(folder / "", shape, 1.51, 0.044, shading);
-    return difference(image_of(cup_of(Json(file.string()).dump(), kWater)), twin);
+    return difference(image_of(gltf_cup_of(file, kWater)), twin);
   };
   // A dot's standard deviation is 0.9 of a pixel, 1.1 mm on the desk. Through a fifth of the view, the walls, points
   // are seen off their place: with vertex normals 2 µm on the average, 0.2 % of a dot, ...
