@@ -41,7 +41,29 @@ MeshCup mesh_cup_from_json(const JsonReader& json, double yaw) {
   return cup;
 }
 
+/// What looking for the inside takes goes with the triangles' area. A cup has some times the area of the box around it;
+/// one mesh placed a thousand times at the same place has a thousand times.
+void require_modest_area(const JsonReader& json, const MeshCup& cup) {
+  constexpr double kMostOfBox = 100.0;
+  double area = 0.0;
+  Eigen::AlignedBox3d box;
+  for (const GltfPart& part : cup.parts) {
+    const std::vector<Eigen::Vector3d>& v = part.mesh.vertices;
+    for (const Eigen::Vector3i& t : part.mesh.triangles)
+      area += 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm();
+    for (const Eigen::Vector3d& vertex : v) box.extend(vertex);
+  }
+  const Eigen::Vector3d size = box.sizes();
+  const double of_box = 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  if (area > kMostOfBox * of_box)
+    json.fail_at("shape",
+                 fmt::format("{} has triangles of {:.0f} times the area of the box around it, at most {:g} times "
+                             "can be searched for its inside",
+                             cup.name, area / of_box, kMostOfBox));
+}
+
 void find_cavity_of(const JsonReader& json, MeshCup& cup) {
+  require_modest_area(json, cup);
   std::vector<Mesh> meshes;
   std::map<int, Mesh> clear_bodies;
   for (const GltfPart& part : cup.parts) {

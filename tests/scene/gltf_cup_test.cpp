@@ -1,6 +1,8 @@
 // Cups from glTF files in scene files: where they stand, how they are filled, and one line for what cannot be.
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/cup_mesh.h"
@@ -33,6 +35,22 @@ class GltfCup : public testing::Test {
 
 // Coordinates of the file are floats: 0.587 m is rounded by up to 3e-8 m.
 constexpr double kFloatFile = 6e-8;
+
+TEST_F(GltfCup, AMeshPlacedOverAndOverIsRefusedAtOnce) {
+  Json gltf = read_json(folder_ / "cup.gltf");
+  gltf["nodes"] = Json::array();
+  gltf["scenes"][0]["nodes"] = Json::array();
+  for (int i = 0; i < 1000; ++i) {
+    gltf["nodes"].push_back({{"mesh", 0}});
+    gltf["scenes"][0]["nodes"].push_back(i);
+  }
+  write_json(folder_ / "many.gltf", gltf);
+  const auto begin = std::chrono::steady_clock::now();
+  expect_error([&] { read(R"({"position_mm": [20, 400], "liquid": "water", "fill_mm": 30})", "many.gltf"); },
+               {"/cups/0/shape: many.gltf has triangles of ", "at most 100 times can be searched for its inside"});
+  // Searching takes a minute; reading a thousand meshes a fraction of a second.
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(15));
+}
 
 TEST_F(GltfCup, StandsOnTheDeskAndIsFilledFromItsFloor) {
   const Cup cup = read(R"({"position_mm": [20, 400], "liquid": "water", "fill_mm": 30})");
