@@ -37,17 +37,7 @@ std::string whole_number(std::string& text) {
   return {};
 }
 
-std::string any_number(std::string& text) {
-  return decimal<double>(text) ? std::string() : fmt::format("must be a number, got '{}'", text);
-}
-
-/// What an option of that type must be given; nothing where it takes no number. CLI11 names types so.
-std::function<std::string(std::string&)> check_of(const std::string& type) {
-  if (type == "UINT") return whole_number<std::uint64_t>;
-  if (type == "INT") return whole_number<std::int64_t>;
-  if (type == "FLOAT") return any_number;
-  return nullptr;
-}
+std::string any_number(const std::string& text) { return number_within({})(text); }
 
 }  // namespace
 
@@ -79,9 +69,12 @@ void add_number_list(CLI::App& app, const char* name, std::vector<double>& value
 
 void require_numbers(CLI::App& command) {
   for (CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
-    const std::string type = option->get_type_name();  // with what its checks say of themselves, after a colon
-    if (auto check = check_of(type.substr(0, type.find(':'))))
-      option->transform(CLI::Validator(std::move(check), ""));  // ahead of the other checks
+    const std::string name = option->get_type_name();  // with what its checks say of themselves, after a colon
+    const std::string type = name.substr(0, name.find(':'));
+    // Whole numbers ahead of the other checks, which read them as well; others after their ranges, which say more.
+    if (type == "UINT") option->transform(CLI::Validator(whole_number<std::uint64_t>, ""));
+    if (type == "INT") option->transform(CLI::Validator(whole_number<std::int64_t>, ""));
+    if (type == "FLOAT") option->check(any_number);
   }
   for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) require_numbers(*below);
 }

@@ -19,7 +19,7 @@ struct NumberOption {
 
 /// Options that take numbers, as the command's help lists them: "  --seed UINT=1 …".
 std::vector<NumberOption> number_options(const std::string& command) {
-  const std::regex line(R"(^\s+(--[a-z-]+) (UINT|INT|FLOAT\|inf|FLOAT,…|FLOAT)\b.*)");
+  const std::regex line(R"(^\s+(--[a-z-]+) (UINT|INT|FLOAT\|inf|FLOAT,…|FLOAT|MM|DEG)(?=[ =:]|$).*)");
   std::vector<NumberOption> found;
   std::istringstream help(run_fathom(command + " --help").out);
   std::smatch parts;
@@ -54,7 +54,7 @@ std::vector<std::string> all_wrong(const std::string& type) {
   const auto add = [&](std::initializer_list<const char*> texts) {
     wrong.insert(wrong.end(), texts.begin(), texts.end());
   };
-  if (!type.starts_with("FLOAT")) add({"1.5", "1e2", "18446744073709551616", "-18446744073709551616", "1,2"});
+  if (type.ends_with("INT")) add({"1.5", "1e2", "18446744073709551616", "-18446744073709551616", "1,2"});
   if (type == "UINT") add({"-1", "-0x1"});
   if (type != "FLOAT|inf") add({"inf"});
   if (type == "FLOAT,…") add({"10,,20", "10,", ",", "[10,20]", "10,1e400"});
@@ -78,7 +78,7 @@ TEST(NumbersOfTheCommandLine, AreNumbersAndNothingElse) {
       EXPECT_TRUE(run.err.starts_with("error: " + option.name + ": must be a ")) << run.err;
       EXPECT_EQ(run.out, "");
     }
-  EXPECT_EQ(types.size(), 5u);  // so many kinds of numbers; one option of each is tried with everything
+  EXPECT_EQ(types.size(), 7u);  // so many kinds of numbers; one option of each is tried with everything
 }
 
 TEST(NumbersOfTheCommandLine, AreDecimalAndUseTheirWholeRange) {
