@@ -39,17 +39,6 @@ TEST(NobodyListens, ResultsThatCannotBeWrittenAreAnError) {
           << arguments << closed;
 }
 
-// Where stdout is closed the first file that is opened would be stdout.
-TEST(NobodyListens, NoFileIsTakenForStdout) {
-  const TemporaryFolder folder;
-  const std::string program = FATHOM_PROGRAM;
-  EXPECT_EQ(exit_code_of(fmt::format("{} theory -o {} > /dev/null", program, quoted(folder / "right"))), 0);
-  EXPECT_EQ(exit_code_of(fmt::format("{} theory -o {} >&- 2>/dev/null", program, quoted(folder / "closed"))), 1);
-  if (std::filesystem::exists(folder / "closed/theory.csv")) {
-    EXPECT_EQ(read_text(folder / "closed/theory.csv"), read_text(folder / "right/theory.csv"));
-  }
-}
-
 TEST(NobodyListens, PicturesAreDrawnWithoutAWordInAnyLocale) {
   const TemporaryFolder folder;
   const ProgramRun run = run_fathom(fmt::format("reproduce fig10 -o {} --quiet", quoted(folder / "out")), "LC_ALL=C");
