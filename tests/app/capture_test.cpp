@@ -99,7 +99,7 @@ TEST_F(CaptureCommand, EveryNumberInSightOccursAndNoOther) {
   for (const auto& [channel, key] : {std::pair("first.object", "first"), std::pair("object", "finally")}) {
     std::set<int> numbers;
     for (const float number : read_exr_channel(out / "truth.exr", channel).pixels())
-      numbers.insert(std::lround(number));
+      numbers.insert(static_cast<int>(number));
     numbers.erase(0);
     EXPECT_EQ(Json(numbers), record["in_sight"][key]) << channel;
   }

@@ -45,8 +45,9 @@ TEST(NobodyListens, NoFileIsTakenForStdout) {
   const std::string program = FATHOM_PROGRAM;
   EXPECT_EQ(exit_code_of(fmt::format("{} theory -o {} > /dev/null", program, quoted(folder / "right"))), 0);
   EXPECT_EQ(exit_code_of(fmt::format("{} theory -o {} >&- 2>/dev/null", program, quoted(folder / "closed"))), 1);
-  if (std::filesystem::exists(folder / "closed/theory.csv"))
+  if (std::filesystem::exists(folder / "closed/theory.csv")) {
     EXPECT_EQ(read_text(folder / "closed/theory.csv"), read_text(folder / "right/theory.csv"));
+  }
 }
 
 TEST(NobodyListens, PicturesAreDrawnWithoutAWordInAnyLocale) {

@@ -43,6 +43,24 @@ std::vector<NumberOption> all_number_options() {
   return found;
 }
 
+/// What no option may take.
+const std::vector<std::string> kWrongForAll{"", "1e400"};
+
+/// Of an option of that type, everything that is tried.
+std::vector<std::string> all_wrong(const std::string& type) {
+  std::vector<std::string> wrong{"",     "1e400", " ",    "1 ",  " 1",
+                                 "0x10", "ten",   "-",    "+",   "+-1",
+                                 "--1",  "nan",   "-inf", "1_0", "99999999999999999999999e400"};
+  const auto add = [&](std::initializer_list<const char*> texts) {
+    wrong.insert(wrong.end(), texts.begin(), texts.end());
+  };
+  if (!type.starts_with("FLOAT")) add({"1.5", "1e2", "18446744073709551616", "-18446744073709551616", "1,2"});
+  if (type == "UINT") add({"-1", "-0x1"});
+  if (type != "FLOAT|inf") add({"inf"});
+  if (type == "FLOAT,…") add({"10,,20", "10,", ",", "[10,20]", "10,1e400"});
+  return wrong;
+}
+
 TEST(NumbersOfTheCommandLine, AreNumbersAndNothingElse) {
   const std::vector<NumberOption> options = all_number_options();
   std::set<std::string> names;
@@ -50,22 +68,17 @@ TEST(NumbersOfTheCommandLine, AreNumbersAndNothingElse) {
   for (const char* known : {"--seed", "--threads", "--frames", "--spp", "--trials", "--fill-mm", "--pitch-deg",
                             "--liquid-threshold-mm", "--thickness-mm", "--photons", "--from"})
     EXPECT_TRUE(names.contains(known)) << known;
-  for (const NumberOption& option : options) {
-    std::vector<std::string> wrong{"",  " ", "1 ",  " 1",  "0x10", "ten",  "1,5x", "1e400",
-                                   "-", "+", "+-1", "--1", "nan",  "-inf", "1_0",  "99999999999999999999999e400"};
-    if (!option.type.starts_with("FLOAT")) {
-      wrong.insert(wrong.end(), {"1.5", "1e2", "18446744073709551616", "-18446744073709551616", "1,2"});
-      if (option.type == "UINT") wrong.insert(wrong.end(), {"-1", "-0x1"});
-    }
-    if (option.type != "FLOAT|inf") wrong.emplace_back("inf");
-    if (option.type == "FLOAT,…") wrong.insert(wrong.end(), {"10,,20", "10,", ",", "[10,20]", "10,1e400"});
-    for (const std::string& text : wrong) {
-      const ProgramRun run = run_fathom(option.command + " '" + option.name + "=" + text + "'");
+  std::set<std::string> types;
+  for (const NumberOption& option : options)
+    for (const std::string& text : types.insert(option.type).second ? all_wrong(option.type) : kWrongForAll) {
+      // "--seed=" has no value at all, "--seed ''" an empty one.
+      const ProgramRun run =
+          run_fathom(option.command + " '" + option.name + (text.empty() ? "' '" : "=") + text + "'");
       EXPECT_EQ(run.exit_code, 2) << option.command << " " << option.name << "=" << text;
       EXPECT_TRUE(run.err.starts_with("error: " + option.name + ": must be a ")) << run.err;
       EXPECT_EQ(run.out, "");
     }
-  }
+  EXPECT_EQ(types.size(), 5u);  // so many kinds of numbers; one option of each is tried with everything
 }
 
 TEST(NumbersOfTheCommandLine, AreDecimalAndUseTheirWholeRange) {

@@ -1,10 +1,13 @@
 // Where the sensor stands and what it is: conventions of the pose, descriptions that can be read back.
 #include "sim/scene/rig.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "tests/core/expect_error.h"
 
 namespace fathom {
 namespace {
@@ -79,8 +82,7 @@ TEST(Rig, ADescriptionReadsBackAsTheSameRig) {
                                .c_str());
     const Json json = json_from_rig(rig);
     const Rig again = rig_from_json(JsonReader(json, "test"));
-    // Degrees and back cost a few roundings.
-    EXPECT_TRUE(again.world_from_camera.isApprox(rig.world_from_camera, 1e-14)) << pose << "\n" << json.dump();
+    EXPECT_TRUE(again == rig) << pose << "\n" << json.dump();
     EXPECT_EQ(json_from_rig(again)["matcher"], json["matcher"]);
     for (const char* part : {"optics", "noise", "unit"}) EXPECT_EQ(json_from_rig(again)[part], json[part]);
     EXPECT_EQ(again.sensor.optics.focus, 1.5);
@@ -91,6 +93,20 @@ TEST(Rig, ADescriptionReadsBackAsTheSameRig) {
     EXPECT_FALSE(again.sensor.quantized);
     EXPECT_EQ(again.sensor.focal_px, rig.sensor.focal_px);
   }
+}
+
+TEST(Rig, APoseOfRowsIsATurnAndAPlaceAndStandsAlone) {
+  const char* rows = R"([[1, 0, 0, -0.0375], [0, 0, 1, 0], [0, -1, 0, 0.65], [0, 0, 0, 1]])";
+  const Rig level = rig_of(fmt::format(R"({{"world_from_camera": {}}})", rows).c_str());
+  EXPECT_TRUE(level == rig_of(R"({"height_mm": 650, "pitch_deg": 0})"));
+  for (const auto& [sensor, message] : std::initializer_list<std::pair<std::string, std::string>>{
+           {fmt::format(R"({{"world_from_camera": {}, "height_mm": 650}})", rows), "/height_mm: cannot stand beside"},
+           {R"({"world_from_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]})", "must be 4 rows"},
+           {R"({"world_from_camera": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})", "without stretching"},
+           {R"({"world_from_camera": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})", "mirroring"},
+           {R"({"world_from_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]})",
+            "/3: must be 0, 0, 0, 1"}})
+    expect_error([&] { rig_of(sensor.c_str()); }, {message});
 }
 
 TEST(Optics, UndistortedIsTheInverseOfDistorted) {
