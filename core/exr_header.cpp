@@ -1,5 +1,5 @@
-// By hand, because OpenEXR 3.1 claims the memory that a header promises while it reads it: 2 GB for an attribute and
-// 8 GB for a preview in a file of 100 bytes. Layout: "OpenEXR File Layout", openexr.com.
+// By hand, because OpenEXR 3.1 takes the memory that attributes and previews promise while it reads the header, before
+// anybody could ask how much that is. Layout: "OpenEXR File Layout", openexr.com.
 #include "core/exr_header.h"
 
 #include <fmt/format.h>
