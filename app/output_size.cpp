@@ -9,20 +9,16 @@
 
 #include "app/print.h"
 #include "core/error.h"
+#include "core/input_policy.h"
 
 namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kGigabyte = 1e9;
-constexpr double kMostUnasked = 20.0 * kGigabyte;
+constexpr double kMostUnasked = 20e9;  // [bytes]
 
 constexpr double kBlock = 4096.0;  ///< of a file system, which files take as a whole
-
-std::string readable(double bytes) {
-  return bytes < kGigabyte ? fmt::format("{:.3g} MB", 1e-6 * bytes) : fmt::format("{:.3g} GB", bytes / kGigabyte);
-}
 
 double in_blocks(double bytes) { return std::ceil(bytes / kBlock) * kBlock; }
 
@@ -64,9 +60,9 @@ std::string require_space(const CommonOptions& common, const OutputSize& size, b
   const double free = free_bytes(common.output);
   const std::string what =
       fmt::format("{:.0f} frames are up to {}, of which {} are still to be written; the disk has {} free", size.frames,
-                  readable(size.bytes()), readable(missing), readable(free));
+                  size_text(size.bytes()), size_text(missing), size_text(free));
   if (missing > kMostUnasked && !yes)
-    throw UsageError(fmt::format("{}; more than {} are written only with --yes", what, readable(kMostUnasked)));
+    throw UsageError(fmt::format("{}; more than {} are written only with --yes", what, size_text(kMostUnasked)));
   if (missing > free) throw Error(common.output.string(), what + ": choose a larger disk or fewer frames");
   if (size.frames > std::numeric_limits<int>::max())
     throw Error(common.output.string(), fmt::format("{:.0f} frames are too many, at most {} can be numbered",

@@ -19,14 +19,6 @@ InputPolicy& in_force() {
   return policy;
 }
 
-std::string size_text(std::uint64_t bytes) {
-  constexpr std::array kUnits{"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
-  auto size = static_cast<double>(bytes);
-  std::size_t unit = 0;
-  for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1000.0;
-  return fmt::format("{:.3g} {}", size, kUnits[unit]);
-}
-
 /// Names come from files: what would break a line is not shown.
 std::string shown(std::string name) {
   constexpr std::size_t kMost = 200;
@@ -41,6 +33,13 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string size_text(double bytes) {
+  constexpr std::array kUnits{"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
+  std::size_t unit = 0;
+  for (; bytes >= 999.5 && unit + 1 < kUnits.size(); ++unit) bytes /= 1000.0;
+  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+}
 
 const InputPolicy& input_policy() { return in_force(); }
 
@@ -60,8 +59,9 @@ std::uint64_t bytes_of(std::initializer_list<std::uint64_t> factors) {
 void require_within_limit(std::string_view file, std::string_view where, std::uint64_t bytes, std::string_view things) {
   const std::uint64_t most = input_policy().most_bytes;
   if (bytes <= most) return;
-  const std::string what = fmt::format("promises {} of {}, at most {} is read; raise it with --max-input-mb",
-                                       size_text(bytes), things, size_text(most));
+  const std::string what =
+      fmt::format("promises {} of {}, at most {} is read; raise it with --max-input-mb",
+                  size_text(static_cast<double>(bytes)), things, size_text(static_cast<double>(most)));
   if (where.empty()) throw Error(file, what);
   throw Error(file, where, what);
 }

@@ -30,6 +30,9 @@ class InputPolicyScope {
   InputPolicy before_;
 };
 
+/// "13.7 GB": three digits, in units of powers of a thousand.
+std::string size_text(double bytes);
+
 /// The product, or the largest number there is where it is larger: sizes out of headers multiply beyond any type.
 std::uint64_t bytes_of(std::initializer_list<std::uint64_t> factors);
 
