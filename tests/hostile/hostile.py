@@ -45,9 +45,9 @@ def try_one(program, seed, number, seeds, root, limits):
     wrong = judge.ending(run, limits)
     if not shell:
         wrong += judge.words(run) + judge.said(run)
-    wrong += judge.strays(before, judge.snapshot(root, {out}), root) + (judge.leftovers(out, run, arguments[0])
-                                                                        if not kind.startswith("resumed")
-                                                                        else []) + judge.pwned(root, out, env)
+    wrong += judge.strays(before, judge.snapshot(root, {out}), root) + judge.pwned(root, out, env)
+    if not shell and not kind.startswith("resumed"):  # what cannot be said stands in the folder all the same
+        wrong += judge.leftovers(out, run, arguments[0])
     if run.code == 0 and out.is_dir():
         wrong += results.problems(out)
     return kind, [*full[1:], *([shell] if shell else []), *(["LC_ALL=C"] if env["LC_ALL"] == "C" else [])], run, wrong
