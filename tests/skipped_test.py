@@ -1,4 +1,5 @@
 """What is printed of skipped tests, from what ctest really writes."""
+import json
 import shutil
 import subprocess
 import tempfile
@@ -42,10 +43,14 @@ class Skipped(unittest.TestCase):
         for name in ("scripts/test", "tests/skipped.py"):
             (root / name).parent.mkdir(exist_ok=True)
             shutil.copy(source / name, root / name)
-        (root / "build/ci").mkdir(parents=True)
-        (root / "CMakePresets.json").write_text(
-            '{"version": 6, "configurePresets": [{"name": "ci", "generator": "Ninja", "binaryDir": "${sourceDir}/build/ci"}],'
-            ' "testPresets": [{"name": "ci", "configurePreset": "ci"}]}')
+        presets = ("ci", "sanitize-readers")
+        for name in presets:
+            (root / "build" / name).mkdir(parents=True)
+            (root / "build" / name / "CTestTestfile.cmake").write_text('add_test(passes "/bin/sh" "-c" "true")\n')
+        (root / "CMakePresets.json").write_text(json.dumps({
+            "version": 6,
+            "configurePresets": [{"name": name, "generator": "Ninja", "binaryDir": "${sourceDir}/build/" + name} for name in presets],
+            "testPresets": [{"name": name, "configurePreset": name} for name in presets]}))
         for name in ("install-packages", "build"):
             (root / "scripts" / name).write_text("#!/bin/sh\n")
             (root / "scripts" / name).chmod(0o755)
