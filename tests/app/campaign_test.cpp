@@ -312,7 +312,7 @@ TEST_F(CampaignCommand, SaysHowMuchItIsGoingToWrite) {
                                                               "still to be written; the disk has "))
       << run.err;
   const ProgramRun again = campaign(kSpec, "out");
-  EXPECT_NE(again.err.find("of which 0 MB are"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("of which 0 bytes are"), std::string::npos) << again.err;
   EXPECT_EQ(campaign(kSpec, "quiet", "--quiet").err, "");
 }
 
