@@ -184,6 +184,14 @@ bool read_to_the_end(PngFile& from, std::vector<std::uint8_t>& row) {
   return true;
 }
 
+/// Where the pixel (0, 0) of an image would lie whose pixel (`left`, `top`) lies at `first`. A file may begin anywhere,
+/// so it may be outside of all memory: numbers, unlike pointers, are allowed to be.
+char* pixel_zero(float* first, int left, int top, int width) {
+  const std::uint64_t before =
+      static_cast<std::uint64_t>(left) + static_cast<std::uint64_t>(top) * static_cast<std::uint64_t>(width);
+  return reinterpret_cast<char*>(reinterpret_cast<std::uintptr_t>(first) - sizeof(float) * before);
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const std::vector<ExrChannel>& channels) {
@@ -220,8 +228,8 @@ void check_exr(const std::filesystem::path& path, int width, int height) try {
   std::vector<float> line(static_cast<std::size_t>(width));
   Imf::FrameBuffer frame;
   const auto channel = exr.file.header().channels().begin();  // a checked header has one
-  frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(line.data() - window.min.x),
-                                          sizeof(float), 0));  // the same line for every y
+  frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, pixel_zero(line.data(), window.min.x, 0, 0), sizeof(float),
+                                          0));  // the same line for every y
   exr.file.setFrameBuffer(frame);
   exr.file.readPixels(window.max.y);
 } catch (const Error&) {
@@ -240,11 +248,10 @@ std::vector<ExrChannel> read_exr(const std::filesystem::path& path) try {
   for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it)
     channels.push_back({it.name(), Image<float>(width, height)});
   Imf::FrameBuffer frame;
-  for (ExrChannel& channel : channels) {
-    char* origin = reinterpret_cast<char*>(channel.image.pixels().data()) -
-                   sizeof(float) * (window.min.x + static_cast<std::ptrdiff_t>(window.min.y) * width);
-    frame.insert(channel.name, Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * width));
-  }
+  for (ExrChannel& channel : channels)
+    frame.insert(channel.name,
+                 Imf::Slice(Imf::FLOAT, pixel_zero(channel.image.pixels().data(), window.min.x, window.min.y, width),
+                            sizeof(float), sizeof(float) * width));
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
   return channels;

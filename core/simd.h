@@ -16,4 +16,14 @@ namespace fathom {
 using Float8 = float __attribute__((vector_size(32)));
 using Int8 = int __attribute__((vector_size(32)));  ///< also what comparison gives: −1 where it holds, else 0
 
+/// Lanes n … n + 7 of the sixteen of `low` and `high`. Each compiler has its own name for it.
+template <int n>
+inline __attribute__((always_inline)) void lanes_from(const Float8& low, const Float8& high, Float8& lanes) {
+#ifdef __clang__
+  lanes = __builtin_shufflevector(low, high, n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7);
+#else
+  lanes = __builtin_shuffle(low, high, Int8{n, n + 1, n + 2, n + 3, n + 4, n + 5, n + 6, n + 7});
+#endif
+}
+
 }  // namespace fathom

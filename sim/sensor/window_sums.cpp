@@ -62,10 +62,10 @@ inline __attribute__((always_inline)) void sum_across(const float* above, const 
     load(below + k * kBlock, sum[k]), load(above + k * kBlock, before);
     sum[k] -= before;
   }
-  for (int k = 0; k < 3; ++k) sum[k] += __builtin_shuffle(sum[k], sum[k < 2 ? k + 1 : k], Int8{1, 2, 3, 4, 5, 6, 7, 8});
-  for (int k = 0; k < 3; ++k) sum[k] += __builtin_shuffle(sum[k], sum[k < 2 ? k + 1 : k], Int8{2, 3, 4, 5, 6, 7, 8, 9});
-  for (int k = 0; k < 2; ++k)
-    store(sum[k] + __builtin_shuffle(sum[k], sum[k + 1], Int8{4, 5, 6, 7, 8, 9, 10, 11}), windows + k * kBlock);
+  Float8 further;
+  for (int k = 0; k < 3; ++k) lanes_from<1>(sum[k], sum[k < 2 ? k + 1 : k], further), sum[k] += further;
+  for (int k = 0; k < 3; ++k) lanes_from<2>(sum[k], sum[k < 2 ? k + 1 : k], further), sum[k] += further;
+  for (int k = 0; k < 2; ++k) lanes_from<4>(sum[k], sum[k + 1], further), store(sum[k] + further, windows + k * kBlock);
 }
 
 }  // namespace

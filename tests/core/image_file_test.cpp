@@ -103,6 +103,24 @@ struct ExrBytes {
   }
 };
 
+TEST(Exr, AnImageMayBeginAnywhere) {
+  const TemporaryFolder folder;
+  const Image<float> image = floats(0.1f);
+  write_exr(folder / "a.exr", {{"Z", image}});
+  std::string bytes = read_text(folder / "a.exr");
+  constexpr std::int32_t kLeft = 1'000'000, kTop = -1'000'000;
+  const std::string key = joined({"dataWindow", kZero, "box2i", kZero, raw(16)});
+  bytes.replace(bytes.find(key) + key.size(), 16, window(kLeft, kTop, kLeft + 4, kTop + 2));
+  // The one block of lines begins with its first line's number; the place of it stands in the eight bytes before.
+  const auto points_behind = [&](std::size_t at) { return bytes.compare(at, 8, raw(std::uint64_t{at + 8})) == 0; };
+  std::size_t block = 0;
+  while (!points_behind(block)) ASSERT_LT(++block, bytes.size());
+  bytes.replace(block + 8, 4, raw(kTop));
+  write_text(folder / "a.exr", bytes);
+  EXPECT_TRUE(same_bytes(read_exr_channel(folder / "a.exr", "Z"), image));
+  EXPECT_NO_THROW(check_exr(folder / "a.exr", 5, 3));
+}
+
 TEST(Exr, AHeaderClaimsNoMoreThanTheLimitAndTheFileAllow) {
   const TemporaryFolder folder;
   const auto expect = [&](const ExrBytes& bytes, const std::string& message) {
