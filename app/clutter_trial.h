@@ -42,6 +42,7 @@ struct TrialCup {
 };
 
 struct TrialResult {
+  std::string name;  ///< its number, as its files are called; they do not hold it
   std::vector<TrialCup> cups;
   std::vector<std::string> false_cups;  ///< what was taken for a cup
   double shoot_s = 0.0, detect_s = 0.0;

@@ -123,7 +123,7 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
     write_table(common.output / "cups.csv", cups_table(trials));
     write_table(common.output / "fillings.csv", fillings_table(trials));
     write_reliability(common.output, trials);
-    write_failure_gallery(common.output);
+    write_failure_gallery(common.output, trials);
     if (own_templates) keep_templates(common.output, evaluation);
   }
   print_results(common, "rates", ".txt", format_rows(rates(evaluation, trials), common.json));

@@ -58,6 +58,7 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
         if (folder) folder->keep(name, scene, shot, trial);
         result = trial.result;
       }
+      result->name = name;
       results.push_back(*std::move(result));
       progress.step();
     }

@@ -55,24 +55,16 @@ std::string failure_of(const TrialResult& trial) {
   return trial.false_cups.empty() ? "" : "false_cup";
 }
 
-void write_failure_gallery(const fs::path& folder) {
-  std::vector<std::string> names;  // NUMBER_KIND
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "failures"))
-    if (entry.path().extension() == ".png") names.push_back(entry.path().stem());
-  std::sort(names.begin(), names.end());
+void write_failure_gallery(const fs::path& folder, const std::vector<TrialResult>& trials) {
   std::vector<std::vector<std::string>> counts;
   std::string figures;
   for (const Kind& kind : kKinds) {
     int count = 0;
-    for (const std::string& name : names) {
-      const std::string number = name.substr(0, name.find('_'));
-      if (name != fmt::format("{}_{}", number, kind.name)) continue;
-      const fs::path file = folder / "trials" / (number + ".json");
-      const Json json = read_json(file);
-      const TrialResult trial = trial_from_json(JsonReader(json, file.string()));
+    for (const TrialResult& trial : trials) {
+      if (failure_of(trial) != kind.name) continue;
       if (++count == 1) figures += fmt::format("<h2 id=\"{}\">{}</h2>\n", kind.name, kind.name);
       figures += fmt::format("<figure><img src=\"{0}.png\" alt=\"{0}\"><figcaption>{0}: {1}</figcaption></figure>\n",
-                             html_escaped(name), caption(trial));
+                             fmt::format("{}_{}", trial.name, kind.name), caption(trial));
     }
     counts.push_back({fmt::format("{}", count), std::string(kind.name), std::string(kind.words)});
   }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/clutter_trial.h"
 
@@ -12,7 +13,8 @@ namespace fathom {
 /// an empty cup, or none in a filled one) or "false_cup".
 std::string failure_of(const TrialResult& trial);
 
-/// Writes folder/failures/index.html from the folder's trials/*.json and failures/NUMBER_KIND.png.
-void write_failure_gallery(const std::filesystem::path& folder);
+/// Writes folder/failures/index.html, which shows failures/NUMBER_KIND.png of these trials. An earlier run may have
+/// left pictures of more.
+void write_failure_gallery(const std::filesystem::path& folder, const std::vector<TrialResult>& trials);
 
 }  // namespace fathom

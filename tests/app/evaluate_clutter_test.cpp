@@ -1,4 +1,5 @@
 // What `fathom evaluate recognition` and `liquid` promise: rates that anyone can shoot again, misses by their kind.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -74,6 +75,21 @@ TEST_F(EvaluateClutter, AMergedCupIsCalledSoAndCanBeShotAgain) {
   EXPECT_NE(page.find("src=\"000000_merged.png\""), std::string::npos);
   const std::string scene = (folder / "out/failures/000000_merged.json").string();
   EXPECT_EQ(run_fathom("capture " + scene + " --mode geometric " + output("again")).exit_code, 0);
+}
+
+TEST_F(EvaluateClutter, ThePageOfFailuresShowsThoseOfTheTrialsAskedFor) {
+  Json clutter = lone_cup();
+  clutter["touching"] = 1.0;
+  clutter["objects"]["number"] = {1, 1};
+  const auto pictures = [&](int trials) {
+    evaluate("recognition", clutter, fmt::format("--method paper --trials {} ", trials) + output("out"));
+    const std::string page = read_text(folder / "out/failures/index.html");
+    int count = 0;
+    for (std::size_t at = page.find("<figure>"); at != std::string::npos; at = page.find("<figure>", at + 1)) ++count;
+    return count;
+  };
+  EXPECT_GT(pictures(4), 1);
+  EXPECT_EQ(pictures(1), 1);
 }
 
 TEST_F(EvaluateClutter, GoesOnWhereItStoppedWithTheSameBytes) {
