@@ -22,11 +22,14 @@ constexpr double kBlock = 4096.0;  ///< of a file system, which files take as a 
 
 double in_blocks(double bytes) { return std::ceil(bytes / kBlock) * kBlock; }
 
-double bytes_below(const fs::path& folder) {
+/// Of what a run may have left: its frames stand in the folder or one below, whatever else lies deeper.
+double bytes_of_frames(const fs::path& folder) {
   double bytes = 0.0;
   std::error_code unreadable;
-  for (fs::recursive_directory_iterator entry(folder, unreadable), end; entry != end; entry.increment(unreadable))
+  for (fs::recursive_directory_iterator entry(folder, unreadable), end; entry != end; entry.increment(unreadable)) {
+    if (entry.depth() > 0) entry.disable_recursion_pending();
     if (entry->is_regular_file(unreadable)) bytes += in_blocks(static_cast<double>(entry->file_size(unreadable)));
+  }
   return bytes;
 }
 
@@ -56,7 +59,7 @@ double capture_bytes(const SensorModel& sensor, bool infrared, bool device_outpu
 double OutputSize::bytes() const { return frames * in_blocks(bytes_per_frame); }
 
 std::string require_space(const CommonOptions& common, const OutputSize& size, bool yes) {
-  const double missing = std::max(0.0, size.bytes() - bytes_below(common.output));
+  const double missing = std::max(0.0, size.bytes() - bytes_of_frames(common.output));
   const double free = free_bytes(common.output);
   const std::string what =
       fmt::format("{:.0f} frames are up to {}, of which {} are still to be written; the disk has {} free", size.frames,
