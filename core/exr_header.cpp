@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -62,7 +64,42 @@ class HeaderBytes {
   const std::string& file_;
 };
 
-void read_channels(HeaderBytes bytes, Facts& facts) {
+/// Bytes of a value of that type. OpenEXR reads as many, whatever size the file says: who went by the file's would read
+/// another header than OpenEXR does.
+std::optional<std::int32_t> size_of(std::string_view type) {
+  struct Sized {
+    std::string_view type;
+    std::int32_t size;
+  };
+  constexpr std::array kSized{Sized{"box2f", 16},
+                              Sized{"box2i", 16},
+                              Sized{"chromaticities", 32},
+                              Sized{"compression", 1},
+                              Sized{"deepImageState", 1},
+                              Sized{"double", 8},
+                              Sized{"envmap", 1},
+                              Sized{"float", 4},
+                              Sized{"int", 4},
+                              Sized{"keycode", 28},
+                              Sized{"lineOrder", 1},
+                              Sized{"m33d", 72},
+                              Sized{"m33f", 36},
+                              Sized{"m44d", 128},
+                              Sized{"m44f", 64},
+                              Sized{"rational", 8},
+                              Sized{"tiledesc", 9},
+                              Sized{"timecode", 8},
+                              Sized{"v2d", 16},
+                              Sized{"v2f", 8},
+                              Sized{"v2i", 8},
+                              Sized{"v3d", 24},
+                              Sized{"v3f", 12},
+                              Sized{"v3i", 12}};
+  const auto known = std::find_if(kSized.begin(), kSized.end(), [&](const Sized& sized) { return sized.type == type; });
+  return known == kSized.end() ? std::nullopt : std::optional(known->size);
+}
+
+void read_channels(HeaderBytes& bytes, Facts& facts) {
   constexpr std::int32_t kHalf = 1;
   while (!bytes.name().empty()) {
     const auto type = bytes.number<std::int32_t>();
@@ -75,9 +112,11 @@ void read_channels(HeaderBytes bytes, Facts& facts) {
   }
 }
 
-void check_preview(HeaderBytes bytes) {
+void read_preview(HeaderBytes& bytes) {
   const auto width = bytes.number<std::uint32_t>(), height = bytes.number<std::uint32_t>();
-  if (bytes_of({4, width, height}) > bytes.left()) bytes.fail("the preview is larger than its attribute");
+  const std::uint64_t pixels = bytes_of({4, width, height});
+  if (pixels > bytes.left()) bytes.fail("the preview is larger than its attribute");
+  bytes.take(pixels);
 }
 
 Facts read_facts(HeaderBytes bytes) {
@@ -93,12 +132,16 @@ Facts read_facts(HeaderBytes bytes) {
     const std::string_view type = bytes.name();
     const auto size = bytes.number<std::int32_t>();
     if (size < 0) bytes.fail("an attribute has a size below 0");
+    if (size_of(type).value_or(size) != size) bytes.fail("an attribute has another size than its type");
     HeaderBytes value = bytes;
     bytes.take(static_cast<std::size_t>(size));
     if (name == "dataWindow" && type == "box2i") facts.window = value.number<Window>();
     if (name == "compression" && type == "compression") facts.compression = value.number<std::uint8_t>();
-    if (name == "channels" && type == "chlist") read_channels(value, facts);
-    if (type == "preview") check_preview(value);
+    if (type != "chlist" && type != "preview") continue;
+    Facts of_another;
+    if (type == "chlist") read_channels(value, name == "channels" ? facts : of_another);
+    if (type == "preview") read_preview(value);
+    if (value.left() != bytes.left()) bytes.fail("an attribute has another size than its content");
   }
   return facts;
 }

@@ -143,6 +143,13 @@ TEST(Exr, AHeaderClaimsNoMoreThanTheLimitAndTheFileAllow) {
   const std::string endless = joined({"comment", kZero, "string", kZero, raw(2'000'000'000)});
   expect({.more = endless}, "header: cannot read as OpenEXR: it is cut short");
   expect({.more = attribute("preview", "preview", raw(40'000) + raw(40'000))}, "the preview is larger");
+  // OpenEXR reads sixteen bytes of a window, so that what follows would be another header to it: one that promises
+  // more.
+  const std::string short_window = joined({"dataWindow", kZero, "box2i", kZero, raw(9), std::string(9, '\0')});
+  expect({.more = short_window}, "an attribute has another size than its type");
+  expect({.more = attribute("more", "chlist", kZero + std::string(3, '\0'))}, "another size than its content");
+  expect({.more = attribute("preview", "preview", raw(1) + raw(1) + std::string(5, '\0'))},
+         "another size than its content");
   const std::string whole = ExrBytes().text();
   for (std::size_t length = 0; length + 100 < whole.size(); ++length) {
     write_text(folder / "a.exr", whole.substr(0, length));
