@@ -168,6 +168,10 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
     campaign.diagnosis = traced->diagnosis;
     campaign.ray_traced_html = ray_traced_html(*traced, by_few_rays);
   }
+  for (std::string& sentence : beside_sentences(campaign.diagnosis)) {
+    campaign.notes.push_back(sentence);
+    measurement.notes.push_back(std::move(sentence));
+  }
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
   if (!not_looked_for.empty())

@@ -207,6 +207,22 @@ const Explanation* crowd_that_explains(const Diagnosis& diagnosis) {
   return nullptr;
 }
 
+/// "In session 1 the height in the cup is 1.9 mm higher than in the others (16 σ). ": of each session the clearest.
+std::string excess_sentences(const Diagnosis& diagnosis) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> said;
+  std::string text;
+  for (const Excess& excess : diagnosis.excess) {
+    if (said.size() == kMost || std::find(said.begin(), said.end(), excess.group) != said.end()) continue;
+    said.push_back(excess.group);
+    const ObservableWords words = observable_words(excess.observable);
+    text += fmt::format("In {} {} the {} is {:.2g}{} {} than in the others ({:.0f} σ), more than {}s should differ. ",
+                        excess.level, excess.group, words.name, std::abs(excess.size), words.unit,
+                        excess.size < 0 ? words.less : words.more, std::abs(excess.size) / excess.sigma, excess.level);
+  }
+  return text;
+}
+
 std::string unknown_sentence(const Diagnosis& diagnosis) {
   const UnknownShape& unknown = diagnosis.unknown;
   const Explanation* crowd = crowd_that_explains(diagnosis);
@@ -256,9 +272,10 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
     case Verdict::ambiguous:
       return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
     case Verdict::unknown:
-      return where_sentence(diagnosis) + unknown_sentence(diagnosis);
+      return where_sentence(diagnosis) + excess_sentences(diagnosis) + unknown_sentence(diagnosis);
     case Verdict::named_and_unknown:
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + unknown_sentence(diagnosis);
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + excess_sentences(diagnosis) +
+             unknown_sentence(diagnosis);
   }
   return {};
 }
@@ -300,6 +317,19 @@ std::string parameter_words(const NamedParameter& parameter) {
   const auto [name, unit] = without_unit(parameter.name);
   return fmt::format("{} = {:.3g}{} (95 %: {:.3g} to {:.3g})", name, parameter.value, unit, parameter.low95,
                      parameter.high95);
+}
+
+std::vector<std::string> beside_sentences(const Diagnosis& diagnosis) {
+  std::vector<std::string> names;
+  for (const GapLocation& where : diagnosis.beside) {
+    std::string name(observable_words(where.observable).name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  }
+  std::vector<std::string> sentences;
+  for (const std::string& name : names)
+    sentences.push_back(fmt::format(
+        "The {} is not as the model has it. By itself this is no gap: heights and the cup's shape decide.", name));
+  return sentences;
 }
 
 std::string answer(const Diagnosis& diagnosis) {

@@ -67,7 +67,7 @@ void read_liquids(const JsonReader& json, LaboratoryRig& rig) {
 LaboratoryRig read_rig(const std::filesystem::path& path) {
   const Json value = read_json(path);
   const JsonReader json(value, path.string());
-  json.allow_only({"sensor", "cup", "liquids", "fill_sigma_mm", "placement_sigma_mm"});
+  json.allow_only({"sensor", "cup", "liquids", "fill_sigma_mm", "placement_sigma_mm", "session_mm", "session_deg"});
   LaboratoryRig rig;
   read_sensor(json.at("sensor"), rig);
   read_cup(json.at("cup"), rig);
@@ -77,6 +77,8 @@ LaboratoryRig read_rig(const std::filesystem::path& path) {
   read_liquids(json.at("liquids"), rig);
   rig.fill_sigma_m = json.metres_or("fill_sigma_mm", rig.fill_sigma_m, kLengthOrNoneMm);
   rig.placement_sigma_m = json.metres_or("placement_sigma_mm", rig.placement_sigma_m, kLengthOrNoneMm);
+  rig.session_m = json.metres_or("session_mm", rig.session_m, kLengthOrNoneMm);
+  rig.session_rad = radians_from_deg(json.number_or("session_deg", deg_from_radians(rig.session_rad), {0.0, 90.0}));
   return rig;
 }
 

@@ -32,6 +32,10 @@ struct LaboratoryRig {
   std::map<std::string, Json> liquids;  ///< name → a medium's name, or an inline medium
   double fill_sigma_m = 0.0005;
   double placement_sigma_m = 0.0005;
+  /// By how much all lengths and all angles of a session may differ from another's beyond the pose's uncertainty, 1 σ.
+  /// Nothing in a session moves them together but the sensor's pose, so little is left: a tenth of what a single shot
+  /// of a region scatters by.
+  double session_m = 0.0001, session_rad = 0.0002;
   std::map<std::string, double> sigma;  ///< 1 σ of the value of that key, in the key's unit, e.g. "height_mm" → 0.5
 };
 

@@ -38,27 +38,24 @@ constexpr std::array kModelErrors{
     ModelError{"cup_x_mm", 0.10, SharedBy::all},                // against whole frames, as the next two
     ModelError{"cup_x_mm", 0.40, SharedBy::place},              // walls are steep, and seen as the device's dots fall
     ModelError{"cup_x_mm", 0.15, SharedBy::condition},          // from above a window spans half a wall and the liquid
-    ModelError{"cup_y_mm", 0.10, SharedBy::all},
-    ModelError{"cup_y_mm", 0.40, SharedBy::place},
-    ModelError{"cup_y_mm", 0.15, SharedBy::condition},
-    ModelError{"cup_radius_mm", 0.10, SharedBy::all},
-    ModelError{"cup_radius_mm", 0.20, SharedBy::place},
-    ModelError{"cup_radius_mm", 0.10, SharedBy::condition},
+    ModelError{"cup_y_mm", 0.10, SharedBy::all}, ModelError{"cup_y_mm", 0.40, SharedBy::place},
+    ModelError{"cup_y_mm", 0.15, SharedBy::condition}, ModelError{"cup_radius_mm", 0.10, SharedBy::all},
+    ModelError{"cup_radius_mm", 0.20, SharedBy::place}, ModelError{"cup_radius_mm", 0.10, SharedBy::condition},
     ModelError{"desk_height_mm", 0.05, SharedBy::all},    // against whole frames, as the next two
     ModelError{"desk_height_mm", 0.05, SharedBy::place},  // a cup hides what the plane was fitted to
-    ModelError{"desk_pitch_deg", 0.02, SharedBy::all},
-    ModelError{"desk_roll_deg", 0.02, SharedBy::all},
+    ModelError{"desk_pitch_deg", 0.02, SharedBy::all}, ModelError{"desk_roll_deg", 0.02, SharedBy::all},
     ModelError{"desk_residual_mm", 0.10, SharedBy::region},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
     ModelError{"log_brightness", 0.30, SharedBy::all},       // nobody wrote down albedos; walls light the bottom
     ModelError{"log_brightness", 0.50, SharedBy::liquid},    // what scatters has an albedo of its own
     ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
     ModelError{"log_brightness", 0.05, SharedBy::condition},
     ModelError{"desk_wander_mm", 0.02, SharedBy::all},  // noise reaches across the thirds' borders
+    // Smooth errors of a frame, a quarter of a step of 1/8 px over 40 px, turn a fitted desk by so much.
+    ModelError{"desk_pitch_motion_deg", 0.03, SharedBy::all}, ModelError{"desk_roll_motion_deg", 0.05, SharedBy::all},
     ModelError{"liquid_motion_mm", 0.05, SharedBy::all},
     ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
     ModelError{"comb_quarter", 0.05, SharedBy::session},   // what teeth a desk's own codes have
-    ModelError{"comb_half", 0.05, SharedBy::session},
-    ModelError{"millimetre_comb", 0.02, SharedBy::all}};
+    ModelError{"comb_half", 0.05, SharedBy::session}, ModelError{"millimetre_comb", 0.02, SharedBy::all}};
 
 /// The same of an effect, above clear liquids or everywhere.
 struct EffectError {
@@ -116,7 +113,8 @@ std::string shared_key(const Observation& observation, SharedBy shared_by) {
 
 /// Told from how trials scatter, not from rays.
 bool is_motion(std::string_view observable) {
-  return observable == "desk_wander_mm" || observable == "desk_waves_px" || observable == "liquid_motion_mm";
+  return observable == "desk_waves_px" || observable.ends_with("_motion_mm") || observable.ends_with("_motion_deg") ||
+         observable == "desk_wander_mm";
 }
 
 Groups groups_of(const ModelError& error, const std::vector<Observation>& observations) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/units.h"
 #include "diagnosis/predict/candidates.h"
 #include "diagnosis/predict/liquid_motion.h"
 #include "diagnosis/predict/model_errors.h"
@@ -41,6 +42,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   Physics physics;
   Evidence& evidence = physics.evidence;
   evidence.mistakes = measurement.mistakes;
+  evidence.session = {mm_from_metres(measurement.rig.session_m), deg_from_radians(measurement.rig.session_rad)};
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file);
   const std::vector<bool> kept = are_predicted(*predictor);
@@ -49,6 +51,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   predictor->keep(kept);
   for (Observation& motion :
        liquid_motion(evidence.observations, see_through(*predictor, "", evidence.observations.size()))) {
+    motion.only_names = true;
     predictor->add(motion);
     evidence.observations.push_back(std::move(motion));
   }

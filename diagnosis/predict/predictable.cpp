@@ -9,12 +9,15 @@
 namespace fathom {
 namespace {
 
-constexpr std::array<std::string_view, 8> kOfPlacements{"height_mm",      "cup_x_mm",       "cup_y_mm",
-                                                        "cup_radius_mm",  "desk_height_mm", "log_brightness",
-                                                        "desk_wander_mm", "desk_waves_px"};
+constexpr std::array<std::string_view, 10> kOfPlacements{
+    "height_mm",      "cup_x_mm",       "cup_y_mm",      "cup_radius_mm",         "desk_height_mm",
+    "log_brightness", "desk_wander_mm", "desk_waves_px", "desk_pitch_motion_deg", "desk_roll_motion_deg"};
 constexpr std::array<std::string_view, 7> kOfSessions{"desk_pitch_deg", "desk_roll_deg", "desk_residual_mm",
                                                       "comb_strength",  "comb_quarter",  "comb_half",
                                                       "millimetre_comb"};
+
+constexpr std::array<std::string_view, 6> kOnlyName{"comb_strength",   "comb_quarter",   "comb_half",
+                                                    "millimetre_comb", "log_brightness", "liquid_motion_mm"};
 
 bool is_comb(const Observation& o) { return o.observable == "comb_strength" || o.observable == "millimetre_comb"; }
 
@@ -40,7 +43,9 @@ std::vector<Observation> predictable(const std::vector<Observation>& observation
     const Factors& f = observation.factors;
     const bool is_new_in_session =
         is_in(kOfSessions) && seen.emplace(f.session, f.liquid == "none", observation.observable, f.region).second;
-    if (is_new_in_session || is_in(kOfPlacements)) result.push_back(observation);
+    if (!is_new_in_session && !is_in(kOfPlacements)) continue;
+    result.push_back(observation);
+    result.back().only_names = is_in(kOnlyName);
   }
   return result;
 }

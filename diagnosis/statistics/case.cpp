@@ -1,5 +1,9 @@
 #include "diagnosis/statistics/case.h"
 
+#include <algorithm>
+
+#include "diagnosis/statistics/excess.h"
+
 namespace fathom {
 
 Case case_of(const Evidence& evidence, const Predict& predict, const DecisionSettings& settings) {
@@ -15,10 +19,13 @@ Case case_of(const Evidence& evidence, const Predict& predict, const DecisionSet
 }
 
 Rest rest_of(const Case& c, const Refit& fit) {
-  Rest rest{c.problem.residual - fit.prediction, orthonormal(fit.jacobian), c.gap.p};
-  if (rest.explained.cols() == 0) return rest;
-  rest.residual -= rest.explained * (rest.explained.transpose() * rest.residual);
-  rest.p = gap_test(c.shapes, rest.residual, c.draws, rest.explained).p;
+  Rest rest{c.problem.residual - fit.prediction, orthonormal(fit.jacobian), {}, c.gap.p};
+  if (rest.explained.cols() > 0) {
+    rest.residual -= rest.explained * (rest.explained.transpose() * rest.residual);
+    rest.p = gap_test(c.shapes, rest.residual, c.draws, rest.explained).p;
+  }
+  rest.excess = session_excess(c.evidence, c.covariance, rest.residual, rest.explained, c.settings.p_gap);
+  if (!rest.excess.empty()) rest.p = std::min(rest.p, rest.excess.front().p);
   return rest;
 }
 

@@ -33,9 +33,10 @@ Case case_of(const Evidence& evidence, const Predict& predict, const DecisionSet
 
 /// What is left of the residual where a fit, and any change of its parameters, is taken out.
 struct Rest {
-  Eigen::VectorXd residual;   ///< whitened
-  Eigen::MatrixXd explained;  ///< orthonormal directions that were taken out
-  double p = 1.0;             ///< that errors alone leave as much
+  Eigen::VectorXd residual;    ///< whitened
+  Eigen::MatrixXd explained;   ///< orthonormal directions that were taken out
+  std::vector<Excess> excess;  ///< of sessions, in the residual
+  double p = 1.0;              ///< that errors alone leave as much
 };
 Rest rest_of(const Case& c, const Refit& fit);
 

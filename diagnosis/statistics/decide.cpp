@@ -14,6 +14,7 @@
 #include "diagnosis/statistics/once.h"
 #include "diagnosis/statistics/options.h"
 #include "diagnosis/statistics/sufficiency.h"
+#include "diagnosis/statistics/tiers.h"
 #include "diagnosis/statistics/unknown.h"
 #include "diagnosis/statistics/weigh.h"
 
@@ -91,10 +92,8 @@ void describe_rest(const Case& c, const Weighed& weighed, Diagnosis& diagnosis) 
                                         rest.explained, c.discovery.quantile(c.settings.p_discovery));
 }
 
-}  // namespace
-
-Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs& designs,
-                 const DecisionSettings& settings) {
+Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Designs& designs,
+                    const DecisionSettings& settings) {
   Diagnosis diagnosis;
   diagnosis.missing = missing_for_diagnosis(evidence);
   if (!diagnosis.missing.empty()) return diagnosis;
@@ -106,6 +105,7 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   if (weighed.is_rest) set.put_unknown_first();
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.verdict = weighed.choice ? verdict_of_named(c, weighed, set) : verdict_of_unnamed(c, weighed.is_rest, set);
+  diagnosis.excess = weighed.rest.excess;
   if (diagnosis.verdict == Verdict::ambiguous)
     diagnosis.lacks_anew = lacks_anew(evidence, c.covariance, set.classes.front().options.front());
   describe_rest(c, weighed, diagnosis);
@@ -117,6 +117,20 @@ Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs
   if (designs && (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none))
     diagnosis.next = next_measurements(evidence, c.covariance, designs, set);
   return diagnosis;
+}
+
+}  // namespace
+
+Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs& designs,
+                 const DecisionSettings& settings) {
+  Diagnosis by_all = decide_by(evidence, predict, designs, settings);
+  const std::vector<Eigen::Index> deciding = deciding_rows(evidence);
+  const bool is_settled = by_all.verdict == Verdict::none || by_all.verdict == Verdict::named ||
+                          by_all.verdict == Verdict::insufficient || deciding.size() == evidence.observations.size();
+  if (is_settled) return by_all;
+  Diagnosis by_deciding =
+      decide_by(deciding_evidence(evidence, deciding), predict_rows(predict, deciding), designs, settings);
+  return joined_tiers(std::move(by_all), std::move(by_deciding), evidence, deciding);
 }
 
 }  // namespace fathom

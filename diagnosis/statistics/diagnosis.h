@@ -25,6 +25,16 @@ struct GapLocation {
   double p = 1.0;                   ///< with all strata that were looked at
 };
 
+/// A group that differs from the others by more than the laboratory states.
+struct Excess {
+  std::string level;       ///< "session"
+  std::string group;       ///< its number
+  std::string observable;  ///< "height_mm"
+  double size = 0.0;       ///< beside the mean of the others, in the observable's unit
+  double sigma = 0.0;      ///< 1 σ of that
+  double p = 1.0;          ///< of all groups and observables that were looked at
+};
+
 struct NamedParameter {
   std::string name;
   double value = 0.0, low95 = 0.0, high95 = 0.0;
@@ -111,6 +121,8 @@ struct Diagnosis {
   std::vector<Mistake> mistakes;      ///< of the laboratory, put right before all else
   double p_gap = 1.0;                 ///< that there is none
   std::vector<GapLocation> where;
+  std::vector<GapLocation> beside;  ///< departures of what only names; they are no gap by themselves
+  std::vector<Excess> excess;       ///< largest first, in errors
   std::vector<NamedEffect> effects;
   std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
   Anew lacks_anew = Anew::nothing;         ///< if ambiguous: for tests of the first explanation

@@ -67,6 +67,11 @@ Json json_from(const Explanation& explanation) {
   return json;
 }
 
+Json json_from(const Excess& excess) {
+  return {{"level", excess.level}, {"group", excess.group}, {"observable", excess.observable},
+          {"size", excess.size},   {"sigma", excess.sigma}, {"p", excess.p}};
+}
+
 Json json_from(const StratumGap& stratum) {
   return {{"stratum", stratum.stratum}, {"train", json_from(stratum.train)}, {"held_out", json_from(stratum.held_out)}};
 }
@@ -154,6 +159,8 @@ Json json_from(const Diagnosis& diagnosis) {
   json["warnings"] = diagnosis.warnings;
   json["p_gap"] = diagnosis.p_gap;
   json["where"] = array_of(diagnosis.where);
+  json["beside"] = array_of(diagnosis.beside);
+  json["excess"] = array_of(diagnosis.excess);
   json["effects"] = Json::array();
   for (const Mistake& mistake : diagnosis.mistakes)
     json["effects"].push_back({{"name", mistake.id}, {"sentence", mistake.sentence}});

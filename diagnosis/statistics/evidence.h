@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,9 @@ struct Observation {
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
   int repeats = 1;
-  double pixels = 0.0;    ///< of one repeat, that the value is the mean of; 0: of no certain number
-  double rounding = 0.0;  ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  double pixels = 0.0;      ///< of one repeat, that the value is the mean of; 0: of no certain number
+  double rounding = 0.0;    ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  bool only_names = false;  ///< helps to name what makes a gap; that there is one, heights and shapes decide (tiers.h)
 };
 
 /// Something uncertain that is no effect: a calibrated length, the fill of one pour, the place of one placement.
@@ -72,6 +74,12 @@ struct Mistake {
   std::string sentence;  ///< what it was
 };
 
+/// By how much sessions may differ beyond what the nuisances say, 1 σ. What differs more is a finding (excess.h).
+struct SessionScatter {
+  double mm = std::numeric_limits<double>::infinity();   ///< of observables in mm
+  double deg = std::numeric_limits<double>::infinity();  ///< of observables in degrees
+};
+
 struct Evidence {
   std::vector<Observation> observations;
   Eigen::VectorXd predicted;  ///< by the nominal model, one for each observation
@@ -80,6 +88,7 @@ struct Evidence {
   Eigen::VectorXd numerical_sd{};            ///< 1 σ of the predictions' own numerical error; empty: none is stated
   std::vector<SharedError> shared_errors{};  ///< of the predictions, too
   std::vector<Mistake> mistakes{};           ///< put right in the observations
+  SessionScatter session{};                  ///< as the laboratory states it
 };
 
 /// An effect switched on, with the values of its parameters in their order.

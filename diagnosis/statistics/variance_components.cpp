@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "core/median.h"
 #include "diagnosis/statistics/mean_space.h"
@@ -66,6 +67,23 @@ void fit(std::vector<VarianceComponent> components, const std::vector<Eigen::Mat
   errors.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(before + more, before + more));
   errors.covariance.bottomRightCorner(more, more) = fit.covariance;
   std::move(components.begin(), components.end(), std::back_inserter(errors.components));
+}
+
+/// Sessions differ by no more than the laboratory states: what is more is no error but a finding (excess.h).
+void limit_sessions(const Evidence& evidence, ObservableErrors& errors) {
+  for (std::size_t k = 0; k < errors.components.size(); ++k) {
+    VarianceComponent& component = errors.components[k];
+    if (component.level != ErrorLevel::session) continue;
+    const double most = component.observable.ends_with("_mm")    ? evidence.session.mm
+                        : component.observable.ends_with("_deg") ? evidence.session.deg
+                                                                 : std::numeric_limits<double>::infinity();
+    if (component.variance <= most * most) continue;
+    const double share = most * most / component.variance;
+    const auto row = static_cast<Eigen::Index>(k);
+    errors.covariance.row(row) *= share;
+    errors.covariance.col(row) *= share;
+    component.variance = most * most;
+  }
 }
 
 /// Of what stands in the means of repeated cells, a smooth model leaves what does not go with it.
@@ -186,6 +204,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
         contrasts.transpose() * known(rows, rows) * contrasts, errors);
     if (means.from_replicates && !unrepeated.empty())
       fit_unrepeated(evidence, rows, residual, known, std::move(unrepeated), errors);
+    limit_sessions(evidence, errors);
     budget.observables.push_back(std::move(errors));
   }
   return budget;
