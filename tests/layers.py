@@ -20,6 +20,7 @@ LAYERS = {
     "detector": ["core"],
     "diagnosis/statistics": ["core"],
     "diagnosis/measurement": ["core", "detector", "diagnosis/statistics"],
+    "diagnosis/unit": ["core", "detector"],
     "diagnosis/predict": ["core", "sim/*", "theory", "diagnosis/statistics", "diagnosis/measurement"],
     "diagnosis/ray_traced": ["core", "sim/*", "diagnosis/statistics", "diagnosis/measurement", "diagnosis/predict"],
     "examples": ["core", "detector", "sim/*"],

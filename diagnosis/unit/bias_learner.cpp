@@ -1,0 +1,179 @@
+#include "diagnosis/unit/bias_learner.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+constexpr double kNone = 1e-14;           ///< [px²] variance of a factor that is not there; keeps precisions finite
+constexpr double kNoPlane = 1e-3;         ///< [px] the field's own plane over what was seen is zero within this
+constexpr std::size_t kMostPoints = 600;  ///< among which patterns of error are looked for
+
+bool any(const BiasAmplitudes& amplitudes) {
+  return std::ranges::any_of(amplitudes, [](double amplitude) { return amplitude > 0.0; });
+}
+
+Eigen::VectorXd variance_of(const Cosines& cosines, const BiasAmplitudes& amplitudes) {
+  Eigen::VectorXd variance = Eigen::VectorXd::Constant(cosines.size(), kNone);
+  for (std::size_t i = 0; i < amplitudes.size(); ++i)
+    variance += amplitudes[i] * amplitudes[i] * cosines.density(kBiasReaches_px[i]);
+  return variance;
+}
+
+void forbid_planes(const Eigen::MatrixXd& planes, Eigen::MatrixXd& precision) {
+  precision.noalias() += planes * planes.transpose() / (kNoPlane * kNoPlane);
+}
+
+}  // namespace
+
+BiasLearner::BiasLearner(std::span<const BiasView> layout, const BiasPrior& prior)
+    : prior_(prior),
+      sums_(cosines_, layout, prior),
+      has_reference_(any(prior.reference_px) || !any(prior.camera_px)),
+      has_camera_(any(prior.camera_px)),
+      has_states_(any(prior.state_px)) {
+  for (const BiasView& view : layout)
+    errors_.push_back(
+        Eigen::Map<const Eigen::VectorXd>(view.errors_px.data(), static_cast<Eigen::Index>(view.errors_px.size())));
+  const int half = cosines_.size(), shared = half * (has_reference_ + has_camera_);
+  const int first = has_reference_ ? 0 : half;
+  const Eigen::VectorXd reference = variance_of(cosines_, prior.reference_px),
+                        camera = variance_of(cosines_, prior.camera_px);
+  shared_variance_.resize(2 * half);
+  shared_variance_ << reference, camera;
+  shared_variance_ = shared_variance_.segment(first, shared).eval();
+  state_variance_ = variance_of(cosines_, prior.state_px);
+
+  Eigen::MatrixXd precision = shared_variance_.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd planes = sums_.planes();
+  if (has_reference_) {
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(shared, planes.cols());
+    own.topRows(half) = planes.topRows(half);
+    forbid_planes(own, precision);
+  }
+  if (has_camera_) {
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(shared, planes.cols());
+    own.bottomRows(half) = planes.bottomRows(half);
+    forbid_planes(own, precision);
+  }
+  for (int state = kNoState; state < sums_.states(); ++state) {
+    const Eigen::MatrixXd gram = sums_.gram(state);
+    precision += gram.block(first, first, shared, shared);
+    if (state == kNoState) continue;
+    StateBlock& block = of_state_.emplace_back();
+    if (!has_states_) continue;
+    Eigen::MatrixXd own = gram.bottomRightCorner(half, half);
+    own.diagonal() += state_variance_.cwiseInverse();
+    forbid_planes(sums_.planes(state).bottomRows(half), own);
+    block.precision.compute(own);
+    block.cross = gram.block(first, half, shared, half);
+    const Eigen::MatrixXd known = block.precision.matrixL().solve(block.cross.transpose());
+    precision.selfadjointView<Eigen::Lower>().rankUpdate(known.transpose(), -1.0);
+    precision = precision.selfadjointView<Eigen::Lower>();
+  }
+  precision_.compute(precision);
+}
+
+BiasLearner::Solution BiasLearner::solve(std::span<const Eigen::VectorXd> errors_px) const {
+  assert(errors_px.size() == sums_.views());
+  const int half = cosines_.size(), first = has_reference_ ? 0 : half;
+  const Eigen::Index shared = shared_variance_.size();
+  Solution solution;
+  solution.shared = Eigen::VectorXd::Zero(shared);
+  solution.states.assign(of_state_.size(), Eigen::VectorXd::Zero(half));
+  for (std::size_t view = 0; view < sums_.views(); ++view) {
+    const Eigen::VectorXd seen = sums_.projected(view, sums_.whitened(view, errors_px[view]));
+    solution.shared += seen.segment(first, shared);
+    if (has_state(sums_.state_of(view))) solution.states[sums_.state_of(view)] += seen.tail(half);
+  }
+  if (has_states_)
+    for (std::size_t i = 0; i < of_state_.size(); ++i)
+      solution.shared -= of_state_[i].cross * of_state_[i].precision.solve(solution.states[i]);
+  solution.shared = precision_.solve(solution.shared);
+  if (has_states_)
+    for (std::size_t i = 0; i < of_state_.size(); ++i)
+      solution.states[i] =
+          of_state_[i].precision.solve(solution.states[i] - of_state_[i].cross.transpose() * solution.shared);
+  return solution;
+}
+
+BiasFactors BiasLearner::factors_of(const Solution& solution) const {
+  BiasFactors factors;
+  const int half = cosines_.size();
+  if (has_reference_) factors.reference = solution.shared.head(half);
+  if (has_camera_) factors.camera = solution.shared.tail(half);
+  if (has_states_) factors.states = solution.states;
+  return factors;
+}
+
+BiasField BiasLearner::learn(std::span<const Eigen::VectorXd> errors_px) const {
+  return {cosines_, factors_of(solve(errors_px))};
+}
+
+BiasField BiasLearner::learn() const { return learn(errors_); }
+
+Eigen::VectorXd BiasLearner::shared_at(const BiasPoint& point) const {
+  const int half = cosines_.size();
+  Eigen::VectorXd values(shared_variance_.size());
+  const double column = point.pixel_px.x(), row = point.pixel_px.y();
+  if (has_reference_) values.head(half) = cosines_.at(column - point.nearer_px, row);
+  if (has_camera_) values.tail(half) = cosines_.at(column, row);
+  return values;
+}
+
+Eigen::VectorXd BiasLearner::whitened(const BiasPoint& point) const {
+  const int half = cosines_.size();
+  const Eigen::Index shared = shared_variance_.size();
+  const bool seen = has_state(point.state);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(shared + (has_states_ ? half * states() : 0));
+  Eigen::VectorXd of_shared = shared_at(point);
+  if (seen) {
+    const StateBlock& block = of_state_[point.state];
+    const Eigen::VectorXd own = cosines_.at(point.pixel_px.x(), point.pixel_px.y());
+    const Eigen::VectorXd white = block.precision.matrixL().solve(own);
+    values.segment(shared + half * point.state, half) = white;
+    of_shared -= block.cross * block.precision.matrixU().solve(white);
+  }
+  values.head(shared) = precision_.matrixL().solve(of_shared);
+  return values;
+}
+
+double BiasLearner::sigma(const BiasPoint& point) const {
+  double variance = whitened(point).squaredNorm();
+  if (has_states_ && !has_state(point.state))
+    for (const double amplitude : prior_.state_px) variance += amplitude * amplitude;
+  return std::sqrt(variance);
+}
+
+std::vector<BiasField> BiasLearner::error_modes(int count, std::span<const BiasPoint> where) const {
+  std::vector<Eigen::VectorXd> rows;
+  const std::size_t every = std::max<std::size_t>(1, (where.size() + kMostPoints - 1) / kMostPoints);
+  for (std::size_t i = 0; i < where.size(); i += every) rows.push_back(whitened(where[i]));
+  if (rows.empty()) return {};
+  Eigen::MatrixXd points(rows.front().size(), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = rows[i];
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(points.transpose() * points);
+  const int half = cosines_.size();
+  const Eigen::Index shared = shared_variance_.size();
+  std::vector<BiasField> modes;
+  for (Eigen::Index i = points.cols() - 1; i >= 0 && static_cast<int>(modes.size()) < count; --i) {
+    const double squared = solver.eigenvalues()[i];
+    if (squared <= 1e-12 * solver.eigenvalues()[points.cols() - 1] || squared <= 0.0) break;
+    const Eigen::VectorXd white = points * solver.eigenvectors().col(i) / std::sqrt(squared);
+    Solution mode;
+    mode.shared = precision_.matrixU().solve(white.head(shared));
+    if (has_states_)
+      for (int state = 0; state < states(); ++state) {
+        const StateBlock& block = of_state_[state];
+        mode.states.push_back(block.precision.matrixU().solve(white.segment(shared + half * state, half)) -
+                              block.precision.solve(block.cross.transpose() * mode.shared));
+      }
+    modes.emplace_back(cosines_, factors_of(mode));
+  }
+  return modes;
+}
+
+}  // namespace fathom
