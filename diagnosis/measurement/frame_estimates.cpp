@@ -38,8 +38,7 @@ struct CupPlace {
 
 std::optional<CupPlace> place_of(const FrameView& view, const LaboratoryRig& rig) {
   if (!view.cup) return std::nullopt;
-  constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
-  return CupPlace{axis_from_camera(rig, *view.cup), rig.outer_radius_m + kAround};
+  return CupPlace{axis_from_camera(rig, *view.cup), clear_of_cup(rig)};
 }
 
 /// 1/z = q · (x/z, y/z, 1) for the points within `gate` of the plane; q = −n / offset.
@@ -112,6 +111,11 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
 
 }  // namespace
 
+double clear_of_cup(const LaboratoryRig& rig) {
+  constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
+  return rig.outer_radius_m + kAround;
+}
+
 std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows) {
   const double column = focal_px * point.x() / point.z() / kImageWidth_px + 0.5,
                row = focal_px * point.y() / point.z() / kImageHeight_px + 0.5;
@@ -163,7 +167,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     desk_intensity.add(sensed.intensity, w);
     if (number % kCombEvery != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
-    const double z = sensed.point.z();
+    const double z = sensed.device_z > 0.0f ? sensed.device_z : sensed.point.z();  // steps are the device's
     const double steps = steps_per_inverse * (1.0 / kReference - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;
     codes.add(steps, w);
     const std::complex<double> of_half = std::polar(1.0, 0.25 * two_pi * steps), of_quarter = of_half * of_half;

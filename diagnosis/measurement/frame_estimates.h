@@ -16,6 +16,7 @@ struct SensedPoint {
   Eigen::Vector3f point;  ///< [m] camera frame
   float intensity;        ///< [DN]
   float weight = 1.0f;    ///< pixels that it stands for
+  float device_z = 0.0f;  ///< [m] depth before a unit's bias was taken off; 0: none was
 };
 
 /// Mean over points.
@@ -63,6 +64,9 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
 
 /// Number of the part that a point is seen in, row by row, of an image in so many `columns` and `rows`.
 std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows);
+
+/// [m] about a cup's axis: nothing nearer counts as desk.
+double clear_of_cup(const LaboratoryRig& rig);
 
 /// [m] of a cup at a place of the rig's middle, from the foot of the camera, which is half a baseline beside it.
 inline Eigen::Vector2d axis_from_camera(const LaboratoryRig& rig, const Eigen::Vector2d& cup) {

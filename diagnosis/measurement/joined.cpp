@@ -61,15 +61,21 @@ void append(Measurement more, Measurement& all) {
 }  // namespace
 
 Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet) {
-  Measurement all = read_measurement(folders.front(), quiet);
-  for (const std::filesystem::path& folder : folders.subspan(1)) {
+  std::vector<Survey> surveys;
+  std::map<int, DeskCells> desks;
+  int sessions = 0;
+  for (const std::filesystem::path& folder : folders) {
     for (const std::filesystem::path& earlier : folders)
       if (&earlier < &folder && std::filesystem::equivalent(earlier, folder))
         throw Error(folder.string(), "is given twice, must be another measurement");
-    Measurement more = read_measurement(folder, quiet);
-    require_same(more.rig, folder, all.rig, folders.front());
-    append(std::move(more), all);
+    surveys.emplace_back(folder, quiet);
+    require_same(surveys.back().rig(), folder, surveys.front().rig(), folders.front());
+    for (auto& [session, cells] : surveys.back().desks()) desks[sessions + session] = cells;
+    sessions += surveys.back().sessions();
   }
+  const std::shared_ptr<const UnitBias> unit = learn_unit(desks);
+  Measurement all = std::move(surveys.front()).measure(unit);
+  for (std::size_t i = 1; i < surveys.size(); ++i) append(std::move(surveys[i]).measure(unit), all);
   return all;
 }
 

@@ -31,6 +31,7 @@ struct FrameReading {
   StandsElsewhere stands_elsewhere{};
   CloudPrint print;
   std::optional<DeskBands> bands;
+  DeskCells cells;
 };
 
 std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
@@ -82,7 +83,9 @@ bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
   return clear > 0.001 && estimates.interior.weight >= kFewestPixels && estimates.interior.mean < clear;
 }
 
-FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder) {
+/// With `bias` taken off; without one the desk's cells are read.
+FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder,
+                        const BiasField* bias) {
   FrameReading reading;
   if (frame.cloud.empty()) {
     if (frame.height_mm)
@@ -92,7 +95,10 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   const Cloud cloud = read_frame_cloud(frame, folder);
   std::vector<SensedPoint> points = sensed_points(cloud);
   if (cloud.height <= 1) weigh_by_sampling(points, rig.focal_px);
-  reading.print = print_of(points, rig.focal_px);
+  if (bias)
+    take_off(as_bias(*bias), rig, points);
+  else
+    reading.print = print_of(points, rig.focal_px);
   FrameView view;
   if (!frame.bare_desk()) view = {Eigen::Vector2d(frame.lateral_m, frame.distance_m), frame.fill_m};
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
@@ -101,6 +107,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
   reading.bands = estimates->desk_bands;
+  if (!bias) reading.cells.add(points, estimates->desk, rig, view);
   const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
     if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
   };
@@ -114,14 +121,14 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
 
 /// Of two frames that cannot be read the first is told of, whichever thread came first.
 std::vector<FrameReading> read_frames_of(const Measurement& measurement, const std::filesystem::path& folder,
-                                         const Table& table, bool quiet) {
+                                         const Table& table, const BiasField* bias, bool quiet) {
   std::vector<FrameReading> readings(measurement.frames.size());
   std::vector<std::string> problems(readings.size());
   const QuietPcl quiet_pcl;  // its verbosity is global: threads that silence it must all find it silent
   Progress progress("frame", readings.size(), quiet);
   parallel_ranges(static_cast<int>(readings.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i, progress.step()) try {
-        readings[i] = read_frame(measurement.frames[i], measurement.rig, folder);
+        readings[i] = read_frame(measurement.frames[i], measurement.rig, folder, bias);
       } catch (const Error& problem) {
         problems[i] = problem.what();
       }
@@ -236,18 +243,53 @@ void note_rounding(Measurement& measurement) {
 
 }  // namespace
 
-Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
-  const Table table = read_table(folder / "frames.csv");
+struct Survey::Content {
+  std::filesystem::path folder;
+  bool quiet;
+  Table table;
   Measurement measurement;
+  std::vector<FrameReading> readings;
+};
+
+Survey::Survey(const std::filesystem::path& folder, bool quiet)
+    : content_(new Content{folder, quiet, read_table(folder / "frames.csv"), {}, {}}) {
+  Measurement& measurement = content_->measurement;
   measurement.rig = read_rig(folder / "rig.json");
-  measurement.frames = read_frames(table, measurement.rig, folder);
-  std::vector<FrameReading> readings = read_frames_of(measurement, folder, table, quiet);
+  measurement.frames = read_frames(content_->table, measurement.rig, folder);
+  const auto read = [&] { content_->readings = read_frames_of(measurement, folder, content_->table, nullptr, quiet); };
+  read();
   std::vector<StandsElsewhere> elsewhere;
-  for (const FrameReading& reading : readings) elsewhere.push_back(reading.stands_elsewhere);
-  if (put_places_right(elsewhere, measurement)) readings = read_frames_of(measurement, folder, table, quiet);
-  leave_out_misplaced(table, readings, measurement);
+  for (const FrameReading& reading : content_->readings) elsewhere.push_back(reading.stands_elsewhere);
+  if (put_places_right(elsewhere, measurement)) read();
+}
+
+Survey::~Survey() = default;
+Survey::Survey(Survey&&) noexcept = default;
+
+const LaboratoryRig& Survey::rig() const { return content_->measurement.rig; }
+
+int Survey::sessions() const {
+  int count = 0;
+  for (const FrameRecord& frame : content_->measurement.frames) count = std::max(count, frame.session + 1);
+  return count;
+}
+
+std::map<int, DeskCells> Survey::desks() const {
+  std::map<int, DeskCells> desks;
+  for (std::size_t i = 0; i < content_->readings.size(); ++i)
+    desks[content_->measurement.frames[i].session].add(content_->readings[i].cells);
+  return desks;
+}
+
+Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
+  Measurement measurement = std::move(content_->measurement);
+  std::vector<FrameReading> readings = std::move(content_->readings);
+  const Table& table = content_->table;
   std::vector<CloudPrint> prints;
   for (const FrameReading& reading : readings) prints.push_back(reading.print);
+  if (unit) readings = read_frames_of(measurement, content_->folder, table, &unit->field(), content_->quiet);
+  measurement.unit = std::move(unit);
+  leave_out_misplaced(table, readings, measurement);
   Copies copies = find_copies(measurement.frames, prints);
   std::move(copies.mistakes.begin(), copies.mistakes.end(), std::back_inserter(measurement.mistakes));
   std::map<PlacementKey, std::vector<std::size_t>> placements;
@@ -258,6 +300,18 @@ Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
   for (Observation& motion : desk_motion(measurement.observations, measurement.rig))
     measurement.observations.push_back(std::move(motion));
   return measurement;
+}
+
+std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks) {
+  const bool is_seen =
+      std::any_of(desks.begin(), desks.end(), [](const auto& session) { return !session.second.view().cells.empty(); });
+  return is_seen ? std::make_shared<const UnitBias>(desks) : nullptr;
+}
+
+Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
+  Survey survey(folder, quiet);
+  std::shared_ptr<const UnitBias> unit = learn_unit(survey.desks());
+  return std::move(survey).measure(std::move(unit));
 }
 
 }  // namespace fathom

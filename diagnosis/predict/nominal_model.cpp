@@ -44,6 +44,7 @@ NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& f
                        {"baseline_mm", mm_from_metres(laboratory.baseline_m)},
                        {"focal_px", laboratory.focal_px}};
   model.rig = rig_from_json(JsonReader(sensor, file, "/sensor"));
+  model.rig.sensor.unit.residue_px = 0.0;  // of this unit it is not known, but learned
   model.rig.sensor.unit.disparity_offset_px = laboratory.disparity_offset_px;
   const Json cup = cup_json_of(laboratory);
   model.cup = cup_shape_from_json(JsonReader(cup, file, "/cup"));

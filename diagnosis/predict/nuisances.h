@@ -9,6 +9,10 @@ namespace fathom {
 /// there are several, the fill of every pour, and the place of every placement.
 std::vector<Nuisance> nuisances_of(const Predictor& predictor);
 
+/// What is left to know of the unit's bias, once it was learned; of heights that a table holds the whole of it, at each
+/// place of the cup.
+std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vector<Observation>& observations);
+
 /// What a device's windows of 9 × 9 pixels change, and half of it, by which clouds that have averaged over them and
 /// clouds that have not both lie beside what is in the middle of the two.
 Nuisance usual_windows(const Predictor& predictor);

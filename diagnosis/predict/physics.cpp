@@ -44,7 +44,8 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.mistakes = measurement.mistakes;
   evidence.session = {mm_from_metres(measurement.rig.session_m), deg_from_radians(measurement.rig.session_rad)};
   const std::vector<Observation> observations = predictable(measurement.observations);
-  const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file);
+  const auto predictor =
+      std::make_shared<Predictor>(measurement.rig, observations, model_effects, file, measurement.unit);
   const std::vector<bool> kept = are_predicted(*predictor);
   for (std::size_t row = 0; row < kept.size(); ++row)
     if (kept[row]) evidence.observations.push_back(observations[row]);
@@ -60,6 +61,8 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.predicted = predictor->predict({}) + middle;
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);
+  for (Nuisance& nuisance : unit_nuisances(*predictor, evidence.observations))
+    evidence.nuisances.push_back(std::move(nuisance));
   evidence.nuisances.push_back(windows);
   if (Nuisance response = brightness_response(evidence.observations, evidence.predicted); !response.signature.isZero())
     evidence.nuisances.push_back(std::move(response));

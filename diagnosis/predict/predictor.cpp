@@ -1,6 +1,7 @@
 #include "diagnosis/predict/predictor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "diagnosis/predict/desk_of_rays.h"
 #include "diagnosis/statistics/effect_name.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
@@ -80,11 +82,12 @@ double pitch_of_wander_deg(double height_mm, const Plane& desk) {
 }  // namespace
 
 Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects,
-                     std::string file)
+                     std::string file, std::shared_ptr<const UnitBias> unit)
     : model_(nominal_model(rig, file)),
       model_effects_(std::move(model_effects)),
       model_goes_by_time_(goes_by_time(model_effects_)),
       file_(std::move(file)),
+      unit_(std::move(unit)),
       conditions_(conditions_of(rig, observations)) {
   number_equals(conditions_);
   for (const Observation& observation : observations) {
@@ -104,6 +107,79 @@ void Predictor::look_at_nominal() {
       for (const std::size_t i : groups[group]) conditions_[i].nominal = frame;
     }
   });
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const auto [known, is_first] = desk_of_session_.try_emplace(conditions_[i].factors.session, i);
+    if (conditions_[i].factors.liquid == "none") known->second = i;
+  }
+  if (unit_) nominal_bias_ = bias_by({});
+  parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
+    for (int group = begin; group < end; ++group) {
+      const Condition& first = conditions_[groups[group].front()];
+      const auto estimates =
+          unit_ ? estimates_without(std::array{as_bias(nominal_bias_)}, *first.nominal, model_.laboratory, first.pixels)
+                : first.nominal->estimates;
+      for (const std::size_t i : groups[group]) conditions_[i].nominal_estimates = estimates;
+    }
+  });
+}
+
+BiasField Predictor::bias_by(const Change& change) const {
+  std::map<int, DeskError> desks;
+  for (const auto& [session, i] : desk_of_session_) {
+    const Condition& condition = conditions_[i];
+    const SurrogateFrame frame =
+        surrogate_points(setup(condition, change), model_.laboratory, condition.pixels, condition.nominal.get());
+    desks[session] = DeskOfRays(frame.desk, model_.laboratory);
+  }
+  return unit_->learn(desks);
+}
+
+const BiasField* Predictor::bias_of(const Change& change, BiasField& own) const {
+  if (!unit_) return nullptr;
+  const bool is_nominal = std::all_of(desk_of_session_.begin(), desk_of_session_.end(), [&](const auto& session) {
+    const Condition& condition = conditions_[session.second];
+    return desk_looks_alike(surrogate_view(setup(condition, change)), condition.nominal->view);
+  });
+  if (is_nominal) return &nominal_bias_;
+  own = bias_by(change);
+  return &own;
+}
+
+std::vector<Eigen::VectorXd> Predictor::unit_errors() const {
+  if (!unit_) return {};
+  constexpr int kMost = 48;  // of which the last is a hundredth of the first
+  std::vector<BiasPoint> points;
+  std::vector<std::size_t> looked_at;
+  for (const std::vector<std::size_t>& group : alike({}, all_conditions())) looked_at.push_back(group.front());
+  for (const std::size_t i : looked_at)
+    for (const SensedPoint& sensed : conditions_[i].nominal->inside)
+      points.push_back(bias_point(sensed.point, model_.laboratory));
+  for (const auto& [session, i] : desk_of_session_)
+    for (const SensedPoint& sensed : conditions_[i].nominal->desk)
+      points.push_back(bias_point(sensed.point, model_.laboratory));
+  const std::vector<Bias> modes = unit_->error_modes(kMost, points);
+  const Eigen::VectorXd nominal = predict_from([](const Condition& c) { return c.nominal_estimates; });
+  std::vector<Eigen::VectorXd> errors(modes.size());
+  parallel_ranges(static_cast<int>(modes.size()), [&](int begin, int end) {
+    for (int mode = begin; mode < end; ++mode) {
+      errors[mode] = predict_from([&](const Condition& c) {
+        return estimates_without(std::array{as_bias(nominal_bias_), modes[mode]}, *c.nominal, model_.laboratory,
+                                 c.pixels);
+      });
+      errors[mode] -= nominal;
+      for (double& value : errors[mode])
+        if (!std::isfinite(value)) value = 0.0;
+    }
+  });
+  return errors;
+}
+
+Eigen::VectorXd Predictor::predict_from(
+    const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+  const Look as_given = [&](const Setup&, const Condition& condition) { return estimates(condition); };
+  for (const std::vector<std::size_t>& group : alike({}, all_conditions())) predict_alike(as_given, {}, group, values);
+  return values;
 }
 
 std::vector<std::size_t> Predictor::all_conditions() const {
@@ -205,8 +281,14 @@ void Predictor::predict_alike(const Look& look, const Change& change, const std:
 }
 
 Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
-  const Look by_few_rays = [this](const Setup& shot, const Condition& condition) {
-    return surrogate_frame(shot, model_.laboratory, condition.pixels, condition.nominal.get()).estimates;
+  BiasField own;
+  const BiasField* const bias = bias_of(change, own);
+  const Look by_few_rays = [this, bias](const Setup& shot, const Condition& condition) {
+    const SampledPixels& pixels = condition.pixels;
+    if (!bias) return surrogate_frame(shot, model_.laboratory, pixels, condition.nominal.get()).estimates;
+    const SurrogateFrame frame = surrogate_points(shot, model_.laboratory, pixels, condition.nominal.get());
+    if (frame.is_known && bias == &nominal_bias_) return condition.nominal_estimates;
+    return estimates_without(std::array{as_bias(*bias)}, frame, model_.laboratory, pixels);
   };
   const std::vector<std::vector<std::size_t>> groups = alike(change, conditions);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "diagnosis/measurement/named_values.h"
@@ -18,7 +19,8 @@ struct Condition {
   std::vector<std::size_t> rows;  ///< its observations
   SampledPixels pixels;
   std::size_t equal = 0;  ///< number of the first condition that differs from it in time, pour and placement alone
-  std::shared_ptr<const SurrogateFrame> nominal{};  ///< as few rays see it without a change
+  std::shared_ptr<const SurrogateFrame> nominal{};    ///< as few rays see it without a change
+  std::optional<FrameEstimates> nominal_estimates{};  ///< of that, the unit's bias taken off
 };
 
 /// What a laboratory would find in clouds of a condition's set-up. Nothing when no desk is seen.
@@ -33,9 +35,10 @@ struct Change {
 class Predictor {
  public:
   /// `observations` must outlive nothing: their factors are copied. Effects of `model_effects` (as in model.json) are
-  /// part of the nominal model. Throws Error on what cannot be modelled.
+  /// part of the nominal model. `unit`: what was learned of the unit's bias and taken off the observations; so it is of
+  /// predictions. Throws Error on what cannot be modelled.
   Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects = Json::array(),
-            std::string file = "rig.json");
+            std::string file = "rig.json", std::shared_ptr<const UnitBias> unit = {});
 
   /// One value for each observation, NaN where the model sees nothing there or does not predict that observable.
   Eigen::VectorXd predict(const Change& change) const;
@@ -43,6 +46,9 @@ class Predictor {
   Eigen::VectorXd predict(const Change& change, const std::vector<std::size_t>& conditions) const;
   /// The same as somebody else looks at it, at one condition after the other.
   Eigen::VectorXd predict_by(const Look& look, const Change& change, const std::vector<std::size_t>& conditions) const;
+
+  /// What errors of the unit's bias change: independent patterns of 1 σ, the largest first. None without a unit.
+  std::vector<Eigen::VectorXd> unit_errors() const;
 
   /// Some conditions, those together that the change leaves alike: they are predicted once.
   std::vector<std::vector<std::size_t>> alike(const Change& change, const std::vector<std::size_t>& conditions) const;
@@ -70,6 +76,11 @@ class Predictor {
   };
 
   void look_at_nominal();
+  /// What would be learned of a unit without bias, were its desks as this change makes them.
+  BiasField bias_by(const Change& change) const;
+  /// Where some change leaves every session's desk as it is, nominal_bias_; else `own`.
+  const BiasField* bias_of(const Change& change, BiasField& own) const;
+  Eigen::VectorXd predict_from(const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const;
   std::vector<std::size_t> all_conditions() const;
   std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;
   double value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const;
@@ -81,6 +92,9 @@ class Predictor {
   Json model_effects_;
   bool model_goes_by_time_;
   std::string file_;
+  std::shared_ptr<const UnitBias> unit_;
+  BiasField nominal_bias_;                      ///< that few rays' desks would be taken to have
+  std::map<int, std::size_t> desk_of_session_;  ///< a condition that shows most of it
   std::vector<std::string> observables_, regions_;
   std::vector<Condition> conditions_;
 };

@@ -75,11 +75,6 @@ std::vector<SensedPoint> points_at(const DeviceReader& read, const std::vector<E
   return points;
 }
 
-SurrogateView view_of(const Setup& setup) {
-  return {DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0, setup.processing.bisector,
-          setup.rig.sensor.step_phase, cup_optics(setup)};
-}
-
 std::vector<SensedPoint> desk_points(const SurrogateView& view, const SampledPixels& pixels) {
   const Eigen::Vector3d camera = view.reader.rig().camera_in_world(),
                         projector = view.reader.rig().projector_in_world();
@@ -161,13 +156,7 @@ std::vector<SensedPoint> wall_points(const SurrogateView& view, const SampledPix
   });
 }
 
-/// Whether desk_points() are the same of two views, …
-bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b) {
-  return a.reader == b.reader && a.desk_albedo == b.desk_albedo && a.cup.has_value() == b.cup.has_value() &&
-         (!a.cup || a.cup->body == b.cup->body);
-}
-
-/// … then inside_points() …
+/// Where desks look alike, whether inside_points() are the same …
 bool inside_looks_alike(const SurrogateView& a, const SurrogateView& b) {
   return a.bisector == b.bisector && a.cup == b.cup;
 }
@@ -235,10 +224,35 @@ SampledPixels following(SampledPixels pixels, const LaboratoryRig& rig, const st
   return pixels;
 }
 
+/// Of the frame's points, or what was made of them.
+std::optional<FrameEstimates> estimates_of(std::span<const SensedPoint> points, const SurrogateView& view,
+                                           const std::vector<SensedPoint>& desk, const LaboratoryRig& rig,
+                                           const FrameView& looked_at) {
+  auto estimates = estimate_frame(points, rig, looked_at);
+  if (estimates) set_combs(desk, view.reader.rig().sensor, view.step_phase - SensorModel().step_phase, *estimates);
+  return estimates;
+}
+
+std::vector<SensedPoint> all_points(const SurrogateFrame& frame) {
+  std::vector<SensedPoint> points = frame.desk;
+  points.insert(points.end(), frame.inside.begin(), frame.inside.end());
+  points.insert(points.end(), frame.walls.begin(), frame.walls.end());
+  return points;
+}
+
 }  // namespace
 
+SurrogateView surrogate_view(const Setup& setup) {
+  return {DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0, setup.processing.bisector,
+          setup.rig.sensor.step_phase, cup_optics(setup)};
+}
+
+bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b) {
+  return a.reader == b.reader && a.desk_albedo == b.desk_albedo && a.cup.has_value() == b.cup.has_value() &&
+         (!a.cup || a.cup->body == b.cup->body);
+}
+
 SampledPixels sample_pixels(const LaboratoryRig& rig, const FrameView& written) {
-  constexpr int kDeskColumns = 24, kDeskRows = 18;
   SampledPixels pixels;
   pixels.view = written;
   for (int row = 0; row < kDeskRows; ++row)
@@ -287,7 +301,7 @@ std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const Lab
 }
 
 double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {
-  const SurrogateView view = view_of(setup);
+  const SurrogateView view = surrogate_view(setup);
   if (!view.cup || !is_clear(*view.cup)) return 0.0;
   const std::vector<CupOptics> moments = moments_of(*view.cup);
   if (moments.size() == 1) return 0.0;
@@ -309,27 +323,39 @@ double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const S
   return regions > 0.0 ? mm_from_metres(std::sqrt(variance / regions)) : 0.0;
 }
 
-SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& fixed,
-                               const SurrogateFrame* known) {
-  SurrogateFrame frame{view_of(setup), {}, {}, {}, {}};
+SurrogateFrame surrogate_points(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& fixed,
+                                const SurrogateFrame* known) {
+  SurrogateFrame frame{.view = surrogate_view(setup), .desk = {}, .inside = {}, .walls = {}, .estimates = {}};
   const SurrogateView& view = frame.view;
   const SampledPixels pixels = following(fixed, rig, view.cup);
   const bool same_desk = known && desk_looks_alike(view, known->view);
   const bool same_inside = same_desk && inside_looks_alike(view, known->view);
   const bool same_walls = same_desk && walls_look_alike(view, known->view);
-  if (same_desk && same_inside && same_walls && view.step_phase == known->view.step_phase) return *known;
+  if (same_desk && same_inside && same_walls && view.step_phase == known->view.step_phase) {
+    frame = *known;
+    frame.is_known = true;
+    return frame;
+  }
   frame.desk = same_desk ? known->desk : desk_points(view, pixels);
   if (view.cup) {
     frame.inside = same_inside ? known->inside : inside_points(view, pixels);
     frame.walls = same_walls ? known->walls : wall_points(view, pixels);
   }
-  std::vector<SensedPoint> points = frame.desk;
-  points.insert(points.end(), frame.inside.begin(), frame.inside.end());
-  points.insert(points.end(), frame.walls.begin(), frame.walls.end());
-  frame.estimates = estimate_frame(points, rig, pixels.view);
-  if (frame.estimates)
-    set_combs(frame.desk, view.reader.rig().sensor, view.step_phase - SensorModel().step_phase, *frame.estimates);
   return frame;
+}
+
+SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels,
+                               const SurrogateFrame* known) {
+  SurrogateFrame frame = surrogate_points(setup, rig, pixels, known);
+  if (!frame.is_known) frame.estimates = estimates_without({}, frame, rig, pixels);
+  return frame;
+}
+
+std::optional<FrameEstimates> estimates_without(std::span<const Bias> biases, const SurrogateFrame& frame,
+                                                const LaboratoryRig& rig, const SampledPixels& pixels) {
+  std::vector<SensedPoint> points = all_points(frame);
+  for (const Bias& bias : biases) take_off(bias, rig, points);
+  return estimates_of(points, frame.view, frame.desk, rig, pixels.view);
 }
 
 }  // namespace fathom

@@ -1,10 +1,15 @@
 // What a frame of a set-up says in the mean, by some hundred exact rays instead of a picture.
 #pragma once
 
+#include <span>
+
+#include "diagnosis/measurement/unit_bias.h"
 #include "diagnosis/predict/cup_optics.h"
 #include "diagnosis/predict/device_reader.h"
 
 namespace fathom {
+
+inline constexpr int kDeskColumns = 24, kDeskRows = 18;  ///< raster of the desk's pixels
 
 /// Pixels of the depth image that stand for it; fixed by what the laboratory believes, so that set-ups that differ a
 /// little are looked at by the same rays. Of a cup more than 3 mm beside its place others of the same raster are.
@@ -26,9 +31,12 @@ struct SurrogateView {
 
 struct SurrogateFrame {
   SurrogateView view;
-  std::vector<SensedPoint> desk, inside, walls;
-  std::optional<FrameEstimates> estimates;  ///< of all of them; nothing when no desk is seen
+  std::vector<SensedPoint> desk, inside, walls;  ///< as the device gives them
+  std::optional<FrameEstimates> estimates;       ///< of all of them; nothing when no desk is seen
+  bool is_known = false;                         ///< the same as the known frame
 };
+
+SurrogateView surrogate_view(const Setup& setup);
 
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
@@ -38,6 +46,17 @@ struct SurrogateFrame {
 /// from there. Throws Error for a clear cup or one of a glTF file.
 SurrogateFrame surrogate_frame(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels,
                                const SurrogateFrame* known = nullptr);
+
+/// The same without estimates, unless they are known.
+SurrogateFrame surrogate_points(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels,
+                                const SurrogateFrame* known);
+
+/// What the laboratory would find in a frame once these biases are taken off it, one after the other.
+std::optional<FrameEstimates> estimates_without(std::span<const Bias> biases, const SurrogateFrame& frame,
+                                                const LaboratoryRig& rig, const SampledPixels& pixels);
+
+/// Whether two set-ups' desks are read alike.
+bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b);
 
 /// By how much waves on a clear liquid let the height of a region differ between shots, 1 σ; 0 without waves.
 double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels);

@@ -1,0 +1,32 @@
+// How far the desk of a cloud is off its plane, cell by cell of the image: what a unit's bias is learned from.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/measurement/frame_estimates.h"
+#include "diagnosis/unit/bias_view.h"
+
+namespace fathom {
+
+/// Sums over pixels of desk in square cells of the depth image, row by row. Of several clouds they add up.
+class DeskCells {
+ public:
+  /// Of the points of one cloud; `desk` as it was fitted to them, clear of the cup.
+  void add(std::span<const SensedPoint> points, const Plane& desk, const LaboratoryRig& rig, const FrameView& view);
+  void add(const DeskCells& other);
+
+  /// The cells that are mostly desk in any of the clouds; empty where there are none.
+  BiasView view() const;
+  /// 1 σ of a whole cell's mean that its neighbours do not share [px]: the median second difference along rows, as of
+  /// normal errors. A smooth bias has next to none.
+  static double own_error_px(const BiasView& view);
+
+ private:
+  struct Cell {
+    float pixels = 0.0f, error_px = 0.0f, nearer_px = 0.0f;  ///< sums of the weights, and of these times weights
+  };
+  std::vector<Cell> cells_;  ///< empty before the first cloud
+};
+
+}  // namespace fathom

@@ -1,0 +1,111 @@
+#include "diagnosis/measurement/unit_bias.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+/// 1, column and row of the image, each from −1 to 1.
+Eigen::Vector3d plane_at(const Eigen::Vector2d& pixel_px) {
+  return {1.0, 2.0 * pixel_px.x() / kImageWidth_px - 1.0, 2.0 * pixel_px.y() / kImageHeight_px - 1.0};
+}
+
+double covariance(const BiasPrior& prior, double distance_px) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kBiasReaches_px.size(); ++i) {
+    const double over = distance_px / kBiasReaches_px[i];
+    sum += (prior.reference_px[i] * prior.reference_px[i] + prior.camera_px[i] * prior.camera_px[i]) *
+           std::exp(-0.5 * over * over);
+  }
+  return sum;
+}
+
+/// The planes that fit biases of this prior best, as three independent ones of 1 σ.
+std::vector<Bias> planes_of(const BiasPrior& prior) {
+  constexpr double kApart_px = 32.0;
+  std::vector<Eigen::Vector2d> pixels;
+  for (double y = 0.5 * kApart_px; y < kImageHeight_px; y += kApart_px)
+    for (double x = 0.5 * kApart_px; x < kImageWidth_px; x += kApart_px) pixels.emplace_back(x, y);
+  const auto n = static_cast<Eigen::Index>(pixels.size());
+  Eigen::MatrixXd basis(n, 3), process(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    basis.row(i) = plane_at(pixels[i]);
+    for (Eigen::Index j = 0; j < n; ++j) process(i, j) = covariance(prior, (pixels[i] - pixels[j]).norm());
+  }
+  const Eigen::MatrixXd fit = (basis.transpose() * basis).ldlt().solve(basis.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(Eigen::Matrix3d(fit * process * fit.transpose()));
+  std::vector<Bias> planes;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d plane = std::sqrt(std::max(eigen.eigenvalues()[i], 0.0)) * eigen.eigenvectors().col(i);
+    planes.emplace_back([plane](const BiasPoint& point) { return plane.dot(plane_at(point.pixel_px)); });
+  }
+  return planes;
+}
+
+}  // namespace
+
+Bias as_bias(const BiasField& field) {
+  return [&field](const BiasPoint& point) { return field.at(point); };
+}
+
+UnitBias::UnitBias(const std::map<int, DeskCells>& desks)
+    : UnitBias([&] {
+        Views all;
+        all.prior = default_bias_prior();
+        std::vector<double> own_errors;
+        for (const auto& [session, cells] : desks) {
+          BiasView view = cells.view();
+          if (view.cells.empty()) continue;
+          own_errors.push_back(DeskCells::own_error_px(view));
+          all.sessions.push_back(session);
+          all.views.push_back(std::move(view));
+        }
+        if (!own_errors.empty()) all.prior.cell_px = *std::max_element(own_errors.begin(), own_errors.end());
+        return all;
+      }()) {}
+
+UnitBias::UnitBias(Views views)
+    : views_(std::move(views)), learner_(views_.views, views_.prior), field_(learner_.learn()) {}
+
+BiasField UnitBias::learn(const std::map<int, DeskError>& desks) const {
+  std::vector<Eigen::VectorXd> errors;
+  for (std::size_t i = 0; i < views_.views.size(); ++i) {
+    const BiasView& view = views_.views[i];
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(view.cells.size()));
+    if (const auto desk = desks.find(views_.sessions[i]); desk != desks.end())
+      for (std::size_t cell = 0; cell < view.cells.size(); ++cell)
+        own[static_cast<Eigen::Index>(cell)] = desk->second(view.cells[cell]).value_or(0.0);
+    errors.push_back(std::move(own));
+  }
+  return learner_.learn(errors);
+}
+
+std::vector<Bias> UnitBias::error_modes(int count, std::span<const BiasPoint> where) const {
+  std::vector<Bias> modes = planes_of(views_.prior);
+  for (BiasField& field : learner_.error_modes(count, where))
+    modes.emplace_back([field = std::move(field)](const BiasPoint& point) { return field.at(point); });
+  return modes;
+}
+
+BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig) {
+  const double z = point.z(), of_inverse = rig.focal_px * rig.baseline_m;
+  return {.pixel_px = {rig.focal_px * point.x() / z + 0.5 * kImageWidth_px,
+                       rig.focal_px * point.y() / z + 0.5 * kImageHeight_px},
+          .nearer_px = of_inverse / z - of_inverse / kReferenceDistance_m};
+}
+
+void take_off(const Bias& bias, const LaboratoryRig& rig, std::span<SensedPoint> points) {
+  const double of_inverse = rig.focal_px * rig.baseline_m;
+  for (SensedPoint& sensed : points) {
+    const float z = sensed.point.z();
+    const double disparity_px = of_inverse / z - bias(bias_point(sensed.point, rig));
+    if (disparity_px <= 0.0) continue;
+    sensed.device_z = z;
+    sensed.point *= static_cast<float>(of_inverse / disparity_px / z);
+  }
+}
+
+}  // namespace fathom

@@ -1,0 +1,58 @@
+// The bias of disparity that a campaign's own sensor has over its image, learned from the desk in all of its clouds.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "diagnosis/measurement/desk_cells.h"
+#include "diagnosis/unit/bias_learner.h"
+
+namespace fathom {
+
+/// An error of disparity over the image [px].
+using Bias = std::function<double(const BiasPoint&)>;
+
+/// How far a model's desk is off its plane at a cell [px]; nothing where it shows none.
+using DeskError = std::function<std::optional<double>(const BiasCell& cell)>;
+
+class UnitBias {
+ public:
+  /// Of each session: within one, sensor and desk stay where they are, so that the same dots fall on the same places.
+  explicit UnitBias(const std::map<int, DeskCells>& desks);
+
+  /// Without the plane that is nearest to it: of a plane nobody can say whether it is bias or pose.
+  const BiasField& field() const { return field_; }
+  /// What would be learned from a model's desks, given by session: the same operator.
+  BiasField learn(const std::map<int, DeskError>& desks) const;
+
+  /// 1 σ [px] of what is not known of the bias there.
+  double sigma(const BiasPoint& point) const { return learner_.sigma(point); }
+  /// What is not known as independent patterns of 1 σ: the planes that a bias like this has, and of the rest those
+  /// `count` that matter most for these points.
+  std::vector<Bias> error_modes(int count, std::span<const BiasPoint> where) const;
+
+ private:
+  struct Views {
+    std::vector<int> sessions;
+    std::vector<BiasView> views;
+    BiasPrior prior;
+  };
+  explicit UnitBias(Views views);
+
+  Views views_;
+  BiasLearner learner_;
+  BiasField field_;
+};
+
+/// Of a field, which must outlive it.
+Bias as_bias(const BiasField& field);
+
+/// Where a point is seen and how near, as fields take it.
+BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig);
+
+/// Points moved along their lines of sight to where they would be read without this bias. What the device gave stays
+/// known (SensedPoint::device_z).
+void take_off(const Bias& bias, const LaboratoryRig& rig, std::span<SensedPoint> points);
+
+}  // namespace fathom
