@@ -1,6 +1,7 @@
 #include "diagnosis/measurement/frame_estimates.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <complex>
 #include <numbers>
 #include <vector>
@@ -89,10 +90,36 @@ Eigen::Vector2d middle_of_regions(const std::optional<CupOutline>& outline) {
   return (1.0 - kFree / outline->off.norm()) * outline->off;
 }
 
+/// A height with the share of its point that lies in a region.
+struct SharedHeight {
+  float height, weight;
+};
+
+/// Mean of a region. A hundredth of a device's pixels is matched wrongly, off by pixels; a single one of them weighs as
+/// much as the noise of thousands, and of a low bottom those that are too low are no longer the cup's. So only heights
+/// near the median count: within half a pixel of disparity, which is five times what noise and blocks make.
+RegionEstimate region_mean(std::vector<SharedHeight>& heights) {
+  constexpr float kNear = 0.006f;  // [m] half a pixel, 0.75 m away
+  if (heights.empty()) return {};
+  std::sort(heights.begin(), heights.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
+  double all = 0.0, below = 0.0;
+  for (const SharedHeight& one : heights) all += one.weight;
+  float middle = heights.back().height;
+  for (const SharedHeight& one : heights)
+    if ((below += one.weight) >= 0.5 * all) {
+      middle = one.height;
+      break;
+    }
+  Sums sums;
+  for (const SharedHeight& one : heights)
+    if (std::abs(one.height - middle) <= kNear) sums.add(one.height, one.weight);
+  return sums.estimate();
+}
+
 void set_inside(std::span<const CupPoint> points, double radius, double soft, FrameEstimates& estimates) {
   const Eigen::Vector2d axis = middle_of_regions(estimates.outline);
   const double reach = radius + soft;
-  std::array<Sums, 5> height;
+  std::array<std::vector<SharedHeight>, 5> height;
   Sums interior, intensity;
   for (const CupPoint& p : points) {
     const Eigen::Vector2d from_axis = p.from_axis - axis;
@@ -100,11 +127,14 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
     const std::array<double, 5> shares = shares_of_regions(from_axis, radius, soft);
     double whole = 0.0;
     for (std::size_t i = 0; i < shares.size(); ++i)
-      if (shares[i] > 0.0) height[i].add(p.height, p.weight * shares[i]), whole += shares[i];
+      if (shares[i] > 0.0) {
+        height[i].push_back({p.height, static_cast<float>(p.weight * shares[i])});
+        whole += shares[i];
+      }
     interior.add(p.height, p.weight * whole);
     intensity.add(p.intensity, p.weight * whole);
   }
-  for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = height[i].estimate();
+  for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = region_mean(height[i]);
   estimates.interior = interior.estimate();
   estimates.interior_intensity = intensity.estimate();
 }

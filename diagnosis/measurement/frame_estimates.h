@@ -38,10 +38,11 @@ struct FrameEstimates {
   Plane desk;
   std::array<RegionEstimate, 9> desk_residual;  ///< [m] heights above the fitted desk, by third of the image
   DeskBands desk_bands;
-  RegionEstimate desk_intensity;         ///< [DN]
-  std::array<RegionEstimate, 5> height;  ///< [m] above the fitted desk, by region of the cup
-  RegionEstimate interior;               ///< the same of all regions together
-  RegionEstimate interior_intensity;     ///< [DN]
+  RegionEstimate desk_intensity;  ///< [DN]
+  std::array<RegionEstimate, 5>
+      height;                         ///< [m] above the fitted desk, by region of the cup; of what lies near the median
+  RegionEstimate interior;            ///< plain mean of all regions together
+  RegionEstimate interior_intensity;  ///< [DN]
   std::optional<CupOutline> outline;
   Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
   std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px
