@@ -11,7 +11,7 @@ namespace fathom {
 
 struct CupOutline {
   Eigen::Vector2d off;  ///< [m] of the axis from where it should stand
-  double wider;         ///< [m] radius less the rig's, of outer and inner wall alike
+  double wider;         ///< [m] radius less the rig's at that height, of outer and inner wall alike
 };
 
 /// [m] above the desk: the inner wall is looked at from there on, clear of a liquid of that fill.
@@ -41,6 +41,7 @@ class OutlineFit {
   struct Sensed {
     Eigen::Vector2d from_axis;
     double height, weight;
+    double inner_radius, outer_radius;  ///< [m] of the rig's walls at that height
   };
   struct NearWall {
     Eigen::Vector2d outward;  ///< unit
@@ -54,8 +55,9 @@ class OutlineFit {
   double weaker_wall(const Eigen::Vector2d& off) const;
   Eigen::Vector2d place_of_walls() const;
 
-  double inner_radius_, outer_radius_, rim_, inner_from_;  // [m]
-  Eigen::Vector2d to_sensor_;                              // unit
+  CupProfile cup_;
+  double inner_from_;          // [m]
+  Eigen::Vector2d to_sensor_;  // unit
   std::vector<Sensed> sensed_;
 };
 

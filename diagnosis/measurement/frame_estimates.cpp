@@ -39,7 +39,7 @@ struct CupPlace {
 std::optional<CupPlace> place_of(const FrameView& view, const LaboratoryRig& rig) {
   if (!view.cup) return std::nullopt;
   constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
-  return CupPlace{axis_from_camera(rig, *view.cup), rig.outer_radius_m + kAround};
+  return CupPlace{axis_from_camera(rig, *view.cup), rig.cup.widest() + kAround};
 }
 
 /// 1/z = q · (x/z, y/z, 1) for the points within `gate` of the plane; q = −n / offset.
@@ -183,7 +183,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();
   if (outline) estimates.outline = outline->solve();
-  set_inside(around, rig.inner_radius_m - kInteriorMargin, view.soft_m, estimates);
+  set_inside(around, interior_radius(rig.cup), view.soft_m, estimates);
   if (codes.weight > 0.0) {
     estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
     const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };
