@@ -75,12 +75,14 @@ LackWords lack_words(const Shortfall& s, const MeasurementCheck& check) {
                       s.names.size(), list(s.names), 100.0 * s.size),
           "What is not seen of a cup is compared with nothing, and its walls say less of where it stands.",
           "Put these cups nearer to the middle of the image."};
-    case Lack::inside_in_image:
-      return {"inside_in_image",
-              fmt::format("At {} places ({}) the smallest region of the cup's inside has {:.0f} pixels at worst.",
-                          s.names.size(), list(s.names), s.size),
-              fmt::format("A region counts from {:g} pixels on.", kFewestInRegion),
-              "Put the cup nearer to the sensor, or take a wider one: 10 mm along the inner wall are left out."};
+    case Lack::inside_in_sight:
+      return {"inside_in_sight",
+              fmt::format("In {} conditions next to nothing is seen of the cup's inside, {:.0f} pixels at worst: {}.",
+                          s.names.size(), s.size, list(s.names)),
+              fmt::format("No height is compared there: a region counts from {:g} pixels on, and 10 mm along the inner "
+                          "wall are left out.",
+                          kFewestInRegion),
+              "Put the cup nearer to the sensor's foot, or fill it higher."};
     case Lack::whole_clouds:
       return {
           "whole_clouds",

@@ -66,14 +66,29 @@ std::string filling_name(const FrameRecord& f) {
   return f.liquid == "empty" ? f.liquid : fmt::format("{:g} mm of {}", mm_from_metres(f.fill_m), f.liquid);
 }
 
-/// Pixels of the smallest region of the cup, three sixteenths of its inside, as the bottom is seen.
-double pixels_of_smallest_region(const FrameRecord& frame, const LaboratoryRig& rig) {
-  constexpr double kShare = 3.0 / 16.0;
-  const Eigen::Vector3d bottom =
-      desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse() *
-      Eigen::Vector3d(frame.lateral_m + 0.5 * rig.baseline_m, frame.distance_m, rig.cup.bottom());
-  const double area = std::numbers::pi * interior_radius(rig.cup) * interior_radius(rig.cup);
-  return kShare * rig.focal_px * rig.focal_px * area * (rig.height_m - rig.cup.bottom()) / std::pow(bottom.z(), 3);
+/// Pixels in which camera and projector see what is looked at in the cup. A clear liquid lifts the bottom by a third of
+/// its depth; what is turbid is seen from farther still.
+double pixels_in_sight(const FrameRecord& frame, const LaboratoryRig& rig) {
+  constexpr double kLift = 1.0 / 3.0;
+  constexpr int kAcross = 30;
+  const double height = rig.cup.bottom() + kLift * frame.fill_m, radius = interior_radius(rig.cup);
+  const double opening = rig.cup.inner.back().x(), to_rim = (rig.cup.height() - height) / (rig.height_m - height);
+  const Eigen::Isometry3d camera_from_desk =
+      desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse();
+  const Eigen::Vector2d camera(-frame.lateral_m - 0.5 * rig.baseline_m, -frame.distance_m);  // from the axis
+  const Eigen::Vector2d projector = camera + Eigen::Vector2d(rig.baseline_m, 0.0);
+  const double side = 2.0 * radius / kAcross;
+  double pixels = 0.0;
+  for (int i = 0; i < kAcross; ++i)
+    for (int k = 0; k < kAcross; ++k) {
+      const Eigen::Vector2d at((i + 0.5) * side - radius, (k + 0.5) * side - radius);
+      const auto passes = [&](const Eigen::Vector2d& from) { return (at + to_rim * (from - at)).norm() < opening; };
+      if (at.norm() > radius || !passes(camera) || !passes(projector)) continue;
+      const Eigen::Vector2d from_foot = at - camera;
+      const double depth = (camera_from_desk * Eigen::Vector3d(from_foot.x(), from_foot.y(), height)).z();
+      pixels += rig.focal_px * rig.focal_px * side * side * (rig.height_m - height) / std::pow(depth, 3);
+    }
+  return pixels;
 }
 
 /// How many mm of height a unit's own bias is where this cup stands: 0.1 px of disparity, the mean of measured desks
@@ -162,6 +177,7 @@ class Checker {
     for (const FrameRecord& f : frames_) conditions.insert(condition_of(f));
     if (conditions.size() < kFewestConditions) add({Lack::conditions, static_cast<double>(conditions.size())});
     look_at_places();
+    look_into_cups();
     look_at_sizes();
     if (check_.heights > 0) add({Lack::clouds, static_cast<double>(check_.heights)});
     look_for_bare_desk();
@@ -219,17 +235,27 @@ class Checker {
     std::map<std::pair<double, double>, const FrameRecord*> places;
     for (const FrameRecord& f : frames_)
       if (!f.bare_desk()) places.emplace(std::pair(f.distance_m, f.lateral_m), &f);
-    Shortfall cut{Lack::cup_in_image, 1.0}, small{Lack::inside_in_image, kFewestInRegion};
+    Shortfall cut{Lack::cup_in_image, 1.0};
     for (const auto& [place, frame] : places) {
       const double share = share_in_image(*frame, check_.rig);
       if (share < 1.0) cut.size = std::min(cut.size, share), cut.names.push_back(place_name(*frame));
-      const double pixels = pixels_of_smallest_region(*frame, check_.rig);
-      if (check_.clouds == 0 || pixels >= kFewestInRegion) continue;
-      small.size = std::min(small.size, pixels);
-      small.names.push_back(place_name(*frame));
     }
     if (!cut.names.empty()) add(std::move(cut));
-    if (!small.names.empty()) add(std::move(small));
+  }
+
+  /// Once for each condition that has clouds.
+  void look_into_cups() {
+    std::map<Condition, const FrameRecord*> conditions;
+    for (const FrameRecord& f : frames_)
+      if (!f.bare_desk() && !f.cloud.empty()) conditions.emplace(condition_of(f), &f);
+    Shortfall hidden{Lack::inside_in_sight, kFewestInRegion};
+    for (const auto& [condition, frame] : conditions) {
+      const double pixels = pixels_in_sight(*frame, check_.rig);
+      if (pixels >= kFewestInRegion) continue;
+      hidden.size = std::min(hidden.size, pixels);
+      hidden.names.push_back(fmt::format("{} at {}", filling_name(*frame), place_name(*frame)));
+    }
+    if (!hidden.names.empty()) add(std::move(hidden));
   }
 
   /// A copy that broke off leaves a part of a file. Without rows clouds are of many sizes.

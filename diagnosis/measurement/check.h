@@ -20,22 +20,22 @@ enum class Lack {
   desk_in_sight,  ///< clouds that were looked at show no desk at all: `names` of frames
   cup_in_sight,   ///< they show the bare desk where the cup should stand: `names` of frames
   cup_in_image,   ///< parts of cups lie outside the image, at worst a share of `size` is in it: `names` of places
-  inside_in_image,  ///< the inside of the cup has too few pixels: `size` in the smallest region, `names` of places
+  inside_in_sight,  ///< of the cup's inside too few pixels are seen: `size` at worst, `names` of conditions
   whole_clouds,     ///< files much smaller than the others: `names` of frames
   clouds,           ///< `size` frames have a height and no cloud
   bare_desk_views,  ///< none in sessions of these `names`; a unit's own bias is about `size` mm there
   repeats,          ///< nothing was measured twice
   trials,           ///< each placement has one shot
   placements,       ///< no cup was put down twice at one place with one filling
-  pours,       ///< `names` of fillings that were poured once in a session, though there is more than one session or not
-  empty_cup,   ///< nobody looked at the cup's bottom
-  fills,       ///< `names` of liquids at one depth
-  distances,   ///< all cups stand at one distance
-  laterals,    ///< … at one lateral
-  sessions,    ///< there is one session
-  times,       ///< all frames have the same time
-  brightness,  ///< clouds without the infrared's intensity
-  stated_sigmas  ///< `names` of values in rig.json whose 1 σ is the default
+  pours,            ///< `names` of fillings that were poured once
+  empty_cup,        ///< nobody looked at the cup's bottom
+  fills,            ///< `names` of liquids at one depth
+  distances,        ///< all cups stand at one distance
+  laterals,         ///< … at one lateral
+  sessions,         ///< there is one session
+  times,            ///< all frames have the same time
+  brightness,       ///< clouds without the infrared's intensity
+  stated_sigmas     ///< `names` of values in rig.json whose 1 σ is the default
 };
 
 struct Shortfall {

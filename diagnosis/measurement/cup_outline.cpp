@@ -21,12 +21,20 @@ double inner_wall_from(const LaboratoryRig& rig, double fill) {
 }
 
 OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis, double fill)
-    : cup_(rig.cup), inner_from_(inner_wall_from(rig, fill)), to_sensor_(-axis.normalized()) {}
+    : cup_(rig.cup),
+      inner_from_(inner_wall_from(rig, fill)),
+      to_sensor_(-axis.normalized()),
+      steepness_(rig.height_m / axis.norm()) {}
 
 void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double weight) {
   constexpr double kReach = 0.010;  // [m] of a matcher's window across desk and rim
-  if (height >= kReach && height <= cup_.height() - kReach)
-    sensed_.push_back({from_axis, height, weight, cup_.inner_radius(height), cup_.outer_radius(height)});
+  if (height < kReach || height > cup_.height() - kReach) return;
+  const auto lean = [&](double (CupProfile::*radius)(double) const) {
+    constexpr double kSpan = 0.5e-3;  // [m]
+    return steepness_ * ((cup_.*radius)(height + kSpan) - (cup_.*radius)(height - kSpan)) / (2.0 * kSpan);
+  };
+  sensed_.push_back({from_axis, height, weight, cup_.inner_radius(height), cup_.outer_radius(height),
+                     lean(&CupProfile::inner_radius), lean(&CupProfile::outer_radius)});
 }
 
 /// Nothing of a point that is no wall's, or farther than `gate` [m] from it.
@@ -38,8 +46,8 @@ std::optional<OutlineFit::NearWall> OutlineFit::near_wall(const Sensed& sensed, 
   if (!(distance > 0.0)) return std::nullopt;
   const Eigen::Vector2d outward = off / distance;
   const double facing = outward.dot(to_sensor_);
-  if (std::abs(facing) < kFacing) return std::nullopt;
-  const bool is_inside = facing < 0.0;
+  const bool is_inside = facing - sensed.inner_lean <= -kFacing;
+  if (!is_inside && facing - sensed.outer_lean < kFacing) return std::nullopt;
   if (is_inside && sensed.height < inner_from_) return std::nullopt;
   const double excess = distance - outline.wider - (is_inside ? sensed.inner_radius : sensed.outer_radius);
   if (std::abs(excess) > gate) return std::nullopt;

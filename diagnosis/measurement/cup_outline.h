@@ -18,8 +18,9 @@ struct CupOutline {
 double inner_wall_from(const LaboratoryRig& rig, double fill);
 
 /// Takes points one by one, in the frame of the desk. Those count that lie near the wall that the sensor can see there:
-/// on its own side the outer one, clear of the desk, on the far side the inner one, between the rim and what stands in
-/// the cup: there a surface's edge, or what is seen through it, lies near the wall and is none.
+/// on its own side the outer one, clear of the desk, on the far side the inner one (of a wall that leans outward more
+/// of it), between the rim and what stands in the cup: there a surface's edge, or what is seen through it, lies near
+/// the wall and is none.
 class OutlineFit {
  public:
   /// `axis` [m]: from the foot of the camera to where the cup should stand; `fill` [m]: of what should stand in it.
@@ -42,6 +43,7 @@ class OutlineFit {
     Eigen::Vector2d from_axis;
     double height, weight;
     double inner_radius, outer_radius;  ///< [m] of the rig's walls at that height
+    double inner_lean, outer_lean;      ///< cosine that looking down on a leaning wall takes off its facing the sensor
   };
   struct NearWall {
     Eigen::Vector2d outward;  ///< unit
@@ -58,6 +60,7 @@ class OutlineFit {
   CupProfile cup_;
   double inner_from_;          // [m]
   Eigen::Vector2d to_sensor_;  // unit
+  double steepness_;           // of the line of sight, height over distance
   std::vector<Sensed> sensed_;
 };
 

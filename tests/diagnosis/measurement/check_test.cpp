@@ -146,6 +146,21 @@ TEST_F(CheckedFolder, ACupThatReachesOutOfTheImageIsNamed) {
   EXPECT_EQ(find(found, Lack::cup_in_image)->names, std::vector<std::string>{"distance 300 mm, lateral 340 mm"});
 }
 
+/// The near wall hides the bottom from 400 mm on, not what stands high in the cup.
+TEST_F(CheckedFolder, ACupThatHidesItsInsideIsNamed) {
+  write_text(folder / "rig.json", fmt::format(R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": 650,
+      "pitch_deg": {}}}, "cup": {{"shape": "mug"}}, "liquids": {{"water": "water"}}}})",
+                                              kPitchDeg));
+  add("0,0,0,0", "empty,0,300,0");
+  add("0,0,1,0", "empty,0,450,0");
+  add("0,1,2,0", "water,80,450,0");
+  add("0,1,3,0", "water,60,300,0");
+  const MeasurementCheck found = check();
+  ASSERT_TRUE(find(found, Lack::inside_in_sight));
+  EXPECT_EQ(find(found, Lack::inside_in_sight)->names,
+            std::vector<std::string>{"empty at distance 450 mm, lateral 0 mm"});
+}
+
 TEST_F(CheckedFolder, ACopyThatBrokeOffIsNamed) {
   for (const char* name : {"clouds/b.pcd", "clouds/c.pcd"}) fs::copy_file(folder / "clouds/a.pcd", folder / name);
   write_text(folder / "clouds/d.pcd", read_text(folder / "clouds/a.pcd").substr(0, 1000000));

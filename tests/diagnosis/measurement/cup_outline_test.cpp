@@ -41,6 +41,7 @@ TEST_F(Outline, OfACupThatIsWiderAndBesideItsPlace) {
 /// Its walls are as wide as at the height where they are seen.
 TEST_F(Outline, OfACupWhoseWallsLean) {
   LaboratoryRig tapered;
+  tapered.height_m = 0.650;
   tapered.cup = {{{0.0, 0.004}, {0.026, 0.004}, {0.038, 0.090}}, {{0.0, 0.0}, {0.027, 0.0}, {0.039, 0.090}}};
   fit = OutlineFit(tapered, {0.0, 0.200}, 0.0);
   const Eigen::Vector2d off(0.003, -0.002);
@@ -52,6 +53,25 @@ TEST_F(Outline, OfACupWhoseWallsLean) {
   ASSERT_TRUE(outline);
   EXPECT_LT((outline->off - off).norm(), 1e-5);
   EXPECT_NEAR(outline->wider, 0.0, 1e-5);
+}
+
+/// From high above the near side of such a cup shows its inner wall, which is no outer one.
+TEST_F(Outline, TakesNoInnerWallForTheOuterOne) {
+  LaboratoryRig tapered;
+  tapered.cup = {{{0.0, 0.004}, {0.020, 0.004}, {0.045, 0.090}}, {{0.0, 0.0}, {0.023, 0.0}, {0.048, 0.090}}};
+  for (const double height : {0.300, 2.000}) {
+    tapered.height_m = height;
+    fit = OutlineFit(tapered, {0.0, 0.300}, 0.0);
+    for (double low = 0.015; low < 0.075; low += 0.005) {
+      add_wall(kNear, tapered.cup.inner_radius(low), {0.0, 0.0}, low, low + 0.001);
+      add_wall(kFar, tapered.cup.inner_radius(low), {0.0, 0.0}, low, low + 0.001);
+    }
+    const auto outline = fit.solve();
+    if (height > 1.0)
+      EXPECT_FALSE(outline) << outline->wider;
+    else
+      EXPECT_TRUE(outline) << "there the near side can show but the outer wall";
+  }
 }
 
 /// Wherever within its bounds an effect has put a cup, an opaque liquid near the rim being in it.
