@@ -23,7 +23,7 @@ enum class Lack {
   inside_in_sight,  ///< of the cup's inside too few pixels are seen: `size` at worst, `names` of conditions
   whole_clouds,     ///< files much smaller than the others: `names` of frames
   clouds,           ///< `size` frames have a height and no cloud
-  bare_desk_views,  ///< none in sessions of these `names`; a unit's own bias is about `size` mm there
+  bare_desk_views,  ///< there are none; a unit's own bias is about `size` mm where cups stand
   repeats,          ///< nothing was measured twice
   trials,           ///< each placement has one shot
   placements,       ///< no cup was put down twice at one place with one filling

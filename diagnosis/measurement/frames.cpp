@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -14,7 +13,7 @@
 #include "core/input_policy.h"
 #include "core/median.h"
 #include "core/units.h"
-#include "detector/plane.h"
+#include "diagnosis/measurement/cup_in_sight.h"
 
 namespace fathom {
 namespace {
@@ -45,7 +44,7 @@ std::optional<double> not_negative(const Table& frames, std::size_t row, const c
 bool is_in_sight(const FrameRecord& record, const LaboratoryRig& rig) {
   constexpr double kNear = 0.15, kNear_m = 0.1;
   if (record.distance_m < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;
-  return share_in_image(record, rig) > 0.0;
+  return share_in_image({record.lateral_m, record.distance_m}, rig) > 0.0;
 }
 
 /// What a liquid and a place cannot be, most often because of another unit.
@@ -167,23 +166,6 @@ void set_stood(std::vector<FrameRecord>& records) {
 }
 
 }  // namespace
-
-double share_in_image(const FrameRecord& record, const LaboratoryRig& rig) {
-  const Eigen::Isometry3d camera_from_desk =
-      desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse();
-  constexpr int kAround = 8;
-  int points = 0, seen = 0;
-  for (const double height : {0.0, rig.cup.height()})
-    for (int i = 0; i < kAround; ++i, ++points) {
-      const double azimuth = 2.0 * std::numbers::pi * i / kAround, radius = rig.cup.outer_radius(height);
-      const Eigen::Vector3d point =
-          camera_from_desk * Eigen::Vector3d(record.lateral_m + 0.5 * rig.baseline_m + radius * std::cos(azimuth),
-                                             record.distance_m + radius * std::sin(azimuth), height);
-      seen += point.z() > 0.0 && rig.focal_px * std::abs(point.x()) < 0.5 * kImageWidth_px * point.z() &&
-              rig.focal_px * std::abs(point.y()) < 0.5 * kImageHeight_px * point.z();
-    }
-  return static_cast<double>(seen) / points;
-}
 
 PlacementKey placement_of(const FrameRecord& f) {
   return {f.session, f.pour, f.placement, f.liquid, f.fill_m, f.distance_m, f.lateral_m};

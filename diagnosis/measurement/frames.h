@@ -26,10 +26,6 @@ struct FrameRecord {
 using PlacementKey = std::tuple<int, int, int, std::string, double, double, double>;
 PlacementKey placement_of(const FrameRecord& frame);
 
-/// Of the foot and the rim of the cup where it is said to stand the share that would be in the image of the sensor as
-/// the rig has it.
-double share_in_image(const FrameRecord& frame, const LaboratoryRig& rig);
-
 /// In the table's order; `cloud` may be missing as a column where there is `height_mm`. Throws Error naming line and
 /// column: a missing column, an unknown liquid, what is no number,
 /// a frame that a session has twice, time that runs backwards over a placement's trials, lengths that cannot be in mm
