@@ -130,7 +130,7 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   spec.nominal.fill_sigma_m = sigma(json, "fill_sigma_mm", spec.nominal.fill_sigma_m, spec.deepest_fill());
   // `measure` looks for a cup no farther than its radius from where it should stand.
   spec.nominal.placement_sigma_m =
-      sigma(json, "placement_sigma_mm", spec.nominal.placement_sigma_m, spec.nominal.outer_radius_m);
+      sigma(json, "placement_sigma_mm", spec.nominal.placement_sigma_m, spec.nominal.cup.widest());
   if (json.has("rig_sigma")) read_rig_sigma(json.at("rig_sigma"), spec.nominal.sigma);
   for (const auto& [name, medium] : spec.source["liquids"].items()) spec.nominal.liquids[name] = medium;
   return spec;

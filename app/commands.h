@@ -13,6 +13,7 @@ std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_check(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
@@ -45,6 +46,10 @@ inline constexpr std::array kCommands{
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
             define_campaign},
+    Command{"check", "What is in a measurement directory, what is missing, and what that costs a diagnosis: in seconds",
+            "  fathom check out/paper\n  fathom check scenes/measurements/paper_printed\n"
+            "  fathom check out/paper --json -o out/checked",
+            define_check},
     Command{"measure",
             "Fills the height columns of a measurement directory: writes heights.csv there, or to the folder of -o",
             "  fathom measure out/paper\n  fathom measure out/paper -o out/heights", define_measure},

@@ -31,6 +31,14 @@ std::optional<CupCandidate> candidate_at(const DeskView& view, const Eigen::Vect
   return nearest;
 }
 
+/// The circle is fitted at one height: of a cup whose walls lean it is drawn in by so much more as the inside is
+/// narrower elsewhere.
+InteriorSettings clear_of_walls(const CupProfile& cup) {
+  InteriorSettings settings;
+  settings.margin_m += cup.inner_radius(kRadiiAt_m) - cup.narrowest();
+  return settings;
+}
+
 }  // namespace
 
 std::string_view name_of(NoHeight reason) {
@@ -51,9 +59,9 @@ std::variant<InteriorHeight, NoHeight> height_in_cup(const Cloud& cloud, const L
   if (!view) return NoHeight::no_desk;
   // The world's origin is below the middle of the baseline, the desk frame's below the camera at its left end.
   const Eigen::Vector2d cup_in_desk = cup_in_world + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
-  const std::optional<CupCandidate> cup = candidate_at(*view, cup_in_desk, rig.outer_radius_m);
+  const std::optional<CupCandidate> cup = candidate_at(*view, cup_in_desk, rig.cup.widest());
   if (!cup) return NoHeight::no_cup;
-  const std::optional<InteriorHeight> height = interior_height(view->points, *cup->circle, InteriorSettings{});
+  const std::optional<InteriorHeight> height = interior_height(view->points, *cup->circle, clear_of_walls(rig.cup));
   if (!height) return NoHeight::too_little_inside;
   return *height;
 }

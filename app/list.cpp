@@ -9,9 +9,9 @@
 #include "app/results.h"
 #include "core/files.h"
 #include "core/json_text.h"
+#include "core/library.h"
 #include "core/units.h"
 #include "sim/effects/registry.h"
-#include "sim/scene/library.h"
 #include "sim/scene/scene.h"
 
 namespace fathom {

@@ -72,6 +72,8 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
   const FolderOwner owner(output);
   write_table(output / "heights.csv", frames);
   for (const auto& [reason, numbers] : frames_without) warn(reason, numbers);
+  if (std::all_of(records.begin(), records.end(), [](const FrameRecord& record) { return record.cloud.empty(); }))
+    print_note("frames.csv names no clouds: heights.csv has the heights that stand there already");
   print_text(format_rows(
       {{"clouds_with_cup", static_cast<double>(clouds), ""}, {"heights_measured", static_cast<double>(measured), ""}},
       common.json));

@@ -7,18 +7,38 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "core/library.h"
 #include "core/units.h"
-#include "sim/scene/library.h"
 
 namespace fathom {
 namespace {
-
-constexpr double kBandMiddleMetres = 0.045;  // where the detector fits its circle
 
 /// Numbers for people: what is below a nanometre or a nanodegree is rounding.
 double tidy(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 double tidy_mm(double metres) { return tidy(mm_from_metres(metres)); }
+
+Json tidy_profile(const std::vector<Eigen::Vector2d>& profile) {
+  Json points = Json::array();
+  for (const Eigen::Vector2d& point : profile) points.push_back({tidy_mm(point.x()), tidy_mm(point.y())});
+  return points;
+}
+
+/// By lengths where these say all: of straight cups, and of the library's by name. A name of the library that stands
+/// for another cup needs the profiles if that one's walls lean.
+Json cup_json(const LaboratoryRig& rig) {
+  const std::optional<CupProfile> known = library_cup(rig.cup_shape);
+  const bool is_library_cup = known && is_same_cup(*known, rig.cup);
+  if (!is_library_cup && (!rig.cup.is_straight() || (known && !known->is_straight())))
+    return {{"shape", rig.cup_shape},
+            {"inner_profile_mm", tidy_profile(rig.cup.inner)},
+            {"outer_profile_mm", tidy_profile(rig.cup.outer)}};
+  return {{"shape", rig.cup_shape},
+          {"height_mm", tidy_mm(rig.cup.height())},
+          {"inner_radius_mm", tidy_mm(rig.cup.inner_radius(kRadiiAt_m))},
+          {"outer_radius_mm", tidy_mm(rig.cup.outer_radius(kRadiiAt_m))},
+          {"bottom_mm", tidy_mm(rig.cup.bottom())}};
+}
 
 }  // namespace
 
@@ -40,10 +60,7 @@ LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string
   nominal.baseline_m = rig.sensor.baseline;
   nominal.focal_px = rig.sensor.focal_px;
   nominal.cup_shape = cup.name;
-  nominal.cup_height_m = cup.height();
-  nominal.inner_radius_m = cup.inner_radius(kBandMiddleMetres);
-  nominal.outer_radius_m = cup.outer_radius(kBandMiddleMetres);
-  nominal.bottom_m = cup.bottom();
+  nominal.cup = cup;
   return nominal;
 }
 
@@ -55,11 +72,7 @@ Json json_from_laboratory_rig(const LaboratoryRig& rig) {
                  {"baseline_mm", tidy_mm(rig.baseline_m)},
                  {"focal_px", tidy(rig.focal_px)},
                  {"disparity_offset_px", rig.disparity_offset_px}};
-  Json cup = {{"shape", rig.cup_shape},
-              {"height_mm", tidy_mm(rig.cup_height_m)},
-              {"inner_radius_mm", tidy_mm(rig.inner_radius_m)},
-              {"outer_radius_mm", tidy_mm(rig.outer_radius_m)},
-              {"bottom_mm", tidy_mm(rig.bottom_m)}};
+  Json cup = cup_json(rig);
   for (const auto& [key, sigma] : rig.sigma) (key == "bottom_mm" ? cup : sensor)["sigma"][key] = sigma;
   Json liquids = Json::object();
   for (const auto& [name, medium] : rig.liquids) liquids[name] = medium;

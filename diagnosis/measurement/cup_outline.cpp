@@ -17,19 +17,24 @@ constexpr double kFarthest = 0.032;                   ///< [m] the bound of cup_
 double inner_wall_from(const LaboratoryRig& rig, double fill) {
   constexpr double kBelowRim = 0.035;   // [m] however little is written: notes may be wrong
   constexpr double kAboveFill = 0.006;  // [m] a meniscus, the fill's error or half a matcher's window
-  return std::max(rig.cup_height_m - kBelowRim, rig.bottom_m + fill + kAboveFill);
+  return std::max(rig.cup.height() - kBelowRim, rig.cup.bottom() + fill + kAboveFill);
 }
 
 OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis, double fill)
-    : inner_radius_(rig.inner_radius_m),
-      outer_radius_(rig.outer_radius_m),
-      rim_(rig.cup_height_m),
+    : cup_(rig.cup),
       inner_from_(inner_wall_from(rig, fill)),
-      to_sensor_(-axis.normalized()) {}
+      to_sensor_(-axis.normalized()),
+      steepness_(rig.height_m / axis.norm()) {}
 
 void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double weight) {
   constexpr double kReach = 0.010;  // [m] of a matcher's window across desk and rim
-  if (height >= kReach && height <= rim_ - kReach) sensed_.push_back({from_axis, height, weight});
+  if (height < kReach || height > cup_.height() - kReach) return;
+  const auto lean = [&](double (CupProfile::*radius)(double) const) {
+    constexpr double kSpan = 0.5e-3;  // [m]
+    return steepness_ * ((cup_.*radius)(height + kSpan) - (cup_.*radius)(height - kSpan)) / (2.0 * kSpan);
+  };
+  sensed_.push_back({from_axis, height, weight, cup_.inner_radius(height), cup_.outer_radius(height),
+                     lean(&CupProfile::inner_radius), lean(&CupProfile::outer_radius)});
 }
 
 /// Nothing of a point that is no wall's, or farther than `gate` [m] from it.
@@ -41,10 +46,10 @@ std::optional<OutlineFit::NearWall> OutlineFit::near_wall(const Sensed& sensed, 
   if (!(distance > 0.0)) return std::nullopt;
   const Eigen::Vector2d outward = off / distance;
   const double facing = outward.dot(to_sensor_);
-  if (std::abs(facing) < kFacing) return std::nullopt;
-  const bool is_inside = facing < 0.0;
+  const bool is_inside = facing - sensed.inner_lean <= -kFacing;
+  if (!is_inside && facing - sensed.outer_lean < kFacing) return std::nullopt;
   if (is_inside && sensed.height < inner_from_) return std::nullopt;
-  const double excess = distance - outline.wider - (is_inside ? inner_radius_ : outer_radius_);
+  const double excess = distance - outline.wider - (is_inside ? sensed.inner_radius : sensed.outer_radius);
   if (std::abs(excess) > gate) return std::nullopt;
   return NearWall{outward, excess, is_inside};
 }
@@ -127,6 +132,6 @@ std::optional<CupOutline> OutlineFit::solve() const {
   return scatter(*beside) < scattered ? beside : as_written;
 }
 
-double OutlineFit::reach() const { return kFarthest + outer_radius_ + kCoarse; }
+double OutlineFit::reach() const { return kFarthest + cup_.widest() + kCoarse; }
 
 }  // namespace fathom

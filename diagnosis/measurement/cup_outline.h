@@ -11,15 +11,16 @@ namespace fathom {
 
 struct CupOutline {
   Eigen::Vector2d off;  ///< [m] of the axis from where it should stand
-  double wider;         ///< [m] radius less the rig's, of outer and inner wall alike
+  double wider;         ///< [m] radius less the rig's at that height, of outer and inner wall alike
 };
 
 /// [m] above the desk: the inner wall is looked at from there on, clear of a liquid of that fill.
 double inner_wall_from(const LaboratoryRig& rig, double fill);
 
 /// Takes points one by one, in the frame of the desk. Those count that lie near the wall that the sensor can see there:
-/// on its own side the outer one, clear of the desk, on the far side the inner one, between the rim and what stands in
-/// the cup: there a surface's edge, or what is seen through it, lies near the wall and is none.
+/// on its own side the outer one, clear of the desk, on the far side the inner one (of a wall that leans outward more
+/// of it), between the rim and what stands in the cup: there a surface's edge, or what is seen through it, lies near
+/// the wall and is none.
 class OutlineFit {
  public:
   /// `axis` [m]: from the foot of the camera to where the cup should stand; `fill` [m]: of what should stand in it.
@@ -41,6 +42,8 @@ class OutlineFit {
   struct Sensed {
     Eigen::Vector2d from_axis;
     double height, weight;
+    double inner_radius, outer_radius;  ///< [m] of the rig's walls at that height
+    double inner_lean, outer_lean;      ///< cosine that looking down on a leaning wall takes off its facing the sensor
   };
   struct NearWall {
     Eigen::Vector2d outward;  ///< unit
@@ -54,8 +57,10 @@ class OutlineFit {
   double weaker_wall(const Eigen::Vector2d& off) const;
   Eigen::Vector2d place_of_walls() const;
 
-  double inner_radius_, outer_radius_, rim_, inner_from_;  // [m]
-  Eigen::Vector2d to_sensor_;                              // unit
+  CupProfile cup_;
+  double inner_from_;          // [m]
+  Eigen::Vector2d to_sensor_;  // unit
+  double steepness_;           // of the line of sight, height over distance
   std::vector<Sensed> sensed_;
 };
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/cup_profile.h"
+
 namespace fathom {
 
 /// Within the radius that heights are taken in: a disc of half of it, and four sectors of the ring around.
@@ -14,6 +16,10 @@ enum class CupRegion { centre, near, far, left, right };
 inline constexpr std::array<std::string_view, 5> kCupRegionNames{"centre", "near", "far", "left", "right"};
 inline constexpr std::string_view kWholeInterior = "interior";
 inline constexpr double kInteriorMargin = 0.010;  ///< [m] from the inner wall, as the heights' definition has it
+
+/// [m] in which heights are taken: clear of the inner wall at every height, be it seen through a liquid. Nothing is
+/// left of a cup that is narrower than the margin.
+inline double interior_radius(const CupProfile& cup) { return std::max(cup.narrowest() - kInteriorMargin, 0.0); }
 
 /// Thirds of the image, row by row.
 inline constexpr std::array<std::string_view, 9> kDeskRegionNames{

@@ -143,7 +143,7 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
 
 double clear_of_cup(const LaboratoryRig& rig) {
   constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
-  return rig.outer_radius_m + kAround;
+  return rig.cup.widest() + kAround;
 }
 
 std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows) {
@@ -217,7 +217,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();
   if (outline) estimates.outline = outline->solve();
-  set_inside(around, rig.inner_radius_m - kInteriorMargin, view.soft_m, estimates);
+  set_inside(around, interior_radius(rig.cup), view.soft_m, estimates);
   if (codes.weight > 0.0) {
     estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
     const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };

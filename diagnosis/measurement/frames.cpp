@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -14,13 +13,13 @@
 #include "core/input_policy.h"
 #include "core/median.h"
 #include "core/units.h"
-#include "detector/plane.h"
+#include "diagnosis/measurement/cup_in_sight.h"
 
 namespace fathom {
 namespace {
 
-constexpr std::array kColumns{"frame",  "session", "pour",        "placement",  "trial", "time_s",
-                              "liquid", "fill_mm", "distance_mm", "lateral_mm", "cloud"};
+constexpr std::array kColumns{"frame",  "session", "pour",    "placement",   "trial",
+                              "time_s", "liquid",  "fill_mm", "distance_mm", "lateral_mm"};
 
 int whole_number(const Table& frames, std::size_t row, const char* column) {
   const std::string& cell = frames.text(row, column);
@@ -40,27 +39,12 @@ std::optional<double> not_negative(const Table& frames, std::size_t row, const c
   return value;
 }
 
-/// Whether any of the foot and the rim of a cup would be in the image of the sensor as the rig has it, and no cup
-/// stands far nearer than where the sensor looks: steep ones see next to their foot, where no distance is but one in
-/// cm.
+/// No cup stands far nearer than where the sensor looks: steep ones see next to their foot, where no distance is but
+/// one in cm.
 bool is_in_sight(const FrameRecord& record, const LaboratoryRig& rig) {
   constexpr double kNear = 0.15, kNear_m = 0.1;
   if (record.distance_m < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;
-  const Eigen::Isometry3d camera_from_desk =
-      desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse();
-  constexpr int kAround = 8;
-  for (const double height : {0.0, rig.cup_height_m})
-    for (int i = 0; i < kAround; ++i) {
-      const double azimuth = 2.0 * std::numbers::pi * i / kAround;
-      const Eigen::Vector3d point =
-          camera_from_desk *
-          Eigen::Vector3d(record.lateral_m + 0.5 * rig.baseline_m + rig.outer_radius_m * std::cos(azimuth),
-                          record.distance_m + rig.outer_radius_m * std::sin(azimuth), height);
-      if (point.z() > 0.0 && rig.focal_px * std::abs(point.x()) < 0.5 * kImageWidth_px * point.z() &&
-          rig.focal_px * std::abs(point.y()) < 0.5 * kImageHeight_px * point.z())
-        return true;
-    }
-  return false;
+  return share_in_image({record.lateral_m, record.distance_m}, rig) > 0.0;
 }
 
 /// What a liquid and a place cannot be, most often because of another unit.
@@ -75,9 +59,9 @@ void require_possible(const Table& frames, std::size_t row, const FrameRecord& r
     return;
   }
   if (record.liquid == "empty" && record.fill_m != 0.0) must("fill_mm", "0 where the liquid is empty");
-  if (record.fill_m < 0.0 || record.fill_m > rig.cup_height_m - rig.bottom_m)
+  if (record.fill_m < 0.0 || record.fill_m > rig.cup.height() - rig.cup.bottom())
     must("fill_mm",
-         fmt::format("from 0 to {:g}, the depth of the cup", mm_from_metres(rig.cup_height_m - rig.bottom_m)));
+         fmt::format("from 0 to {:g}, the depth of the cup", mm_from_metres(rig.cup.height() - rig.cup.bottom())));
   if (record.liquid != "empty" && record.fill_m == 0.0) must("fill_mm", "above 0, or the liquid empty");
   if (!is_in_sight(record, rig))
     must("distance_mm", fmt::format("in mm and, with lateral_mm {}, where the sensor of rig.json sees the cup",
@@ -88,8 +72,8 @@ void require_possible(const Table& frames, std::size_t row, const FrameRecord& r
 void require_possible_heights(const Table& frames, const std::vector<FrameRecord>& records, const LaboratoryRig& rig) {
   constexpr double kLeastOfBottom = 0.25, kAboveRim_mm = 5.0;  // what no wrong cup makes of a height
   constexpr double kNoise_mm = 20.0;
-  const double least = kLeastOfBottom * mm_from_metres(rig.bottom_m),
-               most = mm_from_metres(rig.cup_height_m) + kAboveRim_mm;
+  const double least = kLeastOfBottom * mm_from_metres(rig.cup.bottom()),
+               most = mm_from_metres(rig.cup.height()) + kAboveRim_mm;
   std::map<std::tuple<int, std::string, double>, std::vector<std::size_t>> fillings;
   for (std::size_t row = 0; row < records.size(); ++row)
     if (const FrameRecord& r = records[row]; r.cloud.empty() && !r.bare_desk())
@@ -152,7 +136,7 @@ FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<s
   record.fill_m = metres_from_mm(frames.number(row, "fill_mm"));
   record.distance_m = metres_from_mm(frames.number(row, "distance_mm"));
   record.lateral_m = metres_from_mm(frames.number(row, "lateral_mm"));
-  record.cloud = frames.text(row, "cloud");
+  if (frames.has("cloud")) record.cloud = frames.text(row, "cloud");
   if (!record.cloud.empty()) {
     const std::filesystem::path cloud =
         path_named_in((folder / "frames.csv").string(), frames.place(row, "cloud"), record.cloud);
@@ -162,8 +146,10 @@ FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<s
   record.height_sd_mm = not_negative(frames, row, "height_sd_mm");
   record.points = not_negative(frames, row, "points");
   if (frames.has("height_mm")) record.height_mm = frames.number_if_any(row, "height_mm");
-  if (record.cloud.empty() && !record.bare_desk() && !record.height_mm)
+  if (record.cloud.empty() && !record.bare_desk() && !record.height_mm) {
+    if (!frames.has("cloud")) frames.fail(row, "height_mm", "is empty, and there is no cloud in its place");
     frames.fail(row, "cloud", "is empty, and there is no height_mm in its place");
+  }
   return record;
 }
 
@@ -188,6 +174,9 @@ PlacementKey placement_of(const FrameRecord& f) {
 std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
                                      const std::filesystem::path& folder) {
   for (const char* column : kColumns) frames.need(column);
+  if (!frames.has("cloud") && !frames.has("height_mm"))
+    throw Error(frames.file(), "line 1",
+                "has neither a column 'cloud' nor a column 'height_mm', one of them is needed");
   if (frames.rows() == 0) throw Error(frames.file(), "has no frames below its header");
   std::vector<std::string> liquids{"empty", "none"};
   for (const auto& [name, medium] : rig.liquids) liquids.push_back(name);

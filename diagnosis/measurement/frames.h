@@ -26,7 +26,8 @@ struct FrameRecord {
 using PlacementKey = std::tuple<int, int, int, std::string, double, double, double>;
 PlacementKey placement_of(const FrameRecord& frame);
 
-/// In the table's order. Throws Error naming line and column: a missing column, an unknown liquid, what is no number,
+/// In the table's order; `cloud` may be missing as a column where there is `height_mm`. Throws Error naming line and
+/// column: a missing column, an unknown liquid, what is no number,
 /// a frame that a session has twice, time that runs backwards over a placement's trials, lengths that cannot be in mm
 /// (a cup out of the sensor's sight, a fill or a height beyond the cup's), fills and places where there are none, a
 /// cloud that is not there, and neither cloud nor height.

@@ -34,7 +34,7 @@ bool moves(const PlaceReading& reading, const FrameRecord& frame) {
 
 void apply(const PlaceReading& reading, const LaboratoryRig& rig, FrameRecord& frame) {
   frame.lateral_m = frame.lateral_m == 0.0 ? 0.0 : reading.lateral_factor * frame.lateral_m;
-  frame.distance_m += reading.outer_radii * rig.outer_radius_m;
+  frame.distance_m += reading.outer_radii * rig.cup.outer_radius(0.0);
 }
 
 /// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
@@ -62,12 +62,12 @@ bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRi
   for (const SensedPoint& sensed : points) {
     const Eigen::Vector3d point = to_desk * sensed.point.cast<double>();
     const Eigen::Vector2d from_axis = point.head<2>() - axis;
-    const double ahead = from_axis.dot(to_sensor) - rig.outer_radius_m;
+    const double ahead = from_axis.dot(to_sensor) - rig.cup.widest();
     if (ahead < kFrom || ahead > kTo || (from_axis - from_axis.dot(to_sensor) * to_sensor).norm() > kAside) continue;
     height += point.z();
     ++seen;
   }
-  return seen >= kFewest && std::abs(height / seen) < 0.5 * rig.bottom_m;
+  return seen >= kFewest && std::abs(height / seen) < 0.5 * rig.cup.bottom();
 }
 
 /// Whether the rig's cup is where it should be.

@@ -20,7 +20,7 @@
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/places.h"
 #include "diagnosis/measurement/rounding.h"
-#include "diagnosis/measurement/sampling.h"
+#include "diagnosis/measurement/sensed_frame.h"
 
 namespace fathom {
 namespace {
@@ -34,15 +34,6 @@ struct FrameReading {
   DeskCells cells;
 };
 
-std::vector<SensedPoint> sensed_points(const Cloud& cloud) {
-  std::vector<SensedPoint> points;
-  points.reserve(cloud.points.size());
-  for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (cloud.points[i].allFinite() && cloud.points[i].z() > 0.0f)
-      points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
-  return points;
-}
-
 /// Of the pixels whose lines of sight pass through the cup's opening; nothing when there are none.
 std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& rig, const Plane& desk,
                                      const Eigen::Vector2d& cup) {
@@ -50,8 +41,8 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
   const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
   const Eigen::Vector2f axis = axis_from_camera(rig, cup).cast<float>();
-  const float fall = static_cast<float>(desk.offset - rig.cup_height_m), focal = static_cast<float>(rig.focal_px);
-  const float radius = static_cast<float>(rig.inner_radius_m - kInteriorMargin);
+  const float fall = static_cast<float>(desk.offset - rig.cup.height()), focal = static_cast<float>(rig.focal_px);
+  const float radius = static_cast<float>(rig.cup.inner.back().x() - kInteriorMargin);
   int looked = 0, valid = 0;
   for (int row = 0; row < cloud.height; ++row)
     for (int column = 0; column < cloud.width; ++column) {
@@ -68,21 +59,6 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   return static_cast<double>(valid) / looked;
 }
 
-/// Whether a fitted plane may be the desk that the rig stands on: within what the detector allows one.
-bool is_near(const Plane& desk, const LaboratoryRig& rig) {
-  const PlaneSearch allowed;
-  const Plane expected = plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad});
-  return desk.normal.dot(expected.normal) > std::cos(allowed.prior_angle_max_rad) &&
-         std::abs(desk.offset - expected.offset) < allowed.prior_height_max_m;
-}
-
-/// Whether the desk is seen inside a cup whose bottom should stand clear of it.
-bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
-  constexpr double kFewestPixels = 10.0;
-  const double clear = 0.3 * rig.bottom_m;
-  return clear > 0.001 && estimates.interior.weight >= kFewestPixels && estimates.interior.mean < clear;
-}
-
 /// With `bias` taken off; without one the desk's cells are read.
 FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder,
                         const BiasField* bias) {
@@ -93,14 +69,12 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
     return reading;
   }
   const Cloud cloud = read_frame_cloud(frame, folder);
-  std::vector<SensedPoint> points = sensed_points(cloud);
-  if (cloud.height <= 1) weigh_by_sampling(points, rig.focal_px);
+  std::vector<SensedPoint> points = sensed_points(cloud, rig);
   if (bias)
     take_off(as_bias(*bias), rig, points);
   else
     reading.print = print_of(points, rig.focal_px);
-  FrameView view;
-  if (!frame.bare_desk()) view = {Eigen::Vector2d(frame.lateral_m, frame.distance_m), frame.fill_m};
+  const FrameView view = view_of(frame);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
   reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);

@@ -1,8 +1,14 @@
 #include "diagnosis/measurement/rig.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "core/lengths.h"
+#include "core/library.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -37,20 +43,56 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   read_sigma(json, {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"}, rig.sigma);
 }
 
+constexpr std::array kLengthKeys{"height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm"};
+
+/// The lengths that stand there, where they do not the other cup's; of upright walls on a flat bottom.
+CupProfile straight_cup_like(const JsonReader& json, const CupProfile& other) {
+  const double height = json.metres_or("height_mm", other.height(), kLengthMm);
+  const double inner = json.metres_or("inner_radius_mm", other.inner_radius(kRadiiAt_m), kLengthMm);
+  const double outer = json.metres_or("outer_radius_mm", other.outer_radius(kRadiiAt_m), kLengthMm);
+  const double bottom = json.metres_or("bottom_mm", other.bottom(), kLengthOrNoneMm);
+  if (inner > outer) json.fail_at("inner_radius_mm", "must not be above outer_radius_mm");
+  if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
+  return straight_cup(height, bottom, inner, outer);
+}
+
+/// Lengths cannot change a cup whose walls lean: nobody could say where.
+void require_lengths_of(const CupProfile& cup, const std::string& shape, const JsonReader& json) {
+  constexpr double kSame_mm = 1e-3;
+  const double own_mm[] = {mm_from_metres(cup.height()), mm_from_metres(cup.bottom()),
+                           mm_from_metres(cup.inner_radius(kRadiiAt_m)), mm_from_metres(cup.outer_radius(kRadiiAt_m))};
+  for (std::size_t i = 0; i < kLengthKeys.size(); ++i)
+    if (json.has(kLengthKeys[i]) && !(std::abs(json.number(kLengthKeys[i]) - own_mm[i]) <= kSame_mm))
+      json.fail_at(
+          kLengthKeys[i],
+          fmt::format("must be {:.6g} or left out: the walls of {} lean, its radii are those {:g} mm above the "
+                      "desk; another cup takes inner_profile_mm and outer_profile_mm",
+                      own_mm[i], shape, mm_from_metres(kRadiiAt_m)));
+}
+
 void read_cup(const JsonReader& json, LaboratoryRig& rig) {
-  json.allow_only({"shape", "height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm", "sigma"});
-  const LaboratoryRig papers;
-  rig.cup_shape = json.text_or("shape", papers.cup_shape);
-  if (rig.cup_shape != papers.cup_shape)
-    for (const char* length : {"height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm"})
-      if (!json.has(length)) json.fail_at(length, "is missing: only of the paper_cup are the lengths known");
-  rig.cup_height_m = json.metres_or("height_mm", rig.cup_height_m, kLengthMm);
-  rig.inner_radius_m = json.metres_or("inner_radius_mm", rig.inner_radius_m, kLengthMm);
-  rig.outer_radius_m = json.metres_or("outer_radius_mm", rig.outer_radius_m, kLengthMm);
-  rig.bottom_m = json.metres_or("bottom_mm", rig.bottom_m, kLengthOrNoneMm);
-  if (rig.inner_radius_m > rig.outer_radius_m) json.fail_at("inner_radius_mm", "must not be above outer_radius_mm");
-  if (rig.bottom_m >= rig.cup_height_m) json.fail_at("bottom_mm", "must be below height_mm");
+  json.allow_only({"shape", "inner_profile_mm", "outer_profile_mm", "height_mm", "inner_radius_mm", "outer_radius_mm",
+                   "bottom_mm", "sigma"});
   read_sigma(json, {"height_mm", "inner_radius_mm", "outer_radius_mm", "bottom_mm"}, rig.sigma);
+  if (has_profile(json)) {
+    rig.cup_shape = json.text_or("shape", "cup");
+    rig.cup = cup_profile_from_json(json);
+    return;
+  }
+  rig.cup_shape = json.text_or("shape", rig.cup_shape);
+  const std::optional<CupProfile> known = library_cup(rig.cup_shape);
+  if (known && !known->is_straight()) {
+    require_lengths_of(*known, rig.cup_shape, json);
+    rig.cup = *known;
+    return;
+  }
+  if (!known)
+    for (const char* length : kLengthKeys)
+      if (!json.has(length))
+        json.fail_at(length, fmt::format("is missing: {} is no cup of the library, whose lengths are known ({}); "
+                                         "inner_profile_mm and outer_profile_mm describe one whose walls lean",
+                                         rig.cup_shape, fmt::join(library_names("cups"), ", ")));
+  rig.cup = straight_cup_like(json, known.value_or(rig.cup));
 }
 
 void read_liquids(const JsonReader& json, LaboratoryRig& rig) {
@@ -64,6 +106,23 @@ void read_liquids(const JsonReader& json, LaboratoryRig& rig) {
 
 }  // namespace
 
+std::optional<CupProfile> library_cup(const std::string& name) {
+  const std::vector<std::string> names = library_names("cups");
+  if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
+  const std::filesystem::path file = library_file("cups", "cup shape", name, "", "");
+  const Json text = read_json(file);
+  return cup_profile_from_json(JsonReader(text, file.string()));
+}
+
+bool is_same_cup(const CupProfile& a, const CupProfile& b) {
+  constexpr double kSame = 1e-6;  // [m]
+  const auto near = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    return (p - q).lpNorm<Eigen::Infinity>() <= kSame;
+  };
+  return std::equal(a.inner.begin(), a.inner.end(), b.inner.begin(), b.inner.end(), near) &&
+         std::equal(a.outer.begin(), a.outer.end(), b.outer.begin(), b.outer.end(), near);
+}
+
 LaboratoryRig read_rig(const std::filesystem::path& path) {
   const Json value = read_json(path);
   const JsonReader json(value, path.string());
@@ -71,9 +130,9 @@ LaboratoryRig read_rig(const std::filesystem::path& path) {
   LaboratoryRig rig;
   read_sensor(json.at("sensor"), rig);
   read_cup(json.at("cup"), rig);
-  if (rig.height_m <= rig.cup_height_m)
+  if (rig.height_m <= rig.cup.height())
     json.at("sensor").fail_at("height_mm", fmt::format("must be above {:g}, the height of the cup, got {:g}",
-                                                       mm_from_metres(rig.cup_height_m), mm_from_metres(rig.height_m)));
+                                                       mm_from_metres(rig.cup.height()), mm_from_metres(rig.height_m)));
   read_liquids(json.at("liquids"), rig);
   rig.fill_sigma_m = json.metres_or("fill_sigma_mm", rig.fill_sigma_m, kLengthOrNoneMm);
   rig.placement_sigma_m = json.metres_or("placement_sigma_mm", rig.placement_sigma_m, kLengthOrNoneMm);

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "core/cup_profile.h"
 #include "core/json.h"
 
 namespace fathom {
@@ -13,7 +15,7 @@ namespace fathom {
 inline constexpr double kImageWidth_px = 640.0, kImageHeight_px = 480.0;
 
 /// Lengths in metres, angles in radians. What the file does not give keeps its default: the sensor model's optics, and
-/// of the paper's cup its lengths.
+/// the paper's cup.
 struct LaboratoryRig {
   std::string sensor_model;
   double height_m = 0.0;
@@ -23,11 +25,8 @@ struct LaboratoryRig {
   double focal_px = 570.342;
   double disparity_offset_px = 0.0;
 
-  std::string cup_shape = "paper_cup";
-  double cup_height_m = 0.087;
-  double inner_radius_m = 0.040;
-  double outer_radius_m = 0.043;
-  double bottom_m = 0.007;
+  std::string cup_shape = "paper_cup";  ///< a name of scenes/cups, or the laboratory's own
+  CupProfile cup = straight_cup(0.087, 0.007, 0.040, 0.043);
 
   std::map<std::string, Json> liquids;  ///< name → a medium's name, or an inline medium
   double fill_sigma_m = 0.0005;
@@ -39,8 +38,18 @@ struct LaboratoryRig {
   std::map<std::string, double> sigma;  ///< 1 σ of the value of that key, in the key's unit, e.g. "height_mm" → 0.5
 };
 
+/// [m] above the desk: where a rig's radii are those of a cup whose walls lean, and a detector fits its circle.
+inline constexpr double kRadiiAt_m = 0.045;
+
+/// The shape of a cup of scenes/cups; nothing where that has no such cup. Throws Error when its file is wrong.
+std::optional<CupProfile> library_cup(const std::string& name);
+
+/// Whether the rim and both walls are the same to a micrometre; a rig's lengths are written to the nanometre.
+bool is_same_cup(const CupProfile& a, const CupProfile& b);
+
 /// Throws Error on unknown, missing or impossible values. Only sensor.model, sensor.height_mm, sensor.pitch_deg, cup
-/// and liquids must be there, and the lengths of a cup that is not the paper's.
+/// and liquids must be there. A cup is one of scenes/cups by `shape`, or described by its profiles or its lengths.
+/// Lengths beside a cup of scenes/cups stand for those of its own if it is straight, else they must be the same.
 LaboratoryRig read_rig(const std::filesystem::path& path);
 
 }  // namespace fathom

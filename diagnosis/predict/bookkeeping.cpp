@@ -100,7 +100,7 @@ class Heights {
     std::vector<Observation> rows = rows_;
     for (Observation& row : rows) {
       const Factors other = reading(row.factors);
-      if (metres_from_mm(other.fill_mm) < rig_.cup_height_m - rig_.bottom_m) row.factors = other;
+      if (metres_from_mm(other.fill_mm) < rig_.cup.height() - rig_.cup.bottom()) row.factors = other;
     }
     std::map<Key, Fit> fits;
     if (rows.empty()) return fits;

@@ -223,20 +223,14 @@ std::optional<CupOptics> cup_optics(const Setup& setup) {
   const auto* shape = std::get_if<CupShape>(&cup.shape);
   if (!shape || shape->material)
     throw Error(cup_name(cup), "must be an opaque cup of revolution; light that passes walls is not predicted");
-  CupBody body{.axis = cup.position,
-               .rim = shape->height(),
-               .rim_radius = shape->inner.back().x(),
-               .outer_radius = 0.0,
-               .albedo = shape->albedo,
-               .bottom = {shape->inner.front()},
-               .inner = shape->inner,
-               .outer = shape->outer};
-  for (const Eigen::Vector2d& point : shape->outer) body.outer_radius = std::max(body.outer_radius, point.x());
-  for (std::size_t i = 1; i < shape->inner.size(); ++i) {  // the bottom is what rises by less than 45°
-    const Eigen::Vector2d run = shape->inner[i] - shape->inner[i - 1];
-    if (run.y() >= run.x()) break;
-    body.bottom.push_back(shape->inner[i]);
-  }
+  CupBody body{
+      .axis = cup.position,
+      .rim = shape->height(),
+      .rim_radius = shape->inner.back().x(),
+      .albedo = shape->albedo,
+      .bottom = {shape->inner.begin(), shape->inner.begin() + static_cast<std::ptrdiff_t>(shape->bottom_points())},
+      .inner = shape->inner,
+      .outer = shape->outer};
   CupOptics optics{std::move(body), {}};
   for (const Cup& layered : setup.scene.cups)
     if (layered.filling) optics.layers.push_back(layer_of(layered, setup.rig.sensor));
@@ -255,11 +249,24 @@ std::optional<LitPoint> look_into(const CupOptics& cup, const Ray& camera_ray, c
 }
 
 bool is_hidden(const CupBody& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source) {
-  // Below the rim the way runs from the desk's point to `top`; how near that comes to the axis, seen from above.
-  const Eigen::Vector2d start = on_desk.head<2>();
-  const Eigen::Vector2d run = (cup.rim / source.z()) * (source - on_desk).head<2>();
-  const double share = std::clamp((cup.axis - start).dot(run) / std::max(run.squaredNorm(), 1e-12), 0.0, 1.0);
-  return (start + share * run - cup.axis).squaredNorm() < cup.outer_radius * cup.outer_radius;
+  // From the desk's point on the way runs along a line, seen from above; the outside is a stack of cones. Of each: how
+  // far within it the way comes, a quadratic in the height.
+  const Eigen::Vector2d start = on_desk.head<2>() - cup.axis;
+  const Eigen::Vector2d per_height = (source - on_desk).head<2>() / source.z();
+  for (std::size_t i = 1; i < cup.outer.size(); ++i) {
+    const double low = cup.outer[i - 1].y(), span = cup.outer[i].y() - low;
+    if (span <= 0.0) continue;
+    const double lean = (cup.outer[i].x() - cup.outer[i - 1].x()) / span;
+    const Eigen::Vector2d from = start + low * per_height;
+    const auto outside = [&](double up) {
+      const double radius = cup.outer[i - 1].x() + lean * up;
+      return (from + up * per_height).squaredNorm() - radius * radius;
+    };
+    const double bend = per_height.squaredNorm() - lean * lean;
+    const double lowest = bend > 0.0 ? (cup.outer[i - 1].x() * lean - from.dot(per_height)) / bend : 0.0;
+    if (std::min({outside(std::clamp(lowest, 0.0, span)), outside(0.0), outside(span)}) < 0.0) return true;
+  }
+  return false;
 }
 
 }  // namespace fathom

@@ -28,7 +28,6 @@ struct LiquidLayer {
 struct CupBody {
   Eigen::Vector2d axis;
   double rim, rim_radius;  ///< height above the desk, inner radius there
-  double outer_radius;     ///< the greatest
   double albedo;
   std::vector<Eigen::Vector2d> bottom;  ///< (radius, height), from the axis to where the wall begins
   std::vector<Eigen::Vector2d> inner;   ///< the whole inside

@@ -163,7 +163,7 @@ std::vector<MeasurementPlan> possible_plans(const Measurement& measurement) {
         plan.fillings = {{"empty", 0.0}};
       });
   // An eighth and three quarters of the cup, in whole 5 mm.
-  const double deep_mm = mm_from_metres(measurement.rig.cup_height_m - measurement.rig.bottom_m);
+  const double deep_mm = mm_from_metres(measurement.rig.cup.height() - measurement.rig.cup.bottom());
   const std::vector<double> fills_mm{5.0 * std::round(deep_mm / 40.0), 5.0 * std::round(0.75 * deep_mm / 5.0)};
   for (const auto& [liquid, poured_mm] : known.fills_mm) {
     const std::vector<double> others = without(fills_mm, poured_mm);

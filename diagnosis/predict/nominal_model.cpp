@@ -1,37 +1,27 @@
 #include "diagnosis/predict/nominal_model.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/units.h"
-#include "sim/scene/library.h"
 #include "sim/scene/medium_json.h"
 
 namespace fathom {
 namespace {
 
-constexpr double kBandMiddle = 0.045;  // [m] where rigs give a cup's radii
-
-bool is_same(const CupShape& shape, const LaboratoryRig& rig) {
-  constexpr double kSame = 1e-6;  // [m]
-  const auto near = [](double a, double b) { return std::abs(a - b) < kSame; };
-  return near(shape.height(), rig.cup_height_m) && near(shape.bottom(), rig.bottom_m) &&
-         near(shape.inner_radius(kBandMiddle), rig.inner_radius_m) &&
-         near(shape.outer_radius(kBandMiddle), rig.outer_radius_m);
+Json profile_json(const std::vector<Eigen::Vector2d>& profile) {
+  Json points = Json::array();
+  for (const Eigen::Vector2d& point : profile) points.push_back({mm_from_metres(point.x()), mm_from_metres(point.y())});
+  return points;
 }
 
 }  // namespace
 
 Json cup_json_of(const LaboratoryRig& rig) {
-  const std::vector<std::string> names = library_names("cups");
-  if (std::find(names.begin(), names.end(), rig.cup_shape) != names.end()) {
-    const Json name = rig.cup_shape;
-    if (is_same(cup_shape_from_json(JsonReader(name, "rig.json", "/cup/shape")), rig)) return name;
-  }
-  return {{"height_mm", mm_from_metres(rig.cup_height_m)},
-          {"bottom_mm", mm_from_metres(rig.bottom_m)},
-          {"inner_radius_mm", mm_from_metres(rig.inner_radius_m)},
-          {"outer_radius_mm", mm_from_metres(rig.outer_radius_m)}};
+  if (const auto known = library_cup(rig.cup_shape); known && is_same_cup(*known, rig.cup)) return rig.cup_shape;
+  if (!rig.cup.is_straight())
+    return {{"inner_profile_mm", profile_json(rig.cup.inner)}, {"outer_profile_mm", profile_json(rig.cup.outer)}};
+  return {{"height_mm", mm_from_metres(rig.cup.height())},
+          {"bottom_mm", mm_from_metres(rig.cup.bottom())},
+          {"inner_radius_mm", mm_from_metres(rig.cup.inner.back().x())},
+          {"outer_radius_mm", mm_from_metres(rig.cup.outer.back().x())}};
 }
 
 NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file) {

@@ -176,7 +176,7 @@ struct BoxOfPixels {
 BoxOfPixels pixels_about(const LaboratoryRig& rig, const Pose& camera_from_world, const Eigen::Vector2d& axis,
                          double half) {
   BoxOfPixels seen;
-  for (const double height : {0.0, rig.cup_height_m})
+  for (const double height : {0.0, rig.cup.height()})
     for (const double x : {-half, half})
       for (const double y : {-half, half}) {
         const Eigen::Vector3d p = camera_from_world * Eigen::Vector3d(axis.x() + x, axis.y() + y, height);
@@ -200,7 +200,7 @@ std::vector<Eigen::Vector2d> every(int stride, const Eigen::AlignedBox2d& first,
   return pixels;
 }
 
-double half_of_inside(const LaboratoryRig& rig) { return 1.2 * (rig.inner_radius_m - kInteriorMargin); }
+double half_of_inside(const LaboratoryRig& rig) { return 1.2 * interior_radius(rig.cup); }
 
 constexpr int kStride = 2, kWallStride = 3;  ///< [px] some 300 in a cup 0.7 m away, as many on its walls
 
@@ -211,7 +211,7 @@ void look_about(const LaboratoryRig& rig, const Eigen::Vector2d& place, const Ei
   const auto box = [&](const Eigen::Vector2d& at, double half) {
     return pixels_about(rig, camera_from_world, at, half).box;
   };
-  const double inside = half_of_inside(rig), walls = 1.1 * rig.outer_radius_m;
+  const double inside = half_of_inside(rig), walls = 1.1 * rig.cup.widest();
   pixels.cup = every(kStride, box(place, inside), box(axis, inside));
   pixels.walls = every(kWallStride, box(place, walls), box(axis, walls));
 }
@@ -277,7 +277,7 @@ std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const Lab
   const std::optional<CupOptics>& cup = frame.view.cup;
   if (!cup || !pixels.view.cup || !frame.estimates) return all;
   const double height = frame.estimates->interior.mean;  // where pixels seem to look
-  const double radius = rig.inner_radius_m - kInteriorMargin;
+  const double radius = interior_radius(rig.cup);
   const Rig& sensor = frame.view.reader.rig();
   const Eigen::Vector3d camera = sensor.camera_in_world(), projector = sensor.projector_in_world();
   for (const Eigen::Vector2d& pixel : pixels.cup) {

@@ -11,7 +11,6 @@ namespace fathom {
 
 namespace {
 
-constexpr std::size_t kFewestConditions = 3;
 constexpr std::size_t kFewestObservations = 8;
 constexpr std::size_t kFewestReplicates = 4;
 /// "1 condition", "2 conditions"

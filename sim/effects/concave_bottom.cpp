@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/units.h"
 #include "sim/effects/changes.h"
 #include "sim/effects/effects.h"
@@ -10,14 +12,19 @@ void apply(Setup& setup, const EffectSetting& setting) {
   constexpr int kRings = 16;
   const double depth = metres_from_mm(setting.values[0]);
   for_each_cup(setup, [&](Cup& cup, CupShape& shape) {
-    const Eigen::Vector2d middle = shape.inner[0], edge = shape.inner[1];
+    const auto pieces = static_cast<int>(shape.bottom_points()) - 1;
+    if (pieces < 1) return;  // the walls meet in a point
+    const double edge = shape.inner[pieces].x();
+    const int rings = std::max(kRings / pieces, 1);
     std::vector<Eigen::Vector2d> bowl;
-    for (int ring = 0; ring <= kRings; ++ring) {
-      const double share = static_cast<double>(ring) / kRings;
-      bowl.emplace_back(middle + share * (edge - middle));
-      bowl.back().y() -= depth * (1.0 - share * share);
-    }
-    shape.inner.erase(shape.inner.begin(), shape.inner.begin() + 2);
+    for (int piece = 0; piece < pieces; ++piece)
+      for (int ring = 0; ring < rings + (piece + 1 == pieces); ++ring) {
+        const Eigen::Vector2d &from = shape.inner[piece], &to = shape.inner[piece + 1];
+        bowl.emplace_back(from + static_cast<double>(ring) / rings * (to - from));
+        const double share = bowl.back().x() / edge;
+        bowl.back().y() -= depth * (1.0 - share * share);
+      }
+    shape.inner.erase(shape.inner.begin(), shape.inner.begin() + pieces + 1);
     shape.inner.insert(shape.inner.begin(), bowl.begin(), bowl.end());
     if (cup.filling && depth > 0.0) cup.filling->depth += depth;  // a ruler stands at the wall
   });

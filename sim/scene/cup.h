@@ -5,13 +5,6 @@
 
 namespace fathom {
 
-/// Sizes and places [mm] that scene files may give a cup. Within them a nanometre, to which levels are bisected, is far
-/// above rounding, and the meshes of wavy liquids fit in memory.
-inline constexpr Range kCupLengthMm{0.0, 2000.0, true};
-inline constexpr Range kCupPlaceMm{-1e5, 1e5};
-/// Of a body of revolution; each becomes hundreds of triangles.
-inline constexpr std::size_t kMostProfilePoints = 2000;
-
 /// "paper_cup", "mug.glb"
 const std::string& cup_name(const Cup& cup);
 

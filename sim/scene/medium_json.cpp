@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "core/library.h"
 #include "core/units.h"
 #include "sim/optics/water.h"
-#include "sim/scene/library.h"
 
 namespace fathom {
 namespace {

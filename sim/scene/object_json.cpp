@@ -5,9 +5,9 @@
 
 #include "core/input_policy.h"
 #include "core/lengths.h"
+#include "core/library.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/library.h"
 #include "sim/scene/object.h"
 
 namespace fathom {

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "core/files.h"
+#include "core/library.h"
 #include "sim/scene/gltf_buffers.h"
-#include "sim/scene/library.h"
 
 namespace fathom {
 namespace {

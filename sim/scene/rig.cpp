@@ -11,8 +11,8 @@
 #include "core/image_file.h"
 #include "core/input_policy.h"
 #include "core/lengths.h"
+#include "core/library.h"
 #include "core/units.h"
-#include "sim/scene/library.h"
 
 namespace fathom {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "core/input_policy.h"
 #include "core/lengths.h"
+#include "core/library.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/library.h"
 #include "sim/scene/medium_json.h"
 #include "sim/scene/mesh_memory.h"
 
@@ -42,42 +42,6 @@ Handle handle_from_json(const JsonReader& json) {
   return handle;
 }
 
-std::vector<Eigen::Vector2d> profile_from_json(const JsonReader& json) {
-  std::vector<Eigen::Vector2d> profile;
-  for (const JsonReader& item : json.items()) {
-    profile.push_back(item.vector2({0.0, kCupLengthMm.high}) * kMetresPerMm);
-    if (profile.size() > 1 && profile.back().y() < profile[profile.size() - 2].y())
-      item.fail("must not be lower than the point before it");
-  }
-  if (profile.size() < 3) json.fail("must hold at least 3 points, from the axis to the rim");
-  if (profile.size() > kMostProfilePoints) json.fail(fmt::format("must hold at most {} points", kMostProfilePoints));
-  if (profile.front().x() != 0.0) json.fail("must start on the axis (radius 0)");
-  return profile;
-}
-
-/// Radius of a profile at a height, by linear interpolation.
-double radius_at(const std::vector<Eigen::Vector2d>& profile, double height) {
-  for (std::size_t i = 1; i < profile.size(); ++i) {
-    const Eigen::Vector2d &below = profile[i - 1], &above = profile[i];
-    if (height > above.y() || above.y() == below.y()) continue;
-    const double t = (height - below.y()) / (above.y() - below.y());
-    return below.x() + std::clamp(t, 0.0, 1.0) * (above.x() - below.x());
-  }
-  return profile.back().x();
-}
-
-/// Straight walls: the paper's cup and every "height, radii, bottom" description.
-void set_cylinder(const JsonReader& json, CupShape& shape) {
-  const double height = metres_from_mm(json.number("height_mm", kCupLengthMm));
-  const double bottom = metres_from_mm(json.number("bottom_mm", kCupLengthMm));
-  const double inner = metres_from_mm(json.number("inner_radius_mm", kCupLengthMm));
-  const double outer = metres_from_mm(json.number("outer_radius_mm", kCupLengthMm));
-  if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
-  if (outer <= inner) json.fail_at("outer_radius_mm", "must be above inner_radius_mm");
-  shape.inner = {{0.0, bottom}, {inner, bottom}, {inner, height}};
-  shape.outer = {{0.0, 0.0}, {outer, 0.0}, {outer, height}};
-}
-
 CupShape shape_from_object(const JsonReader& json) {
   json.allow_only({"name", "height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm", "inner_profile_mm",
                    "outer_profile_mm", "albedo", "material", "handle", "source"});
@@ -91,33 +55,11 @@ CupShape shape_from_object(const JsonReader& json) {
   }
   shape.source = json.text_or("source", "");
   if (json.has("handle")) shape.handle = handle_from_json(json.at("handle"));
-  if (!json.has("inner_profile_mm") && !json.has("outer_profile_mm")) {
-    set_cylinder(json, shape);
-    return shape;
-  }
-  for (const char* key : {"height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm"})
-    if (json.has(key)) json.fail_at(key, "cannot stand beside a profile, which already says it");
-  shape.inner = profile_from_json(json.at("inner_profile_mm"));
-  shape.outer = profile_from_json(json.at("outer_profile_mm"));
-  if (shape.outer.front().y() != 0.0) json.fail_at("outer_profile_mm", "must start at height 0, on the desk");
-  if (shape.inner.back().y() != shape.outer.back().y())
-    json.fail_at("inner_profile_mm", "must end at the outer rim's height");
-  if (shape.bottom() <= 0.0) json.fail_at("inner_profile_mm", "must start above the desk, at the bottom's thickness");
-  for (const auto* profile : {&shape.inner, &shape.outer})
-    for (const Eigen::Vector2d& point : *profile)
-      if (point.y() >= shape.bottom() && shape.inner_radius(point.y()) >= shape.outer_radius(point.y()))
-        json.fail_at("inner_profile_mm",
-                     fmt::format("must stay inside outer_profile_mm, but meets it {:g} mm above the desk",
-                                 mm_from_metres(point.y())));
-  if (shape.inner.back().x() >= shape.outer.back().x())
-    json.fail_at("inner_profile_mm", "must end inside the outer rim");
+  static_cast<CupProfile&>(shape) = cup_profile_from_json(json);
   return shape;
 }
 
 }  // namespace
-
-double CupShape::inner_radius(double height_above_desk) const { return radius_at(inner, height_above_desk); }
-double CupShape::outer_radius(double height_above_desk) const { return radius_at(outer, height_above_desk); }
 
 double CupShape::volume(double depth) const {
   const double level = bottom() + depth;

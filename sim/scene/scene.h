@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/cup_profile.h"
 #include "core/json.h"
 #include "core/pose.h"
 #include "sim/optics/medium.h"
@@ -37,22 +38,15 @@ struct Handle {
   bool operator==(const Handle&) const = default;
 };
 
-/// A body of revolution. Profiles run from the axis (radius 0) to the rim as (radius, height above the desk).
-struct CupShape {
+/// A body of revolution.
+struct CupShape : CupProfile {
   std::string name;
-  std::vector<Eigen::Vector2d> inner;  ///< from the inner bottom's centre to the rim
-  std::vector<Eigen::Vector2d> outer;  ///< from the underside's centre to the rim
   double albedo = 0.70;
   std::optional<Coat> glaze;       ///< of an opaque wall
   std::optional<Medium> material;  ///< of a clear wall, which refracts; without one the wall is opaque
   std::optional<Handle> handle;
   std::string source;
 
-  double height() const { return outer.back().y(); }
-  double bottom() const { return inner.front().y(); }
-  /// Radii at a height above the desk [m], by linear interpolation of the profiles.
-  double inner_radius(double height_above_desk) const;
-  double outer_radius(double height_above_desk) const;
   /// Volume [m³] of a liquid of a depth [m] above the inner bottom's centre: the integral of π r² over the profile.
   double volume(double depth) const;
   /// Angle by which the inner wall leans outward there, over 1 mm.

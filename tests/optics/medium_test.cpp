@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/library.h"
 #include "sim/optics/water.h"
-#include "sim/scene/library.h"
 #include "sim/scene/medium_json.h"
 #include "tests/core/expect_error.h"
 

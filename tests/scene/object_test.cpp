@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/files.h"
+#include "core/library.h"
 #include "core/units.h"
-#include "sim/scene/library.h"
 #include "sim/scene/mesh_topology.h"
 #include "tests/core/expect_error.h"
 

@@ -6,8 +6,8 @@
 
 #include <numbers>
 
+#include "core/library.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/library.h"
 #include "sim/scene/medium_json.h"
 #include "sim/scene/setup.h"
 #include "tests/core/expect_error.h"

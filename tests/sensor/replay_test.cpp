@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/library.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
-#include "sim/scene/library.h"
 #include "sim/scene/resolved_scene.h"
 #include "sim/sensor/capture.h"
 #include "sim/sensor/depth.h"

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "core/files.h"
+#include "core/library.h"
 #include "core/rng.h"
 #include "core/units.h"
-#include "sim/scene/library.h"
 #include "tests/render/gltf_slab.h"
 #include "tests/scene/vessels.h"
 #include "tests/scene/write_gltf.h"

@@ -29,13 +29,49 @@ struct Outline : testing::Test {
 
 TEST_F(Outline, OfACupThatIsWiderAndBesideItsPlace) {
   const Eigen::Vector2d off(0.003, -0.002);
-  add_wall(kNear, rig.outer_radius_m + 0.001, off, 0.015, 0.075);
-  add_wall(kFar, rig.inner_radius_m + 0.001, off, 0.055, 0.075);
+  add_wall(kNear, rig.cup.widest() + 0.001, off, 0.015, 0.075);
+  add_wall(kFar, rig.cup.narrowest() + 0.001, off, 0.055, 0.075);
   const auto outline = fit.solve();
   ASSERT_TRUE(outline);
   EXPECT_NEAR(outline->off.x(), off.x(), 1e-5);  // of the third step of Gauss and Newton
   EXPECT_NEAR(outline->off.y(), off.y(), 1e-5);
   EXPECT_NEAR(outline->wider, 0.001, 1e-5);
+}
+
+/// Its walls are as wide as at the height where they are seen.
+TEST_F(Outline, OfACupWhoseWallsLean) {
+  LaboratoryRig tapered;
+  tapered.height_m = 0.650;
+  tapered.cup = {{{0.0, 0.004}, {0.026, 0.004}, {0.038, 0.090}}, {{0.0, 0.0}, {0.027, 0.0}, {0.039, 0.090}}};
+  fit = OutlineFit(tapered, {0.0, 0.200}, 0.0);
+  const Eigen::Vector2d off(0.003, -0.002);
+  for (double low = 0.015; low < 0.075; low += 0.005) {
+    add_wall(kNear, tapered.cup.outer_radius(low), off, low, low + 0.001);
+    add_wall(kFar, tapered.cup.inner_radius(low), off, low, low + 0.001);
+  }
+  const auto outline = fit.solve();
+  ASSERT_TRUE(outline);
+  EXPECT_LT((outline->off - off).norm(), 1e-5);
+  EXPECT_NEAR(outline->wider, 0.0, 1e-5);
+}
+
+/// From high above the near side of such a cup shows its inner wall, which is no outer one.
+TEST_F(Outline, TakesNoInnerWallForTheOuterOne) {
+  LaboratoryRig tapered;
+  tapered.cup = {{{0.0, 0.004}, {0.020, 0.004}, {0.045, 0.090}}, {{0.0, 0.0}, {0.023, 0.0}, {0.048, 0.090}}};
+  for (const double height : {0.300, 2.000}) {
+    tapered.height_m = height;
+    fit = OutlineFit(tapered, {0.0, 0.300}, 0.0);
+    for (double low = 0.015; low < 0.075; low += 0.005) {
+      add_wall(kNear, tapered.cup.inner_radius(low), {0.0, 0.0}, low, low + 0.001);
+      add_wall(kFar, tapered.cup.inner_radius(low), {0.0, 0.0}, low, low + 0.001);
+    }
+    const auto outline = fit.solve();
+    if (height > 1.0)
+      EXPECT_FALSE(outline) << outline->wider;
+    else
+      EXPECT_TRUE(outline) << "there the near side can show but the outer wall";
+  }
 }
 
 /// Wherever within its bounds an effect has put a cup, an opaque liquid near the rim being in it.
@@ -44,9 +80,9 @@ TEST_F(Outline, OfACupFarBesideItsPlace) {
     for (const double far : {0.012, 0.020, 0.030}) {
       const Eigen::Vector2d off = Eigen::Rotation2Dd(0.25 * std::numbers::pi * eighth) * Eigen::Vector2d(far, 0.0);
       fit = OutlineFit(rig, {0.0, 0.200}, 0.0);
-      add_wall(kNear, rig.outer_radius_m, off, 0.015, 0.075);
-      add_wall(kFar, rig.inner_radius_m, off, 0.055, 0.075);
-      for (double radius = 0.002; radius < rig.inner_radius_m; radius += 0.002)
+      add_wall(kNear, rig.cup.widest(), off, 0.015, 0.075);
+      add_wall(kFar, rig.cup.narrowest(), off, 0.055, 0.075);
+      for (double radius = 0.002; radius < rig.cup.narrowest(); radius += 0.002)
         for (const double towards : {kNear, kFar}) add_wall(towards, radius, off, 0.050, 0.051);
       const auto outline = fit.solve();
       ASSERT_TRUE(outline) << off.transpose();
@@ -59,11 +95,11 @@ TEST_F(Outline, OfACupFarBesideItsPlace) {
 /// there is more of it.
 TEST_F(Outline, HoldsNothingOfALiquidNearTheRim) {
   for (const double fill : {0.050, 0.060}) {
-    const double level = rig.bottom_m + fill;
+    const double level = rig.cup.bottom() + fill;
     fit = OutlineFit(rig, {0.0, 0.200}, fill);
-    add_wall(kNear, rig.outer_radius_m, {0.0, 0.0}, 0.015, 0.075);
-    for (const double above : {0.002, 0.004}) add_wall(kFar, rig.inner_radius_m, {0.0, 0.0}, level + above, 0.080);
-    for (double radius = 0.002; radius < rig.inner_radius_m; radius += 0.001)
+    add_wall(kNear, rig.cup.widest(), {0.0, 0.0}, 0.015, 0.075);
+    for (const double above : {0.002, 0.004}) add_wall(kFar, rig.cup.narrowest(), {0.0, 0.0}, level + above, 0.080);
+    for (double radius = 0.002; radius < rig.cup.narrowest(); radius += 0.001)
       add_wall(kFar, radius, {0.0, 0.0}, level, level + 0.001);
     const auto outline = fit.solve();
     ASSERT_TRUE(outline) << fill;
@@ -74,13 +110,13 @@ TEST_F(Outline, HoldsNothingOfALiquidNearTheRim) {
 
 /// A radius and a place that belong to each other fit one side alike.
 TEST_F(Outline, OfOneSideIsNone) {
-  add_wall(kFar, rig.inner_radius_m, {0.0, 0.0}, 0.055, 0.075);
+  add_wall(kFar, rig.cup.narrowest(), {0.0, 0.0}, 0.055, 0.075);
   EXPECT_FALSE(fit.solve());
 }
 
 /// Nor do some points of a liquid make the other side, which windows put where the wall of a smaller cup might be.
 TEST_F(Outline, IsNotThatOfALiquid) {
-  add_wall(kFar, rig.inner_radius_m, {0.0, 0.0}, 0.055, 0.075);
+  add_wall(kFar, rig.cup.narrowest(), {0.0, 0.0}, 0.055, 0.075);
   add_wall(kNear, 0.034, {0.0, 0.0}, 0.024, 0.025);
   EXPECT_FALSE(fit.solve());
 }

@@ -15,6 +15,7 @@
 #include "core/units.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/diagnosis/measurement/ideal_cloud.h"
 
 namespace fathom {
 namespace {
@@ -22,27 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHeader = "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud";
-constexpr double kHeight = 0.650, kFocal = 570.342, kPitchDeg = 58.4;
-
-/// A desk whose camera stands `height` above it, and in it a disc of the radius 40 mm at (37.5 mm, 300 mm) of the
-/// camera's foot that rises to `disc` + `slope` · y: what an ideal sensor sees of a cup without walls.
-Image<CloudPoint> ideal_cloud(double height, double disc, double slope = 0.0, float scale = 1.0f) {
-  const double pitch = radians_from_deg(kPitchDeg);
-  Image<CloudPoint> cloud(640, 480);
-  for (int y = 0; y < 480; ++y)
-    for (int x = 0; x < 640; ++x) {
-      const double u = (x + 0.5 - 320.0) / kFocal, v = (y + 0.5 - 240.0) / kFocal;
-      // Ahead and down per unit of depth.
-      const double ahead = std::cos(pitch) - v * std::sin(pitch), down = std::sin(pitch) + v * std::cos(pitch);
-      double z = height / down;
-      const double in_disc = (height - disc + slope * 0.3) / (down + slope * ahead);
-      if (std::hypot(in_disc * u - 0.0375, in_disc * ahead - 0.3) < 0.040) z = in_disc;
-      cloud(x, y) = {scale * static_cast<float>(z * u), scale * static_cast<float>(z * v),
-                     scale * static_cast<float>(z), 100.0f};
-    }
-  return cloud;
-}
-
 struct MeasurementFolder : testing::Test {
   TemporaryFolder folder;
 
@@ -296,6 +276,20 @@ TEST_F(MeasurementFolder, ATableOfHeightsWorksAndSaysWhatItLacks) {
   EXPECT_NEAR(measurement.observations[0].value, 12.6, 1e-12);
   ASSERT_EQ(measurement.notes.size(), 1u);
   EXPECT_EQ(measurement.notes[0].rfind("2 of 2 frames have a height and no cloud", 0), 0u);
+}
+
+/// A laboratory that wrote down heights need not name clouds that it has not.
+TEST_F(MeasurementFolder, ATableOfHeightsNeedsNoColumnForClouds) {
+  const std::string header =
+      "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,height_mm";
+  const Measurement measurement = read("0,0,0,0,0,0,water,20,300,0,12.5\n1,0,0,0,1,1,none,0,0,0,\n", header);
+  ASSERT_EQ(measurement.observations.size(), 1u);
+  EXPECT_EQ(measurement.observations[0].value, 12.5);
+  expect_refused("0,0,0,0,0,0,water,20,300,0,12.5\n1,0,0,0,1,1,water,20,300,0,\n",
+                 "line 3, column 'height_mm': is empty, and there is no cloud in its place", header);
+  expect_refused("0,0,0,0,0,0,water,20,300,0\n",
+                 "line 1: has neither a column 'cloud' nor a column 'height_mm', one of them is needed",
+                 header.substr(0, header.rfind(',')));
 }
 
 TEST_F(MeasurementFolder, WhatShowsTheDeskInPlaceOfItsCupDoesNotCount) {

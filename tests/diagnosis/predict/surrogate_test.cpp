@@ -187,7 +187,7 @@ std::vector<SensedPoint> with_gaps_in_walls(std::vector<SensedPoint> points, con
   std::erase_if(points, [&](const SensedPoint& sensed) {
     const Eigen::Vector3d point = to_desk * sensed.point.cast<double>();
     const double radius = (point.head<2>() - axis_from_camera(rig, place)).norm();
-    const bool is_wall = radius > rig.inner_radius_m - 0.0005 && radius < rig.outer_radius_m + 0.0005;
+    const bool is_wall = radius > rig.cup.narrowest() - 0.0005 && radius < rig.cup.widest() + 0.0005;
     return is_wall && ++walls % 3 == 0;
   });
   return points;

@@ -1,4 +1,4 @@
-#include "sim/scene/library.h"
+#include "core/library.h"
 
 #include <algorithm>
 

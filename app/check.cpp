@@ -1,0 +1,107 @@
+// fathom check: what a measurement directory lacks, in seconds.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/check_words.h"
+#include "app/commands.h"
+#include "app/results.h"
+#include "core/json_text.h"
+#include "core/rows.h"
+#include "core/visible_text.h"
+
+namespace fathom {
+namespace {
+
+std::string lengths(const std::set<double>& values_mm) { return fmt::format("{:g}", fmt::join(values_mm, ", ")); }
+
+std::string trials_text(const MeasurementCheck& check) {
+  return check.fewest_trials == check.most_trials ? fmt::format("{}", check.most_trials)
+                                                  : fmt::format("{} to {}", check.fewest_trials, check.most_trials);
+}
+
+std::string cloud_text(const MeasurementCheck& check) {
+  if (check.height <= 1) return fmt::format("{} points, without rows", check.width);
+  return fmt::format("{} x {}", check.width, check.height);
+}
+
+std::vector<Row> rows_of(const MeasurementCheck& check) {
+  const auto count = [](std::size_t number) { return static_cast<double>(number); };
+  std::vector<Row> rows{{"frames", count(check.frames)},
+                        {"clouds", count(check.clouds)},
+                        {"heights_without_cloud", count(check.heights)},
+                        {"bare_desk_views", count(check.bare_desk_views)},
+                        {"sessions", count(check.sessions)},
+                        {"pours", count(check.pours)},
+                        {"placements", count(check.placements)},
+                        {"trials_of_each", trials_text(check)},
+                        {"distances", lengths(check.distances_mm), "mm"},
+                        {"laterals", lengths(check.laterals_mm), "mm"}};
+  for (const auto& [liquid, fills_mm] : check.fills_mm)
+    if (liquid == "empty")
+      rows.push_back({"empty_cup", "yes"});
+    else
+      rows.push_back({"fills_of_" + liquid, lengths(fills_mm), "mm"});
+  rows.push_back({"cup", check.rig.cup_shape});
+  if (check.clouds_read > 0) {
+    rows.push_back({"clouds_looked_at", count(check.clouds_read)});
+    rows.push_back({"first_cloud", cloud_text(check)});
+  }
+  return rows;
+}
+
+std::string rows_text(const MeasurementCheck& check) {
+  std::string text = format_rows(rows_of(check), false);
+  for (const Shortfall& shortfall : check.lacks) {
+    const LackWords words = lack_words(shortfall, check);
+    text += "\n" + on_one_line(words.what) + "\n  costs:  " + on_one_line(words.costs) +
+            "\n  remedy: " + on_one_line(words.remedy) + "\n";
+  }
+  return text + (check.lacks.empty()
+                     ? "\nA diagnosis can run; nothing is missing.\n"
+                     : fmt::format("\nA diagnosis can run; {} things would make it say more.\n", check.lacks.size()));
+}
+
+Json json_of(const MeasurementCheck& check) {
+  Json json = {{"can_run", true},
+               {"frames", check.frames},
+               {"clouds", check.clouds},
+               {"heights_without_cloud", check.heights},
+               {"bare_desk_views", check.bare_desk_views},
+               {"sessions", check.sessions},
+               {"pours", check.pours},
+               {"placements", check.placements},
+               {"trials_of_each", {check.fewest_trials, check.most_trials}},
+               {"distances_mm", check.distances_mm},
+               {"laterals_mm", check.laterals_mm},
+               {"fills_mm", check.fills_mm},
+               {"cup", check.rig.cup_shape},
+               {"clouds_looked_at", check.clouds_read},
+               {"missing", Json::array()}};
+  for (const Shortfall& shortfall : check.lacks) {
+    const LackWords words = lack_words(shortfall, check);
+    json["missing"].push_back({{"name", words.id},
+                               {"what", words.what},
+                               {"costs", words.costs},
+                               {"remedy", words.remedy},
+                               {"of", shortfall.names}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::function<void()> define_check(CLI::App& app, const CommonOptions& common) {
+  const auto folder = std::make_shared<std::filesystem::path>();
+  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")
+      ->required()
+      ->type_name("DIR");
+  return [folder, &common] {
+    const MeasurementCheck check = check_measurement(*folder);
+    print_results(common, "check", ".txt", common.json ? json_text(json_of(check)) : rows_text(check));
+  };
+}
+
+}  // namespace fathom

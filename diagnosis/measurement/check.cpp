@@ -1,0 +1,191 @@
+#include "diagnosis/measurement/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "core/units.h"
+#include "diagnosis/measurement/check_clouds.h"
+#include "diagnosis/measurement/cup_in_sight.h"
+#include "diagnosis/measurement/named_values.h"
+#include "diagnosis/statistics/sufficiency.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Condition = std::tuple<std::string, double, double, double>;
+
+Condition condition_of(const FrameRecord& f) { return {f.liquid, f.fill_m, f.distance_m, f.lateral_m}; }
+
+std::string place_name(const FrameRecord& f) {
+  return fmt::format("distance {:g} mm, lateral {:g} mm", mm_from_metres(f.distance_m), mm_from_metres(f.lateral_m));
+}
+
+std::string filling_name(const FrameRecord& f) {
+  return f.liquid == "empty" ? f.liquid : fmt::format("{:g} mm of {}", mm_from_metres(f.fill_m), f.liquid);
+}
+
+Eigen::Vector2d place_of(const FrameRecord& f) { return {f.lateral_m, f.distance_m}; }
+
+class Checker {
+ public:
+  Checker(const std::vector<FrameRecord>& frames, MeasurementCheck& check) : frames_(frames), check_(check) {}
+
+  void count() {
+    std::set<int> sessions;
+    std::set<std::tuple<int, int, std::string, double>> pours;
+    std::map<PlacementKey, std::size_t> placements;
+    for (const FrameRecord& f : frames_) {
+      sessions.insert(f.session);
+      check_.clouds += !f.cloud.empty();
+      check_.heights += f.cloud.empty() && !f.bare_desk();
+      check_.bare_desk_views += f.bare_desk();
+      if (f.bare_desk()) continue;
+      check_.fills_mm[f.liquid].insert(mm_from_metres(f.fill_m));
+      check_.distances_mm.insert(mm_from_metres(f.distance_m));
+      check_.laterals_mm.insert(mm_from_metres(f.lateral_m));
+      pours.emplace(f.session, f.pour, f.liquid, f.fill_m);
+      ++placements[placement_of(f)];
+    }
+    check_.frames = frames_.size(), check_.sessions = sessions.size(), check_.pours = pours.size();
+    check_.placements = placements.size();
+    for (const auto& [key, trials] : placements) {
+      check_.fewest_trials = check_.fewest_trials == 0 ? trials : std::min(check_.fewest_trials, trials);
+      check_.most_trials = std::max(check_.most_trials, trials);
+    }
+  }
+
+  /// `rig`: the file's text.
+  void find_lacks(const Json& rig) {
+    std::set<Condition> conditions;
+    for (const FrameRecord& f : frames_) conditions.insert(condition_of(f));
+    if (conditions.size() < kFewestConditions) add({Lack::conditions, static_cast<double>(conditions.size())});
+    look_at_places();
+    look_into_cups();
+    if (check_.heights > 0) add({Lack::clouds, static_cast<double>(check_.heights)});
+    look_for_bare_desk();
+    look_for_repeats();
+    look_for_contrasts();
+    look_at_sigmas(rig);
+    std::stable_sort(check_.lacks.begin(), check_.lacks.end(),
+                     [](const Shortfall& a, const Shortfall& b) { return a.lack < b.lack; });
+  }
+
+ private:
+  void add(Shortfall shortfall) { check_.lacks.push_back(std::move(shortfall)); }
+
+  /// Once for each place.
+  void look_at_places() {
+    std::map<std::pair<double, double>, const FrameRecord*> places;
+    for (const FrameRecord& f : frames_)
+      if (!f.bare_desk()) places.emplace(std::pair(f.distance_m, f.lateral_m), &f);
+    Shortfall cut{Lack::cup_in_image, 1.0};
+    for (const auto& [place, frame] : places) {
+      const double share = share_in_image(place_of(*frame), check_.rig);
+      if (share < 1.0) cut.size = std::min(cut.size, share), cut.names.push_back(place_name(*frame));
+    }
+    if (!cut.names.empty()) add(std::move(cut));
+  }
+
+  /// Once for each condition that has clouds.
+  void look_into_cups() {
+    std::map<Condition, const FrameRecord*> conditions;
+    for (const FrameRecord& f : frames_)
+      if (!f.bare_desk() && !f.cloud.empty()) conditions.emplace(condition_of(f), &f);
+    Shortfall hidden{Lack::inside_in_sight, kFewestInRegion};
+    for (const auto& [condition, frame] : conditions) {
+      const double pixels = pixels_in_sight(place_of(*frame), frame->fill_m, check_.rig);
+      if (pixels >= kFewestInRegion) continue;
+      hidden.size = std::min(hidden.size, pixels);
+      hidden.names.push_back(fmt::format("{} at {}", filling_name(*frame), place_name(*frame)));
+    }
+    if (!hidden.names.empty()) add(std::move(hidden));
+  }
+
+  /// The unit is the same in all sessions: views of one are enough. A table's heights have no desk to learn it from.
+  void look_for_bare_desk() {
+    double bias = 0.0, cups = 0.0;
+    for (const FrameRecord& f : frames_) {
+      if (f.cloud.empty()) continue;
+      if (f.bare_desk()) return;
+      bias += bias_mm(place_of(f), check_.rig), ++cups;
+    }
+    if (cups > 0.0) add({Lack::bare_desk_views, bias / cups});
+  }
+
+  void look_for_repeats() {
+    std::map<Condition, std::set<PlacementKey>> placements;
+    std::map<std::tuple<std::string, double>, std::set<std::pair<int, int>>> pours;
+    std::map<std::tuple<std::string, double>, std::string> names;
+    for (const FrameRecord& f : frames_) {
+      if (f.bare_desk()) continue;
+      placements[condition_of(f)].insert(placement_of(f));
+      if (f.liquid == "empty") continue;
+      pours[{f.liquid, f.fill_m}].emplace(f.session, f.pour);
+      names.emplace(std::tuple(f.liquid, f.fill_m), filling_name(f));
+    }
+    if (placements.empty()) return;
+    const bool put_down_again =
+        std::any_of(placements.begin(), placements.end(), [](const auto& p) { return p.second.size() > 1; });
+    if (!put_down_again && check_.most_trials < 2) {
+      add({Lack::repeats});
+    } else {
+      if (check_.most_trials < 2 && check_.clouds > 0) add({Lack::trials});
+      if (!put_down_again) add({Lack::placements});
+    }
+    Shortfall once{Lack::pours};
+    for (const auto& [filling, of] : pours)
+      if (of.size() < 2) once.names.push_back(names.at(filling));
+    if (!once.names.empty()) add(std::move(once));
+  }
+
+  void look_for_contrasts() {
+    if (check_.fills_mm.empty()) return;
+    if (!check_.fills_mm.contains("empty")) add({Lack::empty_cup});
+    Shortfall fills{Lack::fills};
+    for (const auto& [liquid, depths] : check_.fills_mm)
+      if (liquid != "empty" && depths.size() < 2) fills.names.push_back(liquid);
+    if (!fills.names.empty()) add(std::move(fills));
+    if (check_.distances_mm.size() < 2) add({Lack::distances});
+    if (check_.laterals_mm.size() < 2) add({Lack::laterals});
+    if (check_.sessions < 2) add({Lack::sessions});
+    const bool is_timed = std::any_of(frames_.begin(), frames_.end(),
+                                      [&](const FrameRecord& f) { return f.time_s != frames_.front().time_s; });
+    if (!is_timed && frames_.size() > 1) add({Lack::times});
+  }
+
+  void look_at_sigmas(const Json& rig) {
+    constexpr std::array kOfRig{"height_mm", "pitch_deg",           "roll_deg", "baseline_mm",
+                                "focal_px",  "disparity_offset_px", "bottom_mm"};
+    Shortfall unsaid{Lack::stated_sigmas};
+    for (const char* key : kOfRig)
+      if (!check_.rig.sigma.contains(key)) unsaid.names.emplace_back(key);
+    for (const char* key : {"fill_sigma_mm", "placement_sigma_mm"})
+      if (!rig.contains(key)) unsaid.names.emplace_back(key);
+    if (!unsaid.names.empty()) add(std::move(unsaid));
+  }
+
+  const std::vector<FrameRecord>& frames_;
+  MeasurementCheck& check_;
+};
+
+}  // namespace
+
+MeasurementCheck check_measurement(const fs::path& folder) {
+  MeasurementCheck check;
+  check.rig = read_rig(folder / "rig.json");
+  const Table table = read_table(folder / "frames.csv");
+  require_clouds(table, folder);
+  const std::vector<FrameRecord> frames = read_frames(table, check.rig, folder);
+  check_clouds(folder, table, frames, check);
+  Checker checker(frames, check);
+  checker.count();
+  checker.find_lacks(read_json(folder / "rig.json"));
+  return check;
+}
+
+}  // namespace fathom
