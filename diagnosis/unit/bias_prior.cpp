@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kSteps = 10;
+constexpr int kSteps = 8;
 constexpr double kMost_px = 0.3, kNegligible_px = 0.002;
 constexpr std::size_t kFewestViews = 3;
 constexpr int kFewestStates = 3;  ///< of fewer nobody can say what is a state's own

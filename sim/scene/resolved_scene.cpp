@@ -40,6 +40,8 @@ class Resolver {
  private:
   /// The scene's own keys change the model's; parts are read key by key in both, but for the noise.
   void sensor(Json& sensor) {
+    if (sensor.contains("unit") && sensor["unit"].is_string())
+      sensor["unit"] = {{"learned", sensor["unit"]}, {"residue_px", 0.0}};
     if (sensor.contains("model")) {
       Json model = entry_of("sensors", "sensor model", sensor["model"], setup_.file);
       model.erase("source");
@@ -55,6 +57,7 @@ class Resolver {
       sensor = std::move(model);
     }
     if (setup_.rig.sensor.pattern.image) sensor["pattern"]["image"] = copied(setup_.rig.sensor.pattern.image_file);
+    if (setup_.rig.sensor.unit.learned.map) sensor["unit"]["learned"] = copied_unit(setup_.rig.sensor.unit.learned);
   }
 
   void cup(Json& cup) {
@@ -112,6 +115,16 @@ class Resolver {
       for (const std::string& buffer : gltf_buffers(file, std::string(copy.content)))
         resolved_.files.push_back({folder + buffer, read_text(file.parent_path() / buffer)});
     return known->second;
+  }
+
+  /// The same with the image that it names.
+  std::string copied_unit(const LearnedUnit& unit) {
+    const std::size_t before = copies_.size();
+    const std::string name = copied(unit.file);
+    if (copies_.size() > before)
+      resolved_.files.push_back({(std::filesystem::path(name).parent_path() / unit.image).string(),
+                                 read_text(std::filesystem::path(unit.file).parent_path() / unit.image)});
+    return name;
   }
 
   const Setup& setup_;

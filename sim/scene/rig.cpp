@@ -132,6 +132,10 @@ void read_model(const JsonReader& json, SensorModel& sensor) {
   if (json.has("noise")) sensor.noise = noise_from_json(json.at("noise"));
   if (json.has("optics")) sensor.optics = optics_from_json(json.at("optics"), sensor.optics);
   if (json.has("unit")) sensor.unit = unit_from_json(json.at("unit"), sensor.unit);
+  if (const UnitMap* map = sensor.unit.learned.map.get();
+      map && (sensor.width != map->camera.width() || sensor.height != map->camera.height()))
+    json.fail_at("unit", fmt::format("was learned of a depth image of {} × {} pixels, and depth_size_px is {} × {}",
+                                     map->camera.width(), map->camera.height(), sensor.width, sensor.height));
   if (json.has("pattern")) read_pattern(json.at("pattern"), sensor.pattern);
   if (json.has("matcher")) read_matcher(json.at("matcher"), sensor.matcher);
   if (json.has("quantization")) {

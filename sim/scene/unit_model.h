@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 #include "core/json.h"
+#include "sim/scene/unit_map.h"
 
 namespace fathom {
 
@@ -21,6 +22,7 @@ struct UnitModel {
   double on_for_s = 1e9;             ///< since the unit was switched on, at frame 0
   double wander_px = 0.0;            ///< standard deviation of an error that all disparities of a frame share
   double frame_interval_s = 1.0 / 30.0;
+  LearnedUnit learned;  ///< what fathom calibrate found, beside what is drawn
 
   bool operator==(const UnitModel&) const = default;
 };
@@ -37,9 +39,10 @@ UnitError unit_error(const UnitModel& unit, std::uint64_t frame);
 /// What the remembered image of this unit is displaced by along its rows [px], at each of its pixels: lenses and
 /// pattern are not any more, or not at all distances, where they were when it was taken. A smooth normal field of
 /// covariance residue_px² exp(−r² / 2 residue_reach_px²), width × height; empty: none. Column 0 lies `margin_px` left
-/// of the image.
+/// of the image, whose rows lie in the middle. To this comes what was learned of the unit in the reference's frame.
 Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, int height);
 
+/// A text is the path of a learned unit, which has nothing of a drawn residue.
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit);
 Json json_from_unit(const UnitModel& unit);
 

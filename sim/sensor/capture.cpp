@@ -38,8 +38,14 @@ void add_residue(const SensorModel& sensor, const Image<float>& residue, Image<f
 /// What this unit makes of disparities [px] in the frame of that number; 0 stays invalid.
 void misread(const SensorModel& sensor, std::uint64_t frame, Image<float>& disparity) {
   const UnitError error = unit_error(sensor.unit, frame);
-  for (float& value : disparity.pixels())
-    if (value > 0.0f) value = static_cast<float>(std::max(read_disparity(sensor, error, value), 0.0));
+  const UnitMap* learned = sensor.unit.learned.map.get();
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x) {
+      float& value = disparity(x, y);
+      if (value <= 0.0f) continue;
+      const double seen = value + (learned ? learned->camera_of(x, y) : 0.0f);
+      value = static_cast<float>(std::max(read_disparity(sensor, error, seen), 0.0));
+    }
 }
 
 /// Every disparity becomes the mean of those in a square of this width [px] around it that are of its own surface; at
