@@ -216,6 +216,11 @@ std::string excess_sentences(const Diagnosis& diagnosis) {
     if (said.size() == kMost || std::find(said.begin(), said.end(), excess.group) != said.end()) continue;
     said.push_back(excess.group);
     const ObservableWords words = observable_words(excess.observable);
+    if (excess.level == "trial") {
+      text += fmt::format("The {} is {:.2g}{} more than its noise makes ({:.0f} σ): the sensor or the desk trembles. ",
+                          words.name, excess.size, words.unit, excess.size / excess.sigma);
+      continue;
+    }
     text += fmt::format("In {} {} the {} is {:.2g}{} {} than in the others ({:.0f} σ), more than {}s should differ. ",
                         excess.level, excess.group, words.name, std::abs(excess.size), words.unit,
                         excess.size < 0 ? words.less : words.more, std::abs(excess.size) / excess.sigma, excess.level);

@@ -166,7 +166,8 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   const double steps_per_inverse = 8.0 * rig.focal_px * rig.baseline_m, two_pi = 2.0 * std::numbers::pi;
   constexpr float kOnDesk = 0.005f;
   const Eigen::Vector3d inverse_desk = -desk->normal / desk->offset;  // 1/z of the desk = that · (x/z, y/z, 1)
-  std::array<Sums, 9> residual;
+  std::array<Sums, 9> residual, thirds;
+  Eigen::Matrix3d sights = Eigen::Matrix3d::Zero();
   std::array<Sums, std::tuple_size_v<decltype(DeskBands::rows)>> rows;
   std::array<Sums, std::tuple_size_v<decltype(DeskBands::columns)>> columns;
   Sums desk_intensity;
@@ -189,9 +190,13 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
       continue;
     }
     if (std::abs(p.z()) > kOnDesk) continue;
-    residual[part_of_image(sensed.point, rig.focal_px, 3, 3)].add(p.z(), w);
     const Eigen::Vector3d seen = sensed.point.cast<double>();
     const double off_px = rig.focal_px * rig.baseline_m * (1.0 - inverse_desk.dot(seen)) / seen.z();
+    const std::size_t third = part_of_image(sensed.point, rig.focal_px, 3, 3);
+    residual[third].add(p.z(), w);
+    thirds[third].add(off_px, w);
+    const Eigen::Vector3d sight = seen / seen.z();
+    sights += w * sight * sight.transpose();
     rows[part_of_image(sensed.point, rig.focal_px, 1, static_cast<int>(rows.size()))].add(off_px, w);
     columns[part_of_image(sensed.point, rig.focal_px, static_cast<int>(columns.size()), 1)].add(off_px, w);
     desk_intensity.add(sensed.intensity, w);
@@ -213,6 +218,9 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   FrameEstimates estimates;
   estimates.desk = *desk;
   for (std::size_t i = 0; i < residual.size(); ++i) estimates.desk_residual[i] = residual[i].estimate();
+  for (std::size_t i = 0; i < thirds.size(); ++i) estimates.desk_bands.thirds[i] = thirds[i].estimate();
+  estimates.desk_bands.desk = *desk;
+  estimates.desk_bands.sights = sights;
   for (std::size_t i = 0; i < rows.size(); ++i) estimates.desk_bands.rows[i] = rows[i].estimate();
   for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();

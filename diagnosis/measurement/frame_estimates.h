@@ -25,10 +25,13 @@ struct RegionEstimate {
   double weight = 0.0;  ///< points
 };
 
-/// Mean disparity off the fitted desk's [px], of bands of 40 rows and of 40 columns of the image.
+/// Mean disparity off the fitted desk's [px], of bands of 40 rows and of 40 columns of the image, and of its thirds.
 struct DeskBands {
   std::array<RegionEstimate, 12> rows;
   std::array<RegionEstimate, 16> columns;
+  std::array<RegionEstimate, 9> thirds;
+  Plane desk;
+  Eigen::Matrix3d sights = Eigen::Matrix3d::Zero();  ///< sum of s sᵀ over points of desk, s = (x/z, y/z, 1)
 };
 
 /// Codes of 1/8 px that the coarser combs have between their teeth.

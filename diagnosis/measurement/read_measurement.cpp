@@ -161,10 +161,8 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
       same->pixels += named.pixels;
     }
   }
-  if (const std::optional<BandScatter> scatter = scatter_of(bands)) {
-    all.push_back({"desk_rows_px", "desk", {scatter->rows_px}});
-    all.push_back({"desk_columns_px", "desk", {scatter->columns_px}});
-  }
+  for (const NamedValue& scatter : scatter_values(bands, measurement.rig))
+    all.push_back({scatter.observable, scatter.region, {scatter.value}});
   for (const Trials& trials : all)
     measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s, stood_s));
 }

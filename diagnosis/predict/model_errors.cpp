@@ -51,8 +51,8 @@ constexpr std::array kModelErrors{
     ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
     ModelError{"log_brightness", 0.05, SharedBy::condition},
     // Smooth errors of a frame, a quarter of a step of 1/8 px over 40 px, lift and turn a fitted desk by so much.
-    ModelError{"desk_wander_mm", 0.15, SharedBy::all}, ModelError{"desk_pitch_motion_deg", 0.03, SharedBy::all},
-    ModelError{"desk_roll_motion_deg", 0.05, SharedBy::all}, ModelError{"liquid_motion_mm", 0.05, SharedBy::all},
+    ModelError{"desk_wander_mm", 0.05, SharedBy::all}, ModelError{"desk_pitch_motion_deg", 0.01, SharedBy::all},
+    ModelError{"desk_roll_motion_deg", 0.02, SharedBy::all}, ModelError{"liquid_motion_mm", 0.05, SharedBy::all},
     ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
     ModelError{"comb_quarter", 0.05, SharedBy::session},   // what teeth a desk's own codes have
     ModelError{"comb_half", 0.05, SharedBy::session}, ModelError{"millimetre_comb", 0.02, SharedBy::all}};

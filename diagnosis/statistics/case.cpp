@@ -24,7 +24,7 @@ Rest rest_of(const Case& c, const Refit& fit) {
     rest.residual -= rest.explained * (rest.explained.transpose() * rest.residual);
     rest.p = gap_test(c.shapes, rest.residual, c.draws, rest.explained).p;
   }
-  rest.excess = session_excess(c.evidence, c.covariance, rest.residual, rest.explained, c.settings.p_gap);
+  rest.excess = excess_of(c.evidence, c.covariance, rest.residual, rest.explained, c.settings.p_gap);
   if (!rest.excess.empty()) rest.p = std::min(rest.p, rest.excess.front().p);
   return rest;
 }

@@ -41,32 +41,65 @@ std::vector<BySession> by_session(const std::vector<Observation>& observations) 
 /// Of two sessions only one is said to differ.
 std::size_t first_of(const BySession& sessions) { return sessions.names.size() == 2 ? 1 : 0; }
 
+/// What is looked at: columns (not whitened) and which combination of their means.
+struct Contrast {
+  Excess excess;
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd weights;
+  bool only_more = false;  ///< less is no finding
+};
+
+Eigen::MatrixXd indicators(const std::vector<std::vector<Eigen::Index>>& groups, Eigen::Index n) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(groups.size()));
+  for (std::size_t group = 0; group < groups.size(); ++group)
+    for (const Eigen::Index row : groups[group]) columns(row, static_cast<Eigen::Index>(group)) = 1.0;
+  return columns;
+}
+
+/// Each session beside the mean of the others.
+void add_sessions(const std::vector<Observation>& observations, std::vector<Contrast>& contrasts) {
+  for (const BySession& sessions : by_session(observations)) {
+    const auto count = static_cast<Eigen::Index>(sessions.names.size());
+    const Eigen::MatrixXd columns = indicators(sessions.rows, static_cast<Eigen::Index>(observations.size()));
+    for (std::size_t s = first_of(sessions); s < sessions.names.size(); ++s) {
+      Eigen::VectorXd weights = Eigen::VectorXd::Constant(count, -1.0 / static_cast<double>(count - 1));
+      weights[static_cast<Eigen::Index>(s)] = 1.0;
+      contrasts.push_back({{"session", sessions.names[s], sessions.observable}, columns, std::move(weights)});
+    }
+  }
+}
+
+/// What moves from trial to trial beyond its noise is an observable of its own.
+void add_trials(const std::vector<Observation>& observations, std::vector<Contrast>& contrasts) {
+  const Groups motions = group_by(observations, [](const Observation& o) {
+    return o.observable.ends_with("_motion_deg") ? o.observable : std::string();
+  });
+  for (const auto& rows : motions.members())
+    contrasts.push_back({{"trial", "", observations[rows[0]].observable},
+                         indicators({rows}, static_cast<Eigen::Index>(observations.size())),
+                         Eigen::VectorXd::Ones(1),
+                         true});
+}
+
 }  // namespace
 
-std::vector<Excess> session_excess(const Evidence& evidence, const Covariance& covariance,
-                                   const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained, double level) {
-  const std::vector<BySession> all = by_session(evidence.observations);
-  double tests = 0.0;
-  for (const BySession& sessions : all) tests += static_cast<double>(sessions.names.size() - first_of(sessions));
+std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covariance, const Eigen::VectorXd& residual,
+                              const Eigen::MatrixXd& explained, double level) {
+  std::vector<Contrast> contrasts;
+  add_sessions(evidence.observations, contrasts);
+  add_trials(evidence.observations, contrasts);
   std::vector<Excess> result;
-  for (const BySession& sessions : all) {
-    const auto count = static_cast<Eigen::Index>(sessions.names.size());
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(residual.size(), count);
-    for (Eigen::Index s = 0; s < count; ++s)
-      for (const Eigen::Index row : sessions.rows[s]) columns(row, s) = 1.0;
-    columns = covariance.whiten(columns);
+  for (const Contrast& contrast : contrasts) {
+    Eigen::MatrixXd columns = covariance.whiten(contrast.columns);
     if (explained.cols() > 0) columns -= explained * (explained.transpose() * columns);
-    const Eigen::LDLT<Eigen::MatrixXd> normal(columns.transpose() * columns);
-    for (auto s = static_cast<Eigen::Index>(first_of(sessions)); s < count; ++s) {
-      Eigen::VectorXd beside_others = Eigen::VectorXd::Constant(count, -1.0 / static_cast<double>(count - 1));
-      beside_others[s] = 1.0;
-      const Eigen::VectorXd weights = columns * normal.solve(beside_others);
-      const double size = weights.dot(residual), sigma = weights.norm();
-      if (!(sigma > 0.0) || !std::isfinite(size)) continue;
-      const double z = normal_score(std::abs(size) / sigma, degrees_of_freedom(covariance, weights)[0]);
-      const double p = std::min(1.0, tests * std::erfc(z / std::sqrt(2.0)));
-      if (p < level) result.push_back({"session", sessions.names[s], sessions.observable, size, sigma, p});
-    }
+    const Eigen::VectorXd weights = columns * (columns.transpose() * columns).ldlt().solve(contrast.weights);
+    Excess excess = contrast.excess;
+    excess.size = weights.dot(residual);
+    excess.sigma = weights.norm();
+    if (!(excess.sigma > 0.0) || !std::isfinite(excess.size) || (contrast.only_more && excess.size < 0.0)) continue;
+    const double z = normal_score(std::abs(excess.size) / excess.sigma, degrees_of_freedom(covariance, weights)[0]);
+    excess.p = std::min(1.0, static_cast<double>(contrasts.size()) * std::erfc(z / std::sqrt(2.0)));
+    if (excess.p < level) result.push_back(std::move(excess));
   }
   std::stable_sort(result.begin(), result.end(), [](const Excess& a, const Excess& b) {
     return std::abs(a.size) / a.sigma > std::abs(b.size) / b.sigma;

@@ -25,11 +25,13 @@ LaboratoryRig rig() {
 /// Amplitudes of what changes from frame to frame, in disparity [px]; waves of 180 rows or columns, of any phase.
 struct Motion {
   double noise = 0.0, all = 0.0, along_rows = 0.0, along_columns = 0.0;
+  double pitch_deg = 0.0;  ///< of the sensor, 1 σ
 };
 
 /// Every fourth pixel of a desk whose disparities differ by that from the true ones.
 std::vector<SensedPoint> desk_frame(const Motion& motion, Rng& rng) {
-  const Plane desk = plane_from(DeskPrior{rig().height_m, rig().pitch_rad, rig().roll_rad});
+  const double trembles = motion.pitch_deg > 0.0 ? radians_from_deg(motion.pitch_deg) * rng.normal() : 0.0;
+  const Plane desk = plane_from(DeskPrior{rig().height_m, rig().pitch_rad + trembles, rig().roll_rad});
   const double all = motion.all * rng.normal(), phase = 2.0 * std::numbers::pi * rng.uniform();
   const auto wave = [&](double at) { return std::sin(2.0 * std::numbers::pi * at / 180.0 + phase); };
   std::vector<SensedPoint> points;
@@ -76,9 +78,8 @@ std::vector<Observation> observations_of(const Motion& motion, std::uint64_t see
       for (const auto& frame : frames) values.push_back(frame[k].value);
       add(frames[0][k].observable, frames[0][k].region, values[0], deviation(values));
     }
-    const auto scatter = scatter_of(bands);
-    add("desk_rows_px", "desk", scatter->rows_px, 0.0);
-    add("desk_columns_px", "desk", scatter->columns_px, 0.0);
+    for (const NamedValue& scatter : scatter_values(bands, rig()))
+      add(scatter.observable, scatter.region, scatter.value, 0.0);
   }
   return result;
 }
@@ -102,7 +103,7 @@ TEST(DeskMotion, AShortSessionIsOfOnePart) {
   std::vector<Observation> observations = observations_of({.noise = 0.1, .along_rows = 0.1}, 7);
   std::erase_if(observations, [](const Observation& o) { return o.factors.placement >= 7; });
   const std::vector<Observation> motion = desk_motion(observations, rig());
-  ASSERT_EQ(motion.size(), 2U);
+  ASSERT_EQ(motion.size(), 4U);
   EXPECT_EQ(motion[1].observable, "desk_waves_px");
   EXPECT_GT(motion[1].value / (motion[1].repeat_sd / std::sqrt(motion[1].repeats)), 3.0);
   std::erase_if(observations, [](const Observation& o) { return o.factors.placement >= 3; });
@@ -134,6 +135,15 @@ TEST(DeskMotion, RowsThatShakeMakeWavesAndNoCertainWander) {
   EXPECT_GT(waves.value, 0.05);  // 0.07 px are a sine's root mean square, of which bands and the plane take some
   EXPECT_LT(waves.value, 0.08);
   EXPECT_LT(std::abs(found("desk_wander_mm", motion).z), kChance);
+}
+
+TEST(DeskMotion, ASensorThatTremblesMovesItsPitchAlone) {
+  const Motion motion{.noise = 0.1, .pitch_deg = 0.05};
+  const Found pitch = found("desk_pitch_motion_deg", motion);
+  EXPECT_GT(pitch.z, kSure);
+  EXPECT_NEAR(pitch.value, 0.05, 0.35 * 0.05);  // 48 degrees of freedom: 3 σ and a little
+  EXPECT_LT(std::abs(found("desk_roll_motion_deg", motion).z), kChance);
+  EXPECT_LT(std::abs(found("desk_pitch_motion_deg", {.noise = 0.1}).z), kChance);
 }
 
 TEST(DeskMotion, ColumnsThatShakeAreToldFromRows) {
