@@ -48,8 +48,8 @@ struct MeasurementCheck {
   LaboratoryRig rig;
   std::size_t frames = 0, clouds = 0, heights = 0;  ///< with a cloud; with a height and none
   std::size_t bare_desk_views = 0, pours = 0, placements = 0;
-  std::size_t fewest_trials = 0, most_trials = 0;    ///< of placements
-  std::size_t sessions = 0, repeated = 0;            ///< conditions that were measured more than once
+  std::size_t fewest_trials = 0, most_trials = 0;  ///< of placements
+  std::size_t sessions = 0;
   std::map<std::string, std::set<double>> fills_mm;  ///< by liquid; of "empty" 0
   std::set<double> distances_mm, laterals_mm;
   std::size_t clouds_read = 0;

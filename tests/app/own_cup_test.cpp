@@ -63,7 +63,7 @@ std::vector<std::string> cups() {
   names.emplace_back("own");
   return names;
 }
-INSTANTIATE_TEST_SUITE_P(Cups, OwnCup, testing::ValuesIn(cups()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Cups, OwnCup, testing::ValuesIn(cups()), [](const auto& cup) { return cup.param; });
 
 /// A cup that is narrow below has no wall among its heights: they are those of its bottom.
 TEST(OwnCupHeights, HoldNoWall) {
