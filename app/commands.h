@@ -15,6 +15,7 @@ std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common
 std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_check(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_calibrate(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_verify(CLI::App& app, const CommonOptions& common);
@@ -53,6 +54,10 @@ inline constexpr std::array kCommands{
     Command{"measure",
             "Fills the height columns of a measurement directory: writes heights.csv there, or to the folder of -o",
             "  fathom measure out/paper\n  fathom measure out/paper -o out/heights", define_measure},
+    Command{"calibrate", "Learns how one device differs from its model, from clouds of desks and walls: unit.json",
+            "  fathom calibrate ../shared/data/mOSD/learn33.pcd ../shared/data/mOSD/learn34.pcd -o out/unit\n"
+            "  fathom calibrate out/paper/frames.csv --height-mm 650 --pitch-deg 58.4 -o out/unit",
+            define_calibrate},
     Command{"diagnose",
             "Finds where model and measurement disagree, names the effect that explains it, and what is left",
             "  fathom diagnose out/paper -o out/diagnosis\n"

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/input_policy.h"
 #include "core/lengths.h"
 #include "core/library.h"
 #include "core/units.h"
@@ -31,8 +32,8 @@ void read_sigma(const JsonReader& owner, std::initializer_list<std::string_view>
 double usual_focal_px(std::string_view sensor_model) { return sensor_model.starts_with("kinect") ? 575.816 : 570.342; }
 
 void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
-  json.allow_only(
-      {"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "sigma"});
+  json.allow_only({"model", "height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px",
+                   "unit", "sigma"});
   rig.sensor_model = json.text("model");
   rig.height_m = json.metres("height_mm", kLengthMm);
   rig.pitch_rad = radians_from_deg(json.number("pitch_deg", {-90.0, 90.0}));
@@ -40,6 +41,7 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   rig.baseline_m = json.metres_or("baseline_mm", rig.baseline_m, kLengthMm);
   rig.focal_px = json.number_or("focal_px", usual_focal_px(rig.sensor_model), {1.0, 1e6});
   rig.disparity_offset_px = json.number_or("disparity_offset_px", rig.disparity_offset_px);
+  if (json.has("unit")) rig.unit = path_named_in(json.file(), json.pointer() + "/unit", json.text("unit"));
   read_sigma(json, {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"}, rig.sigma);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "diagnosis/unit/bias_learner.h"
 
@@ -13,7 +14,8 @@ namespace {
 constexpr int kSteps = 8;
 constexpr double kMost_px = 0.3, kNegligible_px = 0.002;
 constexpr std::size_t kFewestViews = 3;
-constexpr int kFewestStates = 3;  ///< of fewer nobody can say what is a state's own
+constexpr std::size_t kMostViews = 24;  ///< that are looked at, evenly: a covariance has few numbers
+constexpr int kFewestStates = 3;        ///< of fewer nobody can say what is a state's own
 
 /// From where the search starts: everything may be there.
 BiasPrior wide_prior(int states) {
@@ -34,10 +36,13 @@ BiasPrior default_bias_prior() { return {{0.02, 0.1, 0.0}, {}, {}, 0.02, 0.0}; }
 
 BiasPrior learned_bias_prior(std::span<const BiasView> views) {
   if (views.size() < kFewestViews) return default_bias_prior();
+  std::vector<BiasView> some;
+  const std::size_t most = std::min(kMostViews, views.size());
+  for (std::size_t i = 0; i < most; ++i) some.push_back(views[i * views.size() / most]);
   std::set<int> states;
-  for (const BiasView& view : views) states.insert(view.state);
+  for (const BiasView& view : some) states.insert(view.state);
   BiasPrior prior = wide_prior(static_cast<int>(states.size() - states.count(kNoState)));
-  for (int step = 0; step < kSteps; ++step) prior = BiasLearner(views, prior).improved();
+  for (int step = 0; step < kSteps; ++step) prior = BiasLearner(some, prior).improved();
   for (BiasAmplitudes* amplitudes : {&prior.reference_px, &prior.camera_px, &prior.state_px})
     for (double& amplitude : *amplitudes)
       if (amplitude < kNegligible_px) amplitude = 0.0;

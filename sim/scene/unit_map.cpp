@@ -54,7 +54,7 @@ LearnedUnit learned_unit_from_json(const JsonReader& json) {
   const JsonReader unit(value, learned.file);
   unit.allow_only({"source", "device", "bias", "prior", "noise", "depths", "warm_up"});
   const JsonReader bias = unit.at("bias");
-  bias.allow_only({"image", "reference_at_px", "left_px", "without_px"});
+  bias.allow_only({"image", "reference_at_px", "left_px", "without_px", "poses"});
   learned.image = bias.text("image");
   const std::string image = path_named_in(learned.file, "/bias/image", learned.image).string();
   UnitMap map;

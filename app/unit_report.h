@@ -1,0 +1,17 @@
+// What fathom calibrate says and shows of a device.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/rows.h"
+#include "diagnosis/unit/calibration.h"
+
+namespace fathom {
+
+std::vector<Row> unit_rows(const Calibration& unit);
+
+/// unit_map.csv and its picture, and report.html, last.
+void write_unit_report(const std::filesystem::path& folder, const Calibration& unit);
+
+}  // namespace fathom
