@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json_text.h"
+#include "core/units.h"
 #include "core/visible_text.h"
 #include "diagnosis/measurement/joined.h"
 #include "diagnosis/predict/bookkeeping.h"
@@ -107,6 +109,24 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
           : "too few pixels show the inside of a cup");
 }
 
+/// What it costs that the bare desk was not seen where cups stand.
+std::string on_bare_desks(const Measurement& measurement, const Predictor& predictor) {
+  constexpr double kWorthSaying = 1.5;  // times less
+  const auto is_bare = [](const FrameRecord& f) { return f.bare_desk() && !f.cloud.empty(); };
+  if (std::any_of(measurement.frames.begin(), measurement.frames.end(), is_bare)) return {};
+  const auto known = predictor.unit_knowledge();
+  if (!known || known->now_px < kWorthSaying * known->with_bare_desks_px) return {};
+  const LaboratoryRig& rig = measurement.rig;
+  // A desk below the middle of the image: height per disparity.
+  const double away = rig.height_m / std::max(std::sin(rig.pitch_rad), 0.1);
+  const double mm_per_px = mm_from_metres(rig.height_m * away / (rig.focal_px * rig.baseline_m));
+  return fmt::format(
+      "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views "
+      "without "
+      "a cup, three in each session, would bring that to {:.2f} mm.",
+      mm_per_px * known->now_px, mm_per_px * known->with_bare_desks_px);
+}
+
 std::string rows_text(const Diagnosis& diagnosis, const std::vector<std::string>& notes, const fs::path& output,
                       bool as_json) {
   if (as_json) return json_text(json_from(diagnosis));
@@ -142,6 +162,8 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   put_bookkeeping_right(had, rig_file, measurement);
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
   if (std::string note = on_missing_heights(measurement, physics.evidence.observations); !note.empty())
+    measurement.notes.push_back(std::move(note));
+  if (std::string note = on_bare_desks(measurement, *physics.predictor); !note.empty())
     measurement.notes.push_back(std::move(note));
   const FolderOwner owner(common.output);  // what cannot be written shows before the long work
   const std::vector<std::string> not_looked_for = leave_out(options.without, physics.evidence.candidates);

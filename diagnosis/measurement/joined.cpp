@@ -30,6 +30,7 @@ void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder,
                             (first_folder / "rig.json").string()));
   };
   if (rig.sensor_model != first.sensor_model) differs("/sensor/model");
+  if (!(rig.unit == first.unit)) differs("/sensor/unit");
   for (const RigValue& shared : kShared)
     if (!(std::abs(rig.*shared.value - first.*shared.value) <= kSame)) differs(shared.path);
   if (!is_same_cup(rig.cup, first.cup)) differs("/cup");
@@ -70,7 +71,7 @@ Measurement read_measurements(std::span<const std::filesystem::path> folders, bo
     for (auto& [session, cells] : surveys.back().desks()) desks[sessions + session] = cells;
     sessions += surveys.back().sessions();
   }
-  const std::shared_ptr<const UnitBias> unit = learn_unit(desks);
+  const std::shared_ptr<const UnitBias> unit = learn_unit(desks, surveys.front().rig().unit.map != nullptr);
   Measurement all = std::move(surveys.front()).measure(unit);
   for (std::size_t i = 1; i < surveys.size(); ++i) append(std::move(surveys[i]).measure(unit), all);
   return all;

@@ -70,10 +70,9 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   }
   const Cloud cloud = read_frame_cloud(frame, folder);
   std::vector<SensedPoint> points = sensed_points(cloud, rig);
-  if (bias)
-    take_off(as_bias(*bias), rig, points);
-  else
-    reading.print = print_of(points, rig.focal_px);
+  if (!bias) reading.print = print_of(points, rig.focal_px);
+  if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
+  if (bias) take_off(as_bias(*bias), rig, points);
   const FrameView view = view_of(frame);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
@@ -274,15 +273,15 @@ Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
   return measurement;
 }
 
-std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks) {
+std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks, bool is_calibrated) {
   const bool is_seen =
       std::any_of(desks.begin(), desks.end(), [](const auto& session) { return !session.second.view().cells.empty(); });
-  return is_seen ? std::make_shared<const UnitBias>(desks) : nullptr;
+  return is_seen ? std::make_shared<const UnitBias>(desks, is_calibrated) : nullptr;
 }
 
 Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
   Survey survey(folder, quiet);
-  std::shared_ptr<const UnitBias> unit = learn_unit(survey.desks());
+  std::shared_ptr<const UnitBias> unit = learn_unit(survey.desks(), survey.rig().unit.map != nullptr);
   return std::move(survey).measure(std::move(unit));
 }
 

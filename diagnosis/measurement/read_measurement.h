@@ -47,6 +47,6 @@ class Survey {
 };
 
 /// Nothing without desks.
-std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks);
+std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks, bool is_calibrated);
 
 }  // namespace fathom

@@ -41,7 +41,7 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
   rig.baseline_m = json.metres_or("baseline_mm", rig.baseline_m, kLengthMm);
   rig.focal_px = json.number_or("focal_px", usual_focal_px(rig.sensor_model), {1.0, 1e6});
   rig.disparity_offset_px = json.number_or("disparity_offset_px", rig.disparity_offset_px);
-  if (json.has("unit")) rig.unit = path_named_in(json.file(), json.pointer() + "/unit", json.text("unit"));
+  if (json.has("unit")) rig.unit = learned_unit_from_json(json.at("unit"));
   read_sigma(json, {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px"}, rig.sigma);
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/cup_profile.h"
 #include "core/json.h"
+#include "core/unit_map.h"
 
 namespace fathom {
 
@@ -24,7 +25,7 @@ struct LaboratoryRig {
   double baseline_m = 0.075;
   double focal_px = 570.342;
   double disparity_offset_px = 0.0;
-  std::filesystem::path unit;  ///< unit.json of fathom calibrate; empty: the sensor was not calibrated
+  LearnedUnit unit;  ///< of fathom calibrate; empty: the sensor was not calibrated
 
   std::string cup_shape = "paper_cup";  ///< a name of scenes/cups, or the laboratory's own
   CupProfile cup = straight_cup(0.087, 0.007, 0.040, 0.043);

@@ -51,10 +51,21 @@ Bias as_bias(const BiasField& field) {
   return [&field](const BiasPoint& point) { return field.at(point); };
 }
 
-UnitBias::UnitBias(const std::map<int, DeskCells>& desks)
+Bias as_bias(const UnitMap& map) {
+  return [&map](const BiasPoint& point) -> double {
+    const Eigen::Vector2d& pixel = point.pixel_px;
+    return map.reference_of(pixel.x() - point.nearer_px, pixel.y()) +
+           map.camera_of(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+  };
+}
+
+UnitBias::UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated)
     : UnitBias([&] {
+        constexpr double kLeft = 0.45;  // of a Kinect's bias, of 0.1 px, when other desks have told what they can
         Views all;
         all.prior = default_bias_prior();
+        if (is_calibrated)
+          for (double& amplitude : all.prior.reference_px) amplitude *= kLeft;
         std::vector<double> own_errors;
         for (const auto& [session, cells] : desks) {
           BiasView view = cells.view();
@@ -70,6 +81,28 @@ UnitBias::UnitBias(const std::map<int, DeskCells>& desks)
 UnitBias::UnitBias(Views views)
     : views_(std::move(views)), learner_(views_.views, views_.prior), field_(learner_.learn()) {}
 
+UnitBias UnitBias::with_bare_desks() const {
+  Views all = views_;
+  for (BiasView& view : all.views) {
+    // A desk's disparity is linear over the image.
+    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const BiasCell& cell : view.cells) {
+      const Eigen::Vector3d at = plane_at({cell.column_px, cell.row_px});
+      normal += at * at.transpose();
+      right += cell.nearer_px * at;
+    }
+    const Eigen::Vector3d nearer = normal.ldlt().solve(right);
+    view = {.cells = {}, .errors_px = {}, .state = view.state};
+    for (double row = 0.5 * kBiasCell_px; row < kImageHeight_px; row += kBiasCell_px)
+      for (double column = 0.5 * kBiasCell_px; column < kImageWidth_px; column += kBiasCell_px) {
+        view.cells.push_back({column, row, nearer.dot(plane_at({column, row})), kBiasCell_px * kBiasCell_px});
+        view.errors_px.push_back(0.0);
+      }
+  }
+  return UnitBias(std::move(all));
+}
+
 BiasField UnitBias::learn(const std::map<int, DeskError>& desks) const {
   std::vector<Eigen::VectorXd> errors;
   for (std::size_t i = 0; i < views_.views.size(); ++i) {
@@ -84,7 +117,7 @@ BiasField UnitBias::learn(const std::map<int, DeskError>& desks) const {
 }
 
 std::vector<Bias> UnitBias::error_modes(int count, std::span<const BiasPoint> where) const {
-  std::vector<Bias> modes = planes_of(views_.prior);
+  std::vector<Bias> modes = planes_of(default_bias_prior());  // which no calibration by desks can know
   for (BiasField& field : learner_.error_modes(count, where))
     modes.emplace_back([field = std::move(field)](const BiasPoint& point) { return field.at(point); });
   return modes;
@@ -103,7 +136,7 @@ void take_off(const Bias& bias, const LaboratoryRig& rig, std::span<SensedPoint>
     const float z = sensed.point.z();
     const double disparity_px = of_inverse / z - bias(bias_point(sensed.point, rig));
     if (disparity_px <= 0.0) continue;
-    sensed.device_z = z;
+    if (sensed.device_z == 0.0f) sensed.device_z = z;
     sensed.point *= static_cast<float>(of_inverse / disparity_px / z);
   }
 }

@@ -19,12 +19,16 @@ using DeskError = std::function<std::optional<double>(const BiasCell& cell)>;
 class UnitBias {
  public:
   /// Of each session: within one, sensor and desk stay where they are, so that the same dots fall on the same places.
-  explicit UnitBias(const std::map<int, DeskCells>& desks);
+  /// `is_calibrated`: what fathom calibrate found of the unit was taken off before.
+  explicit UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated = false);
 
   /// Without the plane that is nearest to it: of a plane nobody can say whether it is bias or pose.
   const BiasField& field() const { return field_; }
   /// What would be learned from a model's desks, given by session: the same operator.
   BiasField learn(const std::map<int, DeskError>& desks) const;
+
+  /// What would be known, were the whole desk seen bare in every session.
+  UnitBias with_bare_desks() const;
 
   /// 1 σ [px] of what is not known of the bias there.
   double sigma(const BiasPoint& point) const { return learner_.sigma(point); }
@@ -47,6 +51,9 @@ class UnitBias {
 
 /// Of a field, which must outlive it.
 Bias as_bias(const BiasField& field);
+
+/// What fathom calibrate found; the map must outlive it.
+Bias as_bias(const UnitMap& map);
 
 /// Where a point is seen and how near, as fields take it.
 BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig);

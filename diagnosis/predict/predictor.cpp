@@ -174,6 +174,24 @@ std::vector<Eigen::VectorXd> Predictor::unit_errors() const {
   return errors;
 }
 
+std::optional<Predictor::UnitKnowledge> Predictor::unit_knowledge() const {
+  if (!unit_) return std::nullopt;
+  constexpr std::size_t kEvery = 20;  // a bias is the same over dozens of pixels
+  const UnitBias bare = unit_->with_bare_desks();
+  UnitKnowledge squares;
+  double count = 0.0;
+  for (const std::vector<std::size_t>& group : alike({}, all_conditions())) {
+    const std::vector<SensedPoint>& inside = conditions_[group.front()].nominal->inside;
+    for (std::size_t i = 0; i < inside.size(); i += kEvery, ++count) {
+      const BiasPoint point = bias_point(inside[i].point, model_.laboratory);
+      squares.now_px += std::pow(unit_->sigma(point), 2);
+      squares.with_bare_desks_px += std::pow(bare.sigma(point), 2);
+    }
+  }
+  if (count == 0.0) return std::nullopt;
+  return UnitKnowledge{std::sqrt(squares.now_px / count), std::sqrt(squares.with_bare_desks_px / count)};
+}
+
 Eigen::VectorXd Predictor::predict_from(
     const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));

@@ -50,6 +50,13 @@ class Predictor {
   /// What errors of the unit's bias change: independent patterns of 1 σ, the largest first. None without a unit.
   std::vector<Eigen::VectorXd> unit_errors() const;
 
+  /// 1 σ of what is not known of the unit's bias, mean over what is seen in cups [px]: now, and if every session had
+  /// views of the bare desk. Nothing without a unit.
+  struct UnitKnowledge {
+    double now_px = 0.0, with_bare_desks_px = 0.0;
+  };
+  std::optional<UnitKnowledge> unit_knowledge() const;
+
   /// Some conditions, those together that the change leaves alike: they are predicted once.
   std::vector<std::vector<std::size_t>> alike(const Change& change, const std::vector<std::size_t>& conditions) const;
 

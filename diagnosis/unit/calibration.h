@@ -43,7 +43,7 @@ struct Calibration {
   BiasPrior prior;
   Image<float> bias_px, sigma_px;  ///< at the clouds' pixels, where they show the mean of their desks
   Image<float> reference_px, camera_px;
-  double reference_at_px = 0.0;  ///< see sim/scene/unit_map.h
+  double reference_at_px = 0.0;  ///< see core/unit_map.h
   std::vector<CalibrationPose> poses;
   double without_px = 0.0;  ///< root mean square over the cells, each view's plane apart
   double left_px = 0.0;     ///< the same when each view is predicted from others; of one view: from itself

@@ -5,7 +5,7 @@
 
 #include "core/image.h"
 #include "core/json.h"
-#include "sim/scene/unit_map.h"
+#include "core/unit_map.h"
 
 namespace fathom {
 

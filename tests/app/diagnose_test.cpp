@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -80,6 +81,37 @@ TEST_F(DiagnoseCommand, NamesNothingWhereNothingIsHidden) {
   diagnosis("again", "--threads 1");
   for (const char* file : {"report.json", "report.html", "model.json", "residuals.csv"})
     EXPECT_EQ(read_text(folder / "out" / file), read_text(folder / "again" / file)) << file;
+}
+
+/// A unit whose disparities are off by 0.1 px, smoothly over the image, as every unit's are.
+TEST_F(DiagnoseCommand, LearnsTheUnitBeforeItBlamesThePhysics) {
+  for (const char* model : {"xtion_pro_live_device", "kinect_v1_device"}) {
+    Json spec = kSpec;
+    spec["sensor"] = {{"model", model}, {"height_mm", 650}, {"aim_mm", {0, 300, 0}}, {"unit", {{"serial", 7}}}};
+    spec["effects"] = Json::array();
+    const std::string name = model;
+    write_json(folder / (name + ".json"), spec);
+    ASSERT_EQ(run_fathom("campaign " + path(name + ".json") + " -o " + path(name)).exit_code, 0);
+    ASSERT_EQ(run_fathom("diagnose " + path(name) + " -o " + path(name + "_out")).exit_code, 0);
+    const Json report = read_json(folder / (name + "_out") / "report.json");
+    EXPECT_EQ(report["verdict"], "none") << report["answer"];
+    EXPECT_TRUE(report["effects"].empty());
+  }
+}
+
+TEST_F(DiagnoseCommand, SaysWhatItCostsThatNoViewShowsTheBareDesk) {
+  Json spec = kSpec;
+  spec["distance_mm"] = {250};
+  spec["lateral_mm"] = {0};
+  spec["bare_desk_views"] = 0;
+  write_json(folder / "spec.json", spec);
+  ASSERT_EQ(run_fathom("campaign " + path("spec.json") + " -o " + path("campaign")).exit_code, 0);
+  const auto says_so = [](const Json& notes) {
+    return std::any_of(notes.begin(), notes.end(), [](const Json& note) {
+      return note.get<std::string>().find("No view shows the bare desk") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says_so(diagnosis("out")["notes"]));
 }
 
 TEST_F(DiagnoseCommand, SaysWhatItWasToldNotToLookForAndNothingElse) {

@@ -1,4 +1,4 @@
-#include "sim/scene/unit_map.h"
+#include "core/unit_map.h"
 
 #include <fmt/format.h>
 

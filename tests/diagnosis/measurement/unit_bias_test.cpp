@@ -1,0 +1,122 @@
+// A unit's bias, learned from a campaign's own desks and taken off its clouds.
+#include "diagnosis/measurement/unit_bias.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/rng.h"
+#include "core/units.h"
+
+namespace fathom {
+namespace {
+
+LaboratoryRig rig() {
+  LaboratoryRig rig;
+  rig.height_m = 0.65;
+  rig.pitch_rad = radians_from_deg(58.4);
+  return rig;
+}
+
+/// A bias [px] in the frame of the reference, of the size and reach that units have.
+double bias_px(double column_px, double row_px) {
+  return 0.1 * std::sin(column_px / 75.0 + 0.5) * std::cos(row_px / 75.0);
+}
+
+/// Every second pixel of a desk as such a unit reads it.
+std::vector<SensedPoint> desk(double noise_px, std::uint64_t seed) {
+  const Plane plane = plane_from(DeskPrior{rig().height_m, rig().pitch_rad, rig().roll_rad});
+  const double of_inverse = rig().focal_px * rig().baseline_m;
+  Rng rng(seed);
+  std::vector<SensedPoint> points;
+  for (double row = 0.5; row < kImageHeight_px; row += 2.0)
+    for (double column = 0.5; column < kImageWidth_px; column += 2.0) {
+      const Eigen::Vector3d sight((column - 0.5 * kImageWidth_px) / rig().focal_px,
+                                  (row - 0.5 * kImageHeight_px) / rig().focal_px, 1.0);
+      const double disparity = of_inverse * -plane.normal.dot(sight) / plane.offset;
+      const double nearer = disparity - of_inverse / kReferenceDistance_m;
+      const double read = disparity + bias_px(column - nearer, row) + noise_px * rng.normal();
+      points.push_back({(of_inverse / read * sight).cast<float>(), 100.0f, 4.0f});
+    }
+  return points;
+}
+
+double residual_mm(const FrameEstimates& estimates) {
+  double squares = 0.0;
+  for (const RegionEstimate& third : estimates.desk_residual) squares += third.mean * third.mean / 9.0;
+  return mm_from_metres(std::sqrt(squares));
+}
+
+UnitBias learned(double noise_px) {
+  std::map<int, DeskCells> desks;
+  for (std::uint64_t cloud = 0; cloud < 4; ++cloud) {
+    const std::vector<SensedPoint> points = desk(noise_px, cloud);
+    desks[0].add(points, estimate_frame(points, rig(), {})->desk, rig(), {});
+  }
+  return UnitBias(desks);
+}
+
+TEST(UnitBias, LearnedFromDesksFlattensThem) {
+  const UnitBias unit = learned(0.1);
+  std::vector<SensedPoint> points = desk(0.1, 99);
+  const double before = residual_mm(*estimate_frame(points, rig(), {}));
+  take_off(as_bias(unit.field()), rig(), points);
+  const double after = residual_mm(*estimate_frame(points, rig(), {}));
+  EXPECT_GT(before, 0.2);
+  EXPECT_LT(after, 0.1 * before);
+}
+
+TEST(UnitBias, LeavesWhatTheDeviceGaveKnown) {
+  std::vector<SensedPoint> points = desk(0.0, 1);
+  const std::vector<SensedPoint> given = points;
+  take_off(as_bias(learned(0.0).field()), rig(), points);
+  for (std::size_t i = 0; i < points.size(); i += 1000) {
+    EXPECT_EQ(points[i].device_z, given[i].point.z());
+    // Along the same line of sight.
+    EXPECT_NEAR(points[i].point.x() / points[i].point.z(), given[i].point.x() / given[i].point.z(), 1e-6);
+  }
+}
+
+TEST(UnitBias, WhatIsLearnedFromAModelIsLinear) {
+  const UnitBias unit = learned(0.05);
+  const auto error_at = [](double factor) {
+    return [factor](const BiasCell& cell) -> std::optional<double> {
+      return factor * bias_px(cell.column_px, cell.row_px);
+    };
+  };
+  const BiasPoint middle{.pixel_px = {330.0, 250.0}, .nearer_px = 20.0};
+  const double once = unit.learn({{0, error_at(1.0)}}).at(middle), twice = unit.learn({{0, error_at(2.0)}}).at(middle);
+  EXPECT_NE(once, 0.0);
+  EXPECT_NEAR(twice, 2.0 * once, 1e-6);
+}
+
+TEST(UnitBias, WhereNoDeskWasSeenItsErrorIsLargerThanWhereItWas) {
+  std::map<int, DeskCells> desks;
+  std::vector<SensedPoint> points = desk(0.1, 5);
+  std::erase_if(points, [](const SensedPoint& p) {
+    const Eigen::Vector2d pixel = bias_point(p.point, rig()).pixel_px;
+    return (pixel - Eigen::Vector2d(320.0, 240.0)).norm() < 120.0;
+  });
+  desks[0].add(points, estimate_frame(points, rig(), {})->desk, rig(), {});
+  const UnitBias unit(desks);
+  const double hidden = unit.sigma({.pixel_px = {320.0, 240.0}, .nearer_px = 0.0}),
+               seen = unit.sigma({.pixel_px = {500.0, 100.0}, .nearer_px = 0.0});
+  EXPECT_GT(hidden, 3.0 * seen);
+  EXPECT_LT(hidden, 0.15);  // no more than was thought beforehand
+}
+
+TEST(UnitBias, ItsPlanesTurnTheDeskAsFarAsAFieldOfThatReachDoes) {
+  // A field of 0.1 px over 70 px holds some ten independent parts: its mean is uncertain by about 0.03 px.
+  const std::vector<Bias> modes = learned(0.1).error_modes(0, {});
+  ASSERT_EQ(modes.size(), 3U);
+  double variance = 0.0;
+  for (const Bias& mode : modes) {
+    const double in_the_middle = mode({.pixel_px = {320.0, 240.0}, .nearer_px = 0.0});
+    variance += in_the_middle * in_the_middle;
+  }
+  EXPECT_NEAR(std::sqrt(variance), 0.03, 0.015);
+}
+
+}  // namespace
+}  // namespace fathom

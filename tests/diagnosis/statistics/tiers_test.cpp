@@ -1,0 +1,87 @@
+// What only names raises no alarm; what differs by more than is stated does.
+#include "diagnosis/statistics/tiers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/statistics/decide.h"
+#include "tests/diagnosis/statistics/small_campaign.h"
+
+namespace fathom {
+namespace {
+
+/// The campaign's infrared brightness, off by so much everywhere, helps to name and no more.
+Evidence with_odd_brightness(const World& world, bool only_names, std::uint64_t seed) {
+  Evidence evidence = world.measure({}, {}, seed);
+  for (Observation& o : evidence.observations) {
+    const bool is_deciding = o.observable.ends_with("_mm") || o.observable.ends_with("_deg");
+    if (is_deciding) continue;
+    o.value += (o.factors.distance_mm < 300.0 ? 1.0 : -1.0) * (o.factors.fill_mm < 20.0 ? 1.0 : -0.5);
+    o.only_names = only_names;
+  }
+  return evidence;
+}
+
+TEST(Tiers, WhatOnlyNamesRaisesNoAlarmAndIsListed) {
+  const World world(small_design());
+  const Diagnosis as_gap = decide(with_odd_brightness(world, false, 3), world.predict());
+  ASSERT_NE(as_gap.verdict, Verdict::none);  // it is a gap where it decides
+  const Diagnosis diagnosis = decide(with_odd_brightness(world, true, 3), world.predict());
+  EXPECT_EQ(diagnosis.verdict, Verdict::none);
+  EXPECT_FALSE(diagnosis.beside.empty());
+  EXPECT_EQ(diagnosis.before.size(), world.nominal().observations.size());
+}
+
+TEST(Tiers, WhatOnlyNamesDoesNotHideWhatHeightsShow) {
+  const World world(small_design());
+  Evidence evidence = world.measure({world.at_strength("subsurface_scattering", 20.0, 1.0)}, {}, 5);
+  const Evidence odd = with_odd_brightness(world, true, 5), plain = world.measure({}, {}, 5);
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    evidence.observations[i].only_names = odd.observations[i].only_names;
+    evidence.observations[i].value += odd.observations[i].value - plain.observations[i].value;
+  }
+  const Diagnosis diagnosis = decide(evidence, world.predict());
+  EXPECT_NE(diagnosis.verdict, Verdict::none);
+  EXPECT_TRUE(std::any_of(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), [](const Explanation& e) {
+    return std::find(e.effects.begin(), e.effects.end(), "subsurface_scattering") != e.effects.end();
+  }));
+}
+
+Evidence with_session_off(const World& world, double by_mm, double stated_mm, std::uint64_t seed) {
+  Evidence evidence = world.measure({}, {}, seed);
+  evidence.session.mm = stated_mm;
+  for (Observation& o : evidence.observations)
+    if (o.observable == "height_mm" && o.factors.session == 1) o.value += by_mm;
+  return evidence;
+}
+
+TEST(Excess, ASessionThatReadsHigherIsAFindingWithItsSize) {
+  const World world(small_design());
+  const Diagnosis diagnosis = decide(with_session_off(world, 1.9, 0.1, 4), world.predict());
+  EXPECT_TRUE(diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown);
+  ASSERT_FALSE(diagnosis.excess.empty());
+  const Excess& excess = diagnosis.excess.front();
+  EXPECT_EQ(excess.level, "session");
+  EXPECT_EQ(excess.group, "1");
+  EXPECT_EQ(excess.observable, "height_mm");
+  EXPECT_NEAR(excess.size, 1.9, 4.0 * excess.sigma);
+  EXPECT_GT(excess.size, 5.0 * excess.sigma);
+}
+
+TEST(Excess, ASessionThatMayDifferAsMuchIsNone) {
+  const World world(small_design());
+  EXPECT_TRUE(decide(with_session_off(world, 1.9, 3.0, 4), world.predict()).excess.empty());
+}
+
+TEST(Excess, SessionsThatAreAlikeRaiseNoAlarm) {
+  const World world(small_design());
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    alarms += decide(with_session_off(world, 0.0, 0.1, seed), world.predict()).verdict != Verdict::none;
+  // At a rate of 1 %, two or more of 20 come once in 60 times.
+  EXPECT_LE(alarms, 1);
+}
+
+}  // namespace
+}  // namespace fathom
