@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kPhases = 16;
 constexpr double kOnLaw = 0.98;
+constexpr double kTooOften = 0.9;   ///< steps hardly wider than what depths are cut to say nothing
 constexpr double kWhole_mm = 0.01;  ///< what floats and drivers round
 
 /// Depths [mm] of some thousand points, evenly.
@@ -81,7 +82,7 @@ DepthFacts depth_facts(std::span<const Points> clouds, std::span<const double> f
       by_chance = std::min(1.0, std::max(facts.cut_mm, 4.0 * kWhole_mm) / mean_step);
       codes = std::move(found);
     }
-  if (facts.on_law < kOnLaw || by_chance > 0.8) {
+  if (facts.on_law < kOnLaw || by_chance > kTooOften) {
     facts.phase = 0.0;
     return facts;
   }
