@@ -327,14 +327,17 @@ std::string parameter_words(const NamedParameter& parameter) {
 std::vector<std::string> beside_sentences(const Diagnosis& diagnosis) {
   std::vector<std::string> names;
   for (const GapLocation& where : diagnosis.beside) {
-    std::string name(observable_words(where.observable).name);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    const std::string name = fmt::format("the {}", observable_words(where.observable).name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  std::vector<std::string> sentences;
-  for (const std::string& name : names)
-    sentences.push_back(fmt::format(
-        "The {} is not as the model has it. By itself this is no gap: heights and the cup's shape decide.", name));
-  return sentences;
+  if (names.empty() && diagnosis.beside_effects.empty()) return {};
+  std::string text = names.empty() ? "Something besides heights and shapes departs from the model"
+                                   : fmt::format("Not as the model has it: {}", joined(names, "and"));
+  text += ". By itself that is no gap: heights and shapes decide.";
+  if (!diagnosis.beside_effects.empty())
+    text +=
+        fmt::format(" It may be {}{}.", effects_words(diagnosis.beside_effects), anew_words(diagnosis.beside_lacks));
+  return {text};
 }
 
 std::string answer(const Diagnosis& diagnosis) {

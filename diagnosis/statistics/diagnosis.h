@@ -121,8 +121,10 @@ struct Diagnosis {
   std::vector<Mistake> mistakes;      ///< of the laboratory, put right before all else
   double p_gap = 1.0;                 ///< that there is none
   std::vector<GapLocation> where;
-  std::vector<GapLocation> beside;  ///< departures of what only names; they are no gap by themselves
-  std::vector<Excess> excess;       ///< largest first, in errors
+  std::vector<GapLocation> beside;          ///< departures of what only names; they are no gap by themselves
+  std::vector<std::string> beside_effects;  ///< that would explain these, if any would
+  Anew beside_lacks = Anew::nothing;        ///< for tests of that
+  std::vector<Excess> excess;               ///< largest first, in errors
   std::vector<NamedEffect> effects;
   std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
   Anew lacks_anew = Anew::nothing;         ///< if ambiguous: for tests of the first explanation

@@ -137,7 +137,8 @@ TEST_F(DiagnoseCommand, SpeaksOfNoHeightsInCupsWhoseWallsHideWhatIsInThem) {
   EXPECT_EQ(read_text(folder / "out" / "report.html").find("heights in the cup"), std::string::npos);
 }
 
-TEST_F(DiagnoseCommand, FindsASensorThatIsTurned) { expect_found("sensor_roll", "roll_deg", 0.8); }
+// The plane that a unit's bias may hold turns the desk by up to 0.2°, so a smaller turn is not known to a quarter.
+TEST_F(DiagnoseCommand, FindsASensorThatIsTurned) { expect_found("sensor_roll", "roll_deg", 1.2); }
 
 TEST_F(DiagnoseCommand, FindsCupsThatHoldMore) { expect_found("fill_scale", "scale", 0.15); }
 
@@ -182,6 +183,7 @@ TEST_F(DiagnoseCommand, SaysWhichMeasurementTellsTwinsApartAndThatOneDoes) {
   EXPECT_FALSE(is_in_set(after, "fill_offset") || is_in_set(after, "foam")) << after["ambiguity_set"];
 }
 
+/// Combs alone are no gap; what they may be, and what would confirm it, stands in a note.
 TEST_F(DiagnoseCommand, WhatIsSeenOnceASessionIsConfirmedByTheSessionsItAsksFor) {
   Json spec = kSpec;
   spec["pours"] = 2;
@@ -193,8 +195,10 @@ TEST_F(DiagnoseCommand, WhatIsSeenOnceASessionIsConfirmedByTheSessionsItAsksFor)
     ASSERT_EQ(run_fathom("campaign " + path("spec.json") + " -o " + path("campaign")).exit_code, 0);
     const Json report = diagnosis("out");
     const std::string answer = report["answer"];
-    EXPECT_EQ(report["verdict"], sessions == 1 ? "ambiguous" : "named") << answer;
-    EXPECT_EQ(answer.find("two more sessions") != std::string::npos, sessions == 1) << answer;
+    EXPECT_EQ(report["verdict"], sessions == 1 ? "none" : "named") << answer;
+    const std::string notes = report["notes"].dump();
+    EXPECT_EQ(notes.find("depth quantization") != std::string::npos, sessions == 1) << notes;
+    EXPECT_EQ(notes.find("two more sessions") != std::string::npos, sessions == 1) << notes;
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/units.h"
+
 #include "tests/core/expect_error.h"
 
 namespace fathom {
@@ -29,7 +31,7 @@ TEST(CupProfile, RadiiAreThoseAtTheHeightThatIsLookedAt) {
 TEST(CupProfile, OfFourLengthsIsStraight) {
   const CupProfile cup = read(R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43})");
   EXPECT_TRUE(cup.is_straight());
-  EXPECT_EQ(cup, straight_cup(0.087, 0.007, 0.040, 0.043));
+  EXPECT_EQ(cup, straight_cup(metres_from_mm(87), metres_from_mm(7), metres_from_mm(40), metres_from_mm(43)));
   for (const double height : {0.0, 0.007, 0.050, 0.087}) EXPECT_DOUBLE_EQ(cup.inner_radius(height), 0.040);
 }
 
