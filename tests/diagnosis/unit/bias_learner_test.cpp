@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
 #include "core/rng.h"
@@ -231,19 +230,6 @@ TEST(BiasLearner, DesksThatLieAlikeAreOfOneState) {
   EXPECT_EQ(views[0].state, 0);
   EXPECT_EQ(views[1].state, 1);
   EXPECT_EQ(views[2].state, 0);
-}
-
-TEST(BiasLearner, AHundredViewsTakeASecond) {
-  const Drawn drawn(1);
-  std::vector<BiasView> views;
-  for (std::uint64_t i = 0; i < 100; ++i)
-    views.push_back(view_of({.nearer = 5.0 + 0.3 * static_cast<double>(i)}, drawn, i));
-  const std::clock_t start = std::clock();
-  const BiasLearner learner(views, default_bias_prior());
-  const double field = learner.learn().at({{320.0, 240.0}, 20.0});
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  EXPECT_NE(field, 0.0);
-  EXPECT_LT(seconds, 2.0);
 }
 
 }  // namespace
