@@ -7,6 +7,7 @@
 
 #include "app/nominal_rig.h"
 #include "core/error.h"
+#include "core/table.h"
 #include "core/units.h"
 #include "sim/scene/medium_json.h"
 
@@ -18,7 +19,8 @@ std::map<std::string, Medium> media_from_json(const JsonReader& json, double wav
   std::map<std::string, Medium> media;
   for (const auto& [name, medium] : json.value().items()) {
     if (name == "empty" || name == "none") json.fail_at(name, "is a reserved name and no liquid");
-    if (name.find_first_of(",\"\n") != std::string::npos) json.fail_at(name, "must be a name without , and \"");
+    if (!fits_in_cell(name))
+      json.fail_at(name, "must be a name that frames.csv can hold: no line break, no NUL, no blank at its ends");
     media[name] = medium_from_json(json.at(name));
     media[name].name = name;  // effects of a liquid go by its label
     require_index(json.at(name), media[name], wavelength_nm);

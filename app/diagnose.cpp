@@ -18,6 +18,7 @@
 #include "app/remove_diagnosis.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
+#include "core/input_policy.h"
 #include "core/json_text.h"
 #include "core/units.h"
 #include "core/visible_text.h"
@@ -91,6 +92,15 @@ void add_inverses(const Diagnosis& diagnosis, Json& report) {
           {"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
 }
 
+/// A diagnosis holds some sixteen matrices of all observations at once: what a table of 1 MB makes of itself.
+void require_room(const Measurement& measurement, const fs::path& folder) {
+  constexpr std::uint64_t kMatrices = 16;  // from the peaks of 1,000 to 2,500 observations
+  const std::uint64_t observations = measurement.observations.size();
+  require_within_limit((folder / "frames.csv").string(), "",
+                       bytes_of({kMatrices, sizeof(double), observations, observations}),
+                       fmt::format("covariances between {} observations", observations));
+}
+
 bool has_heights(const std::vector<Observation>& observations) {
   return std::any_of(observations.begin(), observations.end(),
                      [](const Observation& o) { return o.observable == "height_mm"; });
@@ -158,6 +168,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Measurement measurement = read_measurements(options.folders, common.quiet);
+  require_room(measurement, options.folders.front());
   const std::string rig_file = (options.folders.front() / "rig.json").string();
   put_bookkeeping_right(had, rig_file, measurement);
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);

@@ -15,6 +15,7 @@
 #include "app/gnuplot.h"
 #include "app/labelled_clouds.h"
 #include "app/liquid_rates.h"
+#include "app/print.h"
 #include "app/results.h"
 #include "app/share_rows.h"
 #include "core/files.h"
@@ -126,7 +127,9 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
     write_failure_gallery(common.output, trials);
     if (own_templates) keep_templates(common.output, evaluation);
   }
-  print_results(common, "rates", ".txt", format_rows(rates(evaluation, trials), common.json));
+  const std::string text = format_rows(rates(evaluation, trials), common.json);
+  print_text(text);
+  write_results(common, "rates", ".txt", text);
 }
 
 void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
@@ -142,7 +145,9 @@ void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
     remove_results(common, "evaluation", ".txt");
     write_table(common.output / "containers.csv", containers_table(result));
   }
-  print_results(common, "evaluation", ".txt", format_rows(summary(result), common.json));
+  const std::string text = format_rows(summary(result), common.json);
+  print_text(text);
+  write_results(common, "evaluation", ".txt", text);
 }
 
 void run_evaluate(const EvaluateOptions& options, const CommonOptions& common) {

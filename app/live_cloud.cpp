@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "core/error.h"
@@ -34,6 +35,12 @@ double metres_per_unit(openni::PixelFormat format, const std::string& device) {
   if (format == openni::PIXEL_FORMAT_DEPTH_1_MM) return kMetresPerMm;
   if (format == openni::PIXEL_FORMAT_DEPTH_100_UM) return 0.1 * kMetresPerMm;
   throw Error(device, "gives depth in another format than 1 mm or 100 µm");
+}
+
+/// A URI may be a path. OpenNI2 asks all its drivers, and one of them would wait for a pipe's writer.
+void require_no_special_file(const std::string& uri) {
+  std::error_code none;
+  if (std::filesystem::is_other(uri, none)) throw Error(uri, "is no regular file (a pipe, a socket or a device)");
 }
 
 /// Waits for a frame. A device that has failed keeps silent until it is asked for something, so it is asked.
@@ -67,7 +74,9 @@ struct LiveCamera::Session {
   openni::VideoStream stream;
 };
 
-LiveCamera::LiveCamera(const std::string& uri) : uri_(uri), session_(std::make_unique<Session>()) {
+LiveCamera::LiveCamera(const std::string& uri) : uri_(uri) {
+  require_no_special_file(uri_);
+  session_ = std::make_unique<Session>();
   if (uri_.empty()) {
     openni::Array<openni::DeviceInfo> devices;
     openni::OpenNI::enumerateDevices(&devices);

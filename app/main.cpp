@@ -47,9 +47,8 @@ void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
   app.add_flag("--json", common.json, "Results as JSON on stdout");
-  app.add_option("--max-input-mb", common.max_input_mb, "Memory that one file which is read may claim")
+  app.add_option("--max-input-mb", common.max_input_mb, "Memory that one file which is read may claim, in megabytes")
       ->check(CLI::Range(1, 1'000'000))
-      ->type_name("MB")
       ->capture_default_str();
   app.add_flag("--allow-outside", common.allow_outside, "Files that are read may name others outside their folder");
 }

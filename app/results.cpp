@@ -4,13 +4,20 @@
 
 #include "app/print.h"
 #include "core/files.h"
+#include "core/folder_owner.h"
 
 namespace fathom {
 
 void keep_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                   const std::string& text) {
   if (common.output.empty()) return;
-  make_directory(common.output);
+  const FolderOwner owner(common.output);
+  write_results(common, name, extension, text);
+}
+
+void write_results(const CommonOptions& common, const std::string& name, const std::string& extension,
+                   const std::string& text) {
+  if (common.output.empty()) return;
   write_text(common.output / (name + (common.json ? ".json" : extension)), text);
 }
 

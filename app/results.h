@@ -9,9 +9,14 @@
 
 namespace fathom {
 
-/// DIR/NAME.json with --json, else DIR/NAME and `extension`. Does nothing without -o.
+/// DIR/NAME.json with --json, else DIR/NAME and `extension`. Does nothing without -o. Throws Error where another
+/// process owns the folder.
 void keep_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                   const std::string& text);
+
+/// The same for the folder's owner (core/folder_owner.h).
+void write_results(const CommonOptions& common, const std::string& name, const std::string& extension,
+                   const std::string& text);
 
 /// Removes DIR/NAME.json and DIR/NAME with `extension`, where they say that the files beside them are complete.
 void remove_results(const CommonOptions& common, const std::string& name, const std::string& extension);

@@ -11,7 +11,7 @@ namespace fathom {
 /// Something outside the program is wrong. what() is one line: "FILE: WHERE: what is wrong, what is allowed".
 class Error : public std::runtime_error {
  public:
-  explicit Error(const std::string& message) : std::runtime_error(message) {}
+  explicit Error(const std::string& message);
   Error(std::string_view file, std::string_view what);
   Error(std::string_view file, std::string_view where, std::string_view what);
 };

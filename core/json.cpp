@@ -112,9 +112,11 @@ std::size_t JsonReader::choice(std::span<const std::string> choices, std::string
 }
 
 Json read_json(const std::filesystem::path& path) {
-  constexpr std::size_t kBytesPerValue = 100;  // of objects' members, with the keys that are kept to find doubles
+  // Of objects' members, with the keys that are kept to find doubles; of a string the text, what the parser gathers,
+  // which grows by doubling, and the value.
+  constexpr JsonMemory kMemory{.per_value = 100, .per_byte = 4};
   const std::string text = read_text(path);
-  require_modest_json(text, path.string(), kBytesPerValue);
+  require_modest_json(text, path.string(), kMemory);
   std::vector<std::set<std::string>> keys;  // of the objects that are open
   const auto check_event = [&](int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/hash.h"
+#include "core/modest_json.h"
 
 namespace fathom {
 namespace {
@@ -50,11 +51,25 @@ std::optional<std::string> difference_between(const Json& was, const Json& is, c
   return "it had other options or files";
 }
 
-/// A file's line, or nothing for a line that is cut short or damaged.
-std::optional<std::pair<std::string, Json>> file_in(const std::string& line) {
-  const Json json = Json::parse(line, nullptr, false);
-  if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return std::nullopt;
-  return std::pair(json["file"].get<std::string>(), json);
+/// What a line holds; no value where it is cut short or damaged, or nested deeper than what writes JSON can follow.
+Json parsed(const std::string& line, const std::string& file) {
+  constexpr JsonMemory kMemory{.per_value = 100, .per_byte = 4};  // as of other JSON
+  try {
+    require_modest_json(line, file, kMemory);
+  } catch (const Error&) {
+    return Json(Json::value_t::discarded);
+  }
+  return Json::parse(line, nullptr, false);
+}
+
+/// A file's line as add() writes it, or nothing.
+std::optional<std::pair<std::string, Json>> file_in(const std::string& line, const std::string& manifest) {
+  const Json json = parsed(line, manifest);
+  if (!json.is_object() || json.size() != 3) return std::nullopt;
+  const auto name = json.find("file"), bytes = json.find("bytes"), sha256 = json.find("sha256");
+  if (name == json.end() || bytes == json.end() || sha256 == json.end()) return std::nullopt;
+  if (!name->is_string() || !bytes->is_number_unsigned() || !sha256->is_string()) return std::nullopt;
+  return std::pair(name->get<std::string>(), json);
 }
 
 }  // namespace
@@ -66,10 +81,11 @@ Manifest::Manifest(fs::path folder, const RunIdentity& identity)
   std::istringstream lines(read_text(path_));
   std::string line;
   std::getline(lines, line);
-  difference_ = difference_between(Json::parse(line, nullptr, false), identity_, identity);
+  difference_ = difference_between(parsed(line, path_.string()), identity_, identity);
   if (difference_) return;
   while (std::getline(lines, line))
-    if (auto file = file_in(line)) files_.insert_or_assign(std::move(file->first), std::move(file->second));
+    if (auto file = file_in(line, path_.string()))
+      files_.insert_or_assign(std::move(file->first), std::move(file->second));
 }
 
 void Manifest::require_same_run() const {

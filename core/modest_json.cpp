@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-void require_modest_json(std::string_view text, const std::string& file, std::size_t bytes_per_value) {
+void require_modest_json(std::string_view text, const std::string& file, JsonMemory memory) {
   constexpr int kDeepest = 100;
   std::uint64_t values = 1;
   int depth = 0;
@@ -33,7 +33,8 @@ void require_modest_json(std::string_view text, const std::string& file, std::si
       default:
         break;
     }
-  require_within_limit(file, "", bytes_of({values, bytes_per_value}), "values");
+  require_within_limit(file, "", bytes_of({values, memory.per_value}) + bytes_of({text.size(), memory.per_byte}),
+                       "values");
 }
 
 }  // namespace fathom

@@ -19,6 +19,14 @@ std::string trimmed(const std::string& cell) {
   return first == std::string::npos ? std::string() : cell.substr(first, cell.find_last_not_of(kBlanks) - first + 1);
 }
 
+/// What a table takes of memory beside its file: a line and a cell of it, and the text of a cell that is long.
+std::uint64_t claimed_bytes(std::string_view text, std::uint64_t cells) {
+  constexpr std::uint64_t kLine = 128, kCell = sizeof(std::string) + 16;
+  const auto ends_line = [](char c) { return c == '\n' || c == '\r'; };
+  const auto lines = static_cast<std::uint64_t>(std::count_if(text.begin(), text.end(), ends_line));
+  return bytes_of({text.size(), 2}) + bytes_of({lines, kLine}) + bytes_of({cells, kCell});
+}
+
 /// Takes the first line off, whichever of "\n", "\r\n" and "\r" ends it.
 std::string_view take_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
@@ -55,7 +63,7 @@ std::vector<std::string> split_line(std::string_view line, char separator, std::
 }
 
 std::string quoted_if_needed(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
   std::string result = "\"";
   for (const char c : cell) {
     if (c == '"') result += '"';
@@ -148,10 +156,16 @@ Table read_table(const std::filesystem::path& path) {
   const char separator = separator_of(header);
   const auto ends_cell = [&](char c) { return c == separator || c == '\n' || c == '\r'; };
   const auto most_cells = static_cast<std::uint64_t>(std::count_if(text.begin(), text.end(), ends_cell));
-  require_within_limit(file, "", bytes_of({most_cells, sizeof(std::string)}), "cells");
+  require_within_limit(file, "", claimed_bytes(text, most_cells), "cells");
+  const auto require_short = [&](std::string_view line, std::size_t number) {
+    constexpr std::size_t kLongest = 1'000'000;  // a thousand columns of a thousand letters
+    if (line.size() > kLongest)
+      throw Error(file, fmt::format("line {}", number), fmt::format("is longer than {} bytes", kLongest));
+  };
   constexpr std::ptrdiff_t kMostColumns = 1000;
   if (std::count(header.begin(), header.end(), separator) >= kMostColumns)
     throw Error(file, "line 1", fmt::format("has more than {} columns", kMostColumns));
+  require_short(header, 1);
   Table table(split_line(header, separator, file, 1), file);
   for (auto column = table.columns().begin(); column != table.columns().end(); ++column)
     if (!column->empty() && std::find(std::next(column), table.columns().end(), *column) != table.columns().end())
@@ -160,6 +174,7 @@ Table read_table(const std::filesystem::path& path) {
   for (std::size_t number = 2; text.data() < end; ++number) {
     const std::string_view line = take_line(text);
     if (line.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    require_short(line, number);
     std::vector<std::string> cells = split_line(line, separator, file, number);
     while (cells.size() > table.columns().size() && cells.back().empty()) cells.pop_back();
     if (cells.size() != table.columns().size())
@@ -168,6 +183,11 @@ Table read_table(const std::filesystem::path& path) {
     table.add(std::move(cells), number);
   }
   return table;
+}
+
+bool fits_in_cell(std::string_view text) {
+  constexpr std::string_view kBreaks("\n\r\0", 3);
+  return text.find_first_of(kBreaks) == std::string_view::npos && trimmed(std::string(text)) == text;
 }
 
 void write_table(const std::filesystem::path& path, const Table& table) { write_text(path, table.csv()); }

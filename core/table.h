@@ -53,6 +53,10 @@ class Table {
 /// Empty cells beyond the header's and blank lines do not count. Throws Error on a missing header, double
 /// columns, ragged lines and what is no text.
 Table read_table(const std::filesystem::path& path);
+
+/// Whether a cell with this text is read as it was written: without line breaks, NUL, and blanks at its ends.
+bool fits_in_cell(std::string_view text);
+
 void write_table(const std::filesystem::path& path, const Table& table);
 
 }  // namespace fathom

@@ -11,7 +11,9 @@
 namespace fathom {
 
 std::optional<Words> HeaderLines::next() {
+  constexpr std::uint64_t kMost = 10'000;  // a line takes microseconds, and a file may hold millions of comments
   if (rest.empty()) return std::nullopt;
+  if (line > kMost) throw Error(file, "header", fmt::format("has more than {} lines", kMost));
   const std::size_t end = std::min(rest.find('\n'), rest.size());
   std::istringstream words_in_line{std::string(rest.substr(0, std::min<std::size_t>(end, 4096)))};
   rest.remove_prefix(std::min(end + 1, rest.size()));

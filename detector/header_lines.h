@@ -13,10 +13,11 @@ using Words = std::vector<std::string>;
 
 /// Takes header lines off the front of a file's content.
 struct HeaderLines {
+  const std::string& file;
   std::string_view rest;
   std::uint64_t line = 1;  ///< number of the next one
 
-  /// Its words; nothing at the file's end.
+  /// Its words; nothing at the file's end. Throws Error where there are more lines than a header has.
   std::optional<Words> next();
 };
 

@@ -13,9 +13,22 @@
 #include "detector/header_lines.h"
 
 namespace fathom {
+namespace {
+
+/// What there is at once while the points are read: the file, what PCL makes of it, and then the cloud.
+std::uint64_t claimed_bytes(const std::string& encoding, std::uint64_t file_bytes, std::uint64_t points,
+                            std::uint64_t point_bytes) {
+  constexpr std::uint64_t kCloud = 4 * sizeof(float);  // of a point and its intensity
+  constexpr std::uint64_t kTexts = 3;                  // PCL reads text from a stream, which is made of a copy
+  const std::uint64_t unpacked = encoding == "binary_compressed" ? point_bytes : 0;  // gone before there is a cloud
+  return bytes_of({file_bytes, encoding == "ascii" ? kTexts : 1}) +
+         bytes_of({points, point_bytes + std::max(kCloud, unpacked)});
+}
+
+}  // namespace
 
 PcdHeader check_pcd(const std::string& file, std::string_view content) {
-  HeaderLines lines{content};
+  HeaderLines lines{file, content};
   static constexpr std::string_view kKeys[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
   std::map<std::string, Words> entries;
@@ -58,10 +71,8 @@ PcdHeader check_pcd(const std::string& file, std::string_view content) {
   if (width * height != points)
     throw Error(file, "header", fmt::format("says {} x {} but {} points", width, height, points));
 
-  constexpr std::uint64_t kBytes = 4 * sizeof(float);  // of a point and its intensity, beside what PCL has of it
-  require_within_limit(file, "header", bytes_of({points, point_bytes + kBytes}), "points");
-
   const std::string& encoding = entries["DATA"][0];
+  require_within_limit(file, "header", claimed_bytes(encoding, content.size(), points, point_bytes), "points");
   if (encoding == "ascii") {
     need_body(file, lines.rest.size() + 1, 2 * points * point_values);  // a digit and a separator each
     check_text_points(file, {lines.rest, lines.line, points, point_values});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 #include "core/input_policy.h"
@@ -26,7 +27,8 @@ std::optional<PlyType> type_named(const std::string& name) {
 
 class Parser {
  public:
-  Parser(const std::string& file, std::string_view content) : file_(file), lines_{content} {}
+  Parser(const std::string& file, std::string_view content)
+      : file_(file), file_bytes_(content.size()), lines_{file, content} {}
 
   PlyHeader parse() {
     lines_.next();  // "ply"
@@ -108,14 +110,16 @@ class Parser {
     for (const PlyElement& element : header_.elements) needed += element.count * element.least_size(header_.encoding);
     const bool text = header_.encoding == PlyEncoding::text;  // whose last line needs no end
     need_body(file_, header_.body.size() + (text ? 1 : 0), needed);
-    constexpr std::uint64_t kBytes = 4 * sizeof(float);  // of a point and its intensity
-    std::uint64_t points = vertex->count;
+    constexpr std::uint64_t kPoint = 4 * sizeof(float);                       // with its intensity
+    constexpr std::uint64_t kPlace = sizeof(std::optional<double>) + kPoint;  // of a grid
+    std::uint64_t claimed = file_bytes_ + bytes_of({vertex->count, kPoint});
     for (const PlyElement& element : header_.elements)
-      if (element.name == "range_grid") points += element.count;
-    require_within_limit(file_, "header", bytes_of({points, kBytes}), "points");
+      if (element.name == "range_grid") claimed += bytes_of({element.count, kPlace});
+    require_within_limit(file_, "header", claimed, "points");
   }
 
   const std::string& file_;
+  std::uint64_t file_bytes_;
   HeaderLines lines_;
   PlyHeader header_;
   bool has_format_ = false;

@@ -327,11 +327,12 @@ struct Buffers {
 };
 
 void load(const std::filesystem::path& path, tinygltf::Model& model) {
-  constexpr std::size_t kBytesPerValue = 1000;  // of tinygltf's materials, the largest of what an empty {} becomes
+  // Of tinygltf's materials, the largest of what an empty {} becomes. It keeps its JSON beside what it makes of it.
+  constexpr JsonMemory kMemory{.per_value = 1000, .per_byte = 6};
   const std::string content = read_text(path), file = path.string();
   const bool binary = path.extension() == ".glb";
   const std::string_view text = json_of(content, binary);
-  require_modest_json(text, file, kBytesPerValue);
+  require_modest_json(text, file, kMemory);
   require_known_extensions(text, file);
   if (content.size() > std::numeric_limits<unsigned int>::max()) throw Error(file, "is larger than 4 GB");
   const auto size = static_cast<unsigned int>(content.size());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <set>
 
 #include "core/error.h"
 #include "core/json.h"
@@ -42,6 +43,7 @@ std::string decoded(const std::string& uri) {
 std::vector<std::string> gltf_buffers(const std::filesystem::path& gltf, const std::string& content) {
   const Json json = Json::parse(json_text(content), nullptr, false);
   std::vector<std::string> names;
+  std::set<std::string> known;  // a file that thousands of buffers name is copied once
   if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return names;
   for (std::size_t i = 0; i < json["buffers"].size(); ++i) {
     const Json& buffer = json["buffers"][i];
@@ -53,7 +55,7 @@ std::vector<std::string> gltf_buffers(const std::filesystem::path& gltf, const s
     if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end())
       throw Error(gltf.string(), fmt::format("/buffers/{}/uri", i),
                   "lies outside the file's folder; a capture keeps copies of what is below it only");
-    names.push_back(name.string());
+    if (known.insert(name.string()).second) names.push_back(name.string());
   }
   return names;
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr Range kFocalPx{1.0, 1e6}, kPrincipalPx{-1e6, 1e6};
 
-constexpr std::uint64_t kBytesPerPosition = 16;  // of a pattern: its brightness, sharp and blurred
+constexpr std::uint64_t kBytesPerPosition = 28;  // of a pattern: the image, and of its dots what shooting takes
 
 /// A grey PNG, a pixel for each position of the grid; relative to the file that names it.
 void read_pattern_image(const JsonReader& json, PatternModel& pattern) {

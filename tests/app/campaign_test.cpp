@@ -273,6 +273,26 @@ TEST_F(CampaignCommand, ItsSchemaHasTheKeysOfItsReader) {
   EXPECT_EQ(error, "/no_such_key: unknown key 'no_such_key', choose from " + keys + "\n");
 }
 
+TEST_F(CampaignCommand, ALiquidIsCalledWhateverMeasureReadsBack) {
+  Json spec = kSpec;
+  spec["distance_mm"] = {300};
+  spec["trials"] = 1;
+  const auto named = [&](const std::string& name) {
+    spec["liquids"] = {{name, "water"}};
+    spec["fillings"] = {{{"liquid", name}, {"fill_mm", 30}}};
+    return spec;
+  };
+  ASSERT_EQ(campaign(named("tea, \"iced\""), "out").exit_code, 0);
+  EXPECT_EQ(run_fathom("measure " + (folder / "out").string()).exit_code, 0);
+  EXPECT_EQ(read_table(folder / "out" / "heights.csv").text(0, "liquid"), "tea, \"iced\"");
+  for (const std::string& name : {std::string(" water"), std::string("water\t"), std::string("a\rb"),
+                                  std::string("a\nb"), std::string("a\0b", 3)})
+    EXPECT_NE(error_of(named(name))
+                  .find("must be a name that frames.csv can hold: no line break, no NUL, no blank at its ends\n"),
+              std::string::npos)
+        << name;
+}
+
 TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   const auto with = [](const std::string& pointer, const Json& value) {
     Json spec = kSpec;

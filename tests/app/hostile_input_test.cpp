@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "core/files.h"
+#include "core/folder_owner.h"
 #include "core/json.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/temporary_folder.h"
@@ -65,8 +67,9 @@ TEST(HostileFiles, APipeIsNoScene) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "rig.json").c_str(), 0600), 0);
   write_text(folder / "frames.csv", "frame\n");
-  for (const char* arguments : {"diagnose {0} -o {0}/out", "measure {0}", "capture {0}/rig.json -o {0}/out",
-                                "campaign {0}/rig.json -o {0}/out", "detect {0}/rig.json"}) {
+  for (const char* arguments :
+       {"diagnose {0} -o {0}/out", "measure {0}", "capture {0}/rig.json -o {0}/out", "campaign {0}/rig.json -o {0}/out",
+        "detect {0}/rig.json", "detect --live {0}/rig.json"}) {
     const ProgramRun run = run_fathom(fmt::format(fmt::runtime(arguments), quoted(folder / "")));
     EXPECT_EQ(run.exit_code, 1) << arguments;
     EXPECT_NE(run.err.find("is no regular file"), std::string::npos) << arguments << ": " << run.err;
@@ -121,6 +124,39 @@ TEST(HostileFiles, FramesNameCloudsBesideThem) {
         << run.err;
     run = run_fathom(arguments + " --allow-outside");
     EXPECT_NE(run.err.find("is neither PCD nor PLY"), std::string::npos) << run.err;
+  }
+}
+
+/// A table of 300 kB: 3,000 placements would take 1.2 GB of matrices.
+TEST(HostileFiles, ATableIsDiagnosedOnlyWhereItsCovariancesHaveRoom) {
+  const TemporaryFolder folder;
+  make_directory(folder / "measured");
+  write_text(folder / "measured/rig.json",
+             R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": 58.4},
+                 "cup": {"shape": "paper_cup"}, "liquids": {"water": "water"}})");
+  std::string frames =
+      "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud,height_mm\n";
+  for (int i = 0; i < 3'000; ++i)
+    frames += fmt::format("{0},0,0,{0},0,{0},empty,0,{1},0,,{2:.4f}\n", i, 250 + i % 100, 7.0 + 0.1 * std::sin(i));
+  write_text(folder / "measured/frames.csv", frames);
+  const ProgramRun run =
+      run_fathom(fmt::format("diagnose {} -o {}", quoted(folder / "measured"), quoted(folder / "out")));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("frames.csv: promises 1.15 GB of covariances between 3000 observations, at most 1 GB is read; "
+                         "raise it with --max-input-mb"),
+            std::string::npos)
+      << run.err;
+}
+
+/// Commands that write a single file, too.
+TEST(AnOwnedFolder, TakesNoFileOfAnotherCommand) {
+  const TemporaryFolder folder;
+  const FolderOwner owner(folder / "out");
+  for (const char* arguments :
+       {"theory", "theory --max-skew", "list media", "verify fresnel --from 1 --to 1.333 --angle-deg 10"}) {
+    const ProgramRun run = run_fathom(fmt::format("{} -o {}", arguments, quoted(folder / "out")));
+    EXPECT_EQ(run.exit_code, 1) << arguments;
+    EXPECT_NE(run.err.find("is being written by process"), std::string::npos) << arguments << ": " << run.err;
   }
 }
 

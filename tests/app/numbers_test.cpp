@@ -66,7 +66,7 @@ TEST(NumbersOfTheCommandLine, AreNumbersAndNothingElse) {
   std::set<std::string> names;
   for (const NumberOption& option : options) names.insert(option.name);
   for (const char* known : {"--seed", "--threads", "--frames", "--spp", "--trials", "--fill-mm", "--pitch-deg",
-                            "--liquid-threshold-mm", "--thickness-mm", "--photons", "--from"})
+                            "--liquid-threshold-mm", "--max-input-mb", "--thickness-mm", "--photons", "--from"})
     EXPECT_TRUE(names.contains(known)) << known;
   std::set<std::string> types;
   for (const NumberOption& option : options)

@@ -144,10 +144,14 @@ TEST(Files, LargerThanTheLimitAreNotRead) {
 
 TEST(Json, DeepNestingIsRefusedBeforeAParserSeesIt) {
   const auto nested = [](int depth) { return std::string(depth, '[') + std::string(depth, ']'); };
-  EXPECT_NO_THROW(require_modest_json(nested(100), "a.json", 1));
-  expect_error([&] { require_modest_json(nested(101), "a.json", 1); }, {"a.json: is nested more than 100 deep"});
-  expect_error([&] { require_modest_json(std::string(1'000'000, '{'), "a.json", 1); }, {"nested"});
-  EXPECT_NO_THROW(require_modest_json("\"" + nested(101) + "\\\"[[\"", "a.json", 1)) << "brackets in a string";
+  EXPECT_NO_THROW(require_modest_json(nested(100), "a.json", {1, 1}));
+  expect_error([&] { require_modest_json(nested(101), "a.json", {1, 1}); }, {"a.json: is nested more than 100 deep"});
+  expect_error([&] { require_modest_json(std::string(1'000'000, '{'), "a.json", {1, 1}); }, {"nested"});
+  EXPECT_NO_THROW(require_modest_json("\"" + nested(101) + "\\\"[[\"", "a.json", {1, 1})) << "brackets in a string";
+  const InputPolicyScope policy({.most_bytes = 1'000'000});
+  const std::string words = '"' + std::string(300'000, 'x') + '"';
+  EXPECT_NO_THROW(require_modest_json(words, "a.json", {100, 3}));
+  expect_error([&] { require_modest_json(words, "a.json", {100, 4}); }, {"a.json: promises 1.2 MB of values"});
   const TemporaryFolder folder;
   write_text(folder / "deep.json", std::string(20'000, '['));
   expect_error([&] { read_json(folder / "deep.json"); }, {"deep.json: is nested more than 100 deep"});
@@ -160,7 +164,7 @@ TEST(Json, ValuesThatWouldNotFitAreRefused) {
   write_text(folder / "many.json", many + "]");
   EXPECT_EQ(read_json(folder / "many.json").size(), 1000u);
   const InputPolicyScope scope({.most_bytes = 50'000});
-  expect_error([&] { read_json(folder / "many.json"); }, {"many.json: promises 100 kB of values"});
+  expect_error([&] { read_json(folder / "many.json"); }, {"many.json: promises 108 kB of values"});
 }
 
 TEST(Table, MillionsOfColumnsAreRefused) {

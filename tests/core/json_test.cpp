@@ -85,5 +85,11 @@ TEST(Json, ComesBackFromItsFileInTheSameOrder) {
   EXPECT_EQ(read_json(folder / "scene.json").dump(), kScene.dump());
 }
 
+TEST(Json, AnErrorAboutANameWithANulSaysWhatIsWrong) {
+  const Json json = Json::parse(R"({"a\u0000b": 1})");
+  expect_error([&] { JsonReader(json, "scene.json").allow_only({"a"}); },
+               {R"(scene.json: /a\u0000b: unknown key 'a\u0000b', choose from a)"});
+}
+
 }  // namespace
 }  // namespace fathom

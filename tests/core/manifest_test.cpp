@@ -83,6 +83,23 @@ TEST_F(KilledRun, ALineThatWasCutShortDoesNotCount) {
   }
 }
 
+TEST_F(KilledRun, ALineThatSaysTooLittleDoesNotCount) {
+  const std::string text = read_text(folder / "manifest.jsonl"), identity = text.substr(0, text.find('\n') + 1);
+  const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+  for (const std::string& line :
+       {std::string(R"({"file": "a.pcd"})"), std::string(R"({"file": "a.pcd", "bytes": 5})"),
+        std::string(R"({"file": "a.pcd", "bytes": null, "sha256": null})"),
+        R"({"file": "a.pcd", "sha256": ")" + sha256("a.pcd") + R"(", "bytes": 5.0})",
+        R"({"file": "a.pcd", "sha256": ")" + sha256("a.pcd") + R"(", "bytes": 5, "x": )" + deep + "}"}) {
+    std::ofstream(folder / "manifest.jsonl", std::ios::binary) << identity << line << '\n';
+    Manifest manifest = again();
+    EXPECT_FALSE(manifest.difference()) << line.substr(0, 80);
+    EXPECT_FALSE(manifest.holds("a.pcd")) << line.substr(0, 80);
+    manifest.begin();
+    EXPECT_EQ(read_text(folder / "manifest.jsonl"), identity) << line.substr(0, 80);
+  }
+}
+
 TEST_F(KilledRun, EndsInTheOrderOfNamesWhicheverWayItWent) {
   Manifest manifest = again();
   manifest.begin();
@@ -130,6 +147,16 @@ TEST_F(KilledRun, ADamagedManifestIsOfAnotherRun) {
     EXPECT_TRUE(again().difference()) << text;
     EXPECT_FALSE(again().holds("a.pcd")) << text;
   }
+}
+
+TEST_F(KilledRun, AnOptionThatIsNestedWithoutEndIsOfAnotherRun) {
+  std::string text = read_text(folder / "manifest.jsonl");
+  const std::string was = "\"seed\":1";
+  const std::size_t at = text.find(was);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, was.size(), "\"seed\":" + std::string(300'000, '[') + std::string(300'000, ']'));
+  write_text(folder / "manifest.jsonl", text);
+  expect_error([&] { again().require_same_run(); }, {"is of another run"});
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/files.h"
+#include "core/input_policy.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
 
@@ -83,6 +85,41 @@ TEST(Table, BrokenTablesAreRefused) {
   expect_error([] { table_of("a,b\n1,2\n1,2,3\n"); }, {"frames.csv: line 3: has 3 cells, the header has 2"});
   expect_error([] { table_of("a,b,a\n"); }, {"line 1: has the column 'a' twice"});
   expect_error([] { table_of("a\n\"b\n"); }, {"line 2: has a quotation mark that is not closed"});
+}
+
+TEST(Table, ALineIsNoLongerThanAThousandLongCells) {
+  const std::string line(1'000'001, 'x');
+  expect_error([&] { table_of(line + "\n1\n"); }, {"frames.csv: line 1: is longer than 1000000 bytes"});
+  expect_error([&] { table_of("a\n1\n" + line); }, {"frames.csv: line 3: is longer than 1000000 bytes"});
+  EXPECT_EQ(table_of("a\n" + line.substr(1)).rows(), 1U);
+}
+
+/// What a table takes, not what its cells say: 200,000 lines of two letters are 400 kB and 40 MB.
+TEST(Table, ItsLinesAndLongCellsCountAsMemory) {
+  std::string narrow = "a\n", wide = "a\n";
+  for (int i = 0; i < 200'000; ++i) narrow += "1\n";
+  for (int i = 0; i < 100'000; ++i) wide += std::string(100, 'x') + '\n';
+  const InputPolicyScope policy({.most_bytes = 30'000'000});
+  expect_error([&] { table_of(narrow); }, {"frames.csv: promises 36 MB of cells, at most 30 MB is read"});
+  expect_error([&] { table_of(wide); }, {"frames.csv: promises 37.8 MB of cells, at most 30 MB is read"});
+}
+
+TEST(Table, WhatFitsInACellComesBack) {
+  const std::string nul("a\0b", 3);
+  for (const std::string& text :
+       {std::string("tea, \"iced\""), std::string("a;b\tc"), std::string("'"), std::string(""), std::string(" a"),
+        std::string("a\t"), std::string("a\rb"), std::string("a\nb"), nul}) {
+    const TemporaryFolder folder;
+    Table table({"x", "liquid", "y"});
+    table.add({"1", text, "2"});
+    write_table(folder / "t.csv", table);
+    std::string read = "nothing";
+    try {
+      read = read_table(folder / "t.csv").text(0, "liquid");
+    } catch (const Error&) {
+    }
+    EXPECT_EQ(fits_in_cell(text), read == text) << text;
+  }
 }
 
 }  // namespace

@@ -302,6 +302,40 @@ TEST_F(CloudFiles, PackedPointsThatCannotBeAreRefused) {
   EXPECT_EQ(error_of(packed(190'000'000, 100)), "is damaged: 2280000000 bytes cannot be packed in 100");
 }
 
+/// What there is at once counts: the file, what a library makes of it, and the cloud.
+TEST_F(CloudFiles, TheFileAndWhatIsMadeOfItCountAsMemory) {
+  constexpr int kPoints = 40'000;
+  const InputPolicyScope policy({.most_bytes = 1'000'000});
+  const std::string points(12 * kPoints, '\0'), sizes = fmt::format("{}\nHEIGHT 1\nPOINTS {}\n", 30'000, 30'000);
+  EXPECT_EQ(error_of("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + sizes +
+                     "DATA binary\n" + points.substr(0, 12 * 30'000)),
+            "header: promises 1.2 MB of points, at most 1 MB is read; raise it with --max-input-mb");
+  std::string text;
+  for (int i = 0; i < 30'000; ++i) text += "1 1 1\n";
+  EXPECT_EQ(error_of("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + sizes + "DATA ascii\n" +
+                     text),
+            "header: promises 1.38 MB of points, at most 1 MB is read; raise it with --max-input-mb");
+  const std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  EXPECT_EQ(error_of(fmt::format(fmt::runtime(ply), kPoints) + "end_header\n" + points),
+            "header: promises 1.12 MB of points, at most 1 MB is read; raise it with --max-input-mb");
+  EXPECT_EQ(
+      error_of(fmt::format(fmt::runtime(ply), 1) +
+               fmt::format("element range_grid {}\nproperty list uchar int vertex_indices\nend_header\n", kPoints) +
+               std::string(12 + kPoints, '\0')),
+      "header: promises 1.32 MB of points, at most 1 MB is read; raise it with --max-input-mb");
+}
+
+TEST_F(CloudFiles, AHeaderHasNoMoreLinesThanOneNeeds) {
+  std::string comments;
+  for (int i = 0; i < 10'000; ++i) comments += "#\n";
+  EXPECT_EQ(error_of(comments + "VERSION 0.7\nFIELDS x y z\n"), "header: has more than 10000 lines");
+  comments.clear();
+  for (int i = 0; i < 10'000; ++i) comments += "comment\n";
+  EXPECT_EQ(error_of("ply\nformat ascii 1.0\n" + comments), "header: has more than 10000 lines");
+}
+
 /// Files cut off anywhere and files with flipped bytes: an Error or a cloud, nothing else.
 TEST_F(CloudFiles, DamageNeverCrashes) {
   pcl::PointCloud<pcl::PointXYZI> cloud(20, 10);

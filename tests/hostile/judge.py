@@ -53,7 +53,7 @@ def run(arguments, cwd, env, limits, shell=None, alive=None):
             if not result.stopped:
                 if resident(process.pid) > limits.memory:
                     result.stopped = "memory"
-                elif hangs(now - begin, cpu_s(process.pid), limits.seconds):
+                elif hangs(process.pid, now - begin, limits.seconds):
                     result.stopped = "time"
                 elif alive and now - looked > 4.0:
                     looked = now
@@ -84,9 +84,25 @@ def resident(pid):
         return 0
 
 
-def hangs(seconds, cpu, most):
-    """A run that works counts by its processor time: others may have the cores. One that waits for what never comes has none."""
-    return cpu > most or seconds > most and cpu < 0.03 * seconds or seconds > 10 * most
+def hangs(pid, seconds, most):
+    """A run that works counts by its processor time: others may have the cores. One that waits for what never comes neither has
+    any nor wants it."""
+    cpu = cpu_s(pid)
+    if cpu > most or seconds > 10 * most:
+        return True
+    return seconds > most and cpu < 0.03 * seconds and seconds - wanted_s(pid) > most
+
+
+def wanted_s(session):
+    """For how long its threads, and its children's, stood ready and were given no core."""
+    nanoseconds = 0
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            if os.getsid(int(process.name)) == session:
+                nanoseconds += sum(int(task.read_text().split()[1]) for task in process.glob("task/*/schedstat"))
+        except (OSError, IndexError):
+            continue  # it has just ended
+    return nanoseconds / 1e9
 
 
 def cpu_s(pid):

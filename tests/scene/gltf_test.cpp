@@ -13,6 +13,7 @@
 #include "core/files.h"
 #include "core/input_policy.h"
 #include "core/json.h"
+#include "sim/scene/gltf_buffers.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
 
@@ -305,6 +306,11 @@ TEST(Gltf, TruncatedAndMissingFilesAreAnsweredInOneLine) {
     expect_error([&] { read_gltf(folder / "cut.glb"); }, {"cut.glb: is no readable glTF"});
   }
   expect_error([&] { read_gltf(folder / "none.gltf"); }, {"none.gltf: no such file"});
+}
+
+TEST(GltfBuffers, AFileThatManyBuffersNameIsNamedOnce) {
+  const std::string text = R"({"buffers": [{"uri": "b.bin"}, {"uri": "a.bin"}, {"uri": "b.bin"}, {"uri": "%61.bin"}]})";
+  EXPECT_EQ(gltf_buffers("mug.gltf", text), (std::vector<std::string>{"b.bin", "a.bin"}));
 }
 
 }  // namespace

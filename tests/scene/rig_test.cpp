@@ -141,5 +141,15 @@ TEST(Unit, DiffersFromOthersAndWarmsUp) {
   EXPECT_DOUBLE_EQ(unit_error(cold, 30 * 600).offset_px, 0.2 / std::numbers::e);
 }
 
+/// A photometric capture with a pattern of 4000 × 4000 takes 395 MB more than one of 64 × 64.
+TEST(Rig, APatternCountsByWhatShootingTakes) {
+  expect_error(
+      [] {
+        rig_of(R"({"height_mm": 650, "pitch_deg": 60, "pattern": {"tile_columns": 512, "tile_rows": 512,
+                   "tiles_across": 12, "tiles_down": 12}})");
+      },
+      {"/pattern: promises 1.06 GB of positions, at most 1 GB is read"});
+}
+
 }  // namespace
 }  // namespace fathom
