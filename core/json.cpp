@@ -117,6 +117,8 @@ Json read_json(const std::filesystem::path& path) {
   constexpr JsonMemory kMemory{.per_value = 100, .per_byte = 4};
   const std::string text = read_text(path);
   require_modest_json(text, path.string(), kMemory);
+  // The parser takes it for the end, whatever follows.
+  if (text.find('\0') != std::string::npos) throw Error(path.string(), "holds a NUL, which is not valid JSON");
   std::vector<std::set<std::string>> keys;  // of the objects that are open
   const auto check_event = [&](int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();

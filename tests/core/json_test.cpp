@@ -85,6 +85,14 @@ TEST(Json, ComesBackFromItsFileInTheSameOrder) {
   EXPECT_EQ(read_json(folder / "scene.json").dump(), kScene.dump());
 }
 
+TEST(Json, ANulDoesNotEndAFile) {
+  const TemporaryFolder folder;
+  for (const std::string& text : {std::string("{}\0", 3), std::string("{}\0]", 4), std::string("{\"a\0\": 1}", 9)}) {
+    write_text(folder / "scene.json", text);
+    expect_error([&] { read_json(folder / "scene.json"); }, {"scene.json: holds a NUL, which is not valid JSON"});
+  }
+}
+
 TEST(Json, AnErrorAboutANameWithANulSaysWhatIsWrong) {
   const Json json = Json::parse(R"({"a\u0000b": 1})");
   expect_error([&] { JsonReader(json, "scene.json").allow_only({"a"}); },
