@@ -93,9 +93,9 @@ void add_inverses(const Diagnosis& diagnosis, Json& report) {
 }
 
 /// A diagnosis holds some sixteen matrices of all observations at once: what a table of 1 MB makes of itself.
-void require_room(const Measurement& measurement, const fs::path& folder) {
+void require_room(const std::vector<Observation>& compared, const fs::path& folder) {
   constexpr std::uint64_t kMatrices = 16;  // from the peaks of 1,000 to 2,500 observations
-  const std::uint64_t observations = measurement.observations.size();
+  const std::uint64_t observations = compared.size();
   require_within_limit((folder / "frames.csv").string(), "",
                        bytes_of({kMatrices, sizeof(double), observations, observations}),
                        fmt::format("covariances between {} observations", observations));
@@ -168,10 +168,10 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Measurement measurement = read_measurements(options.folders, common.quiet);
-  require_room(measurement, options.folders.front());
   const std::string rig_file = (options.folders.front() / "rig.json").string();
   put_bookkeeping_right(had, rig_file, measurement);
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
+  require_room(physics.evidence.observations, options.folders.front());
   if (std::string note = on_missing_heights(measurement, physics.evidence.observations); !note.empty())
     measurement.notes.push_back(std::move(note));
   if (std::string note = on_bare_desks(measurement, *physics.predictor); !note.empty())
