@@ -15,8 +15,6 @@ namespace {
 
 /// Nothing is predicted better than this share of the change that the candidates make in an observable.
 constexpr double kNumericalFloor = 1e-4;
-/// Stated σ are estimates themselves: as if each came from 20 trials (they are wrong by a sixth).
-constexpr double kPriorDof = 20.0;
 
 Eigen::VectorXd numerical_variance(const Evidence& evidence) {
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
@@ -105,7 +103,7 @@ Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::Ma
   const Eigen::VectorXd total = columns.colwise().squaredNorm().transpose().array().max(1e-300);
   const Eigen::VectorXd from_priors = (sparse(covariance.nuisance).transpose() * weights).colwise().squaredNorm();
   // Variance of the variance, relative to its square.
-  Eigen::ArrayXd relative = 2.0 / kPriorDof * (from_priors.array() / total.array()).square();
+  Eigen::ArrayXd relative = 2.0 / kStatedDof * (from_priors.array() / total.array()).square();
   for (const ObservableErrors& errors : covariance.errors.observables) {
     Eigen::MatrixXd shares(static_cast<Eigen::Index>(errors.components.size()), columns.cols());
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
@@ -130,7 +128,7 @@ Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std:
   for (const ObservableErrors& errors : covariance.errors.observables) roots.push_back(root_of(errors.covariance));
   for (int draw = 0; draw < draws; ++draw) {
     Rng rng(seed, draw);
-    const double prior_scale = std::sqrt(kPriorDof / rng.gamma(0.5 * kPriorDof, 2.0));
+    const double prior_scale = std::sqrt(kStatedDof / rng.gamma(0.5 * kStatedDof, 2.0));
     for (Eigen::Index k = 0; k < nuisances.rows(); ++k) nuisances(k, draw) = prior_scale * rng.normal();
     for (Eigen::Index i = 0; i < n; ++i) residuals(i, draw) = independent[i] * rng.normal();
     for (std::size_t o = 0; o < covariance.errors.observables.size(); ++o) {

@@ -78,10 +78,10 @@ void limit_sessions(const Evidence& evidence, ObservableErrors& errors) {
                         : component.observable.ends_with("_deg") ? evidence.session.deg
                                                                  : std::numeric_limits<double>::infinity();
     if (component.variance <= most * most) continue;
-    const double share = most * most / component.variance;
     const auto row = static_cast<Eigen::Index>(k);
-    errors.covariance.row(row) *= share;
-    errors.covariance.col(row) *= share;
+    errors.covariance.row(row).setZero();
+    errors.covariance.col(row).setZero();
+    errors.covariance(row, row) = 2.0 / kStatedDof * std::pow(most, 4.0);  // stated, no longer estimated
     component.variance = most * most;
   }
 }

@@ -22,6 +22,9 @@ struct VarianceComponent {
   Eigen::VectorXd scale;  ///< of the error in each observation; 1 on the whole
 };
 
+/// Stated σ are estimates themselves: as if each came from 20 trials (they are wrong by a sixth).
+inline constexpr double kStatedDof = 20.0;
+
 /// The components of one observable, estimated together: a large pour goes with a small placement.
 struct ObservableErrors {
   std::vector<VarianceComponent> components;
@@ -35,12 +38,12 @@ struct ErrorBudget {
   bool from_replicates = true;  ///< of equal conditions; false: from what a smooth model leaves
 };
 
-/// Variance of the mean of each observation's repeats: their own scatter and the one pooled over its observable and
-/// region, weighed by degrees of freedom; outliers among the scatters count no more than three times their median.
 /// How large the errors of single observations are beside those of their observable on the whole: a mean of few pixels
 /// scatters more.
 Eigen::VectorXd relative_errors(const std::vector<Observation>& observations);
 
+/// Variance of the mean of each observation's repeats: their own scatter and the one pooled over its observable and
+/// region, weighed by degrees of freedom; outliers among the scatters count no more than three times their median.
 Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations);
 
 /// Restricted maximum likelihood (reml.h), for each observable. `known` (n × n) is

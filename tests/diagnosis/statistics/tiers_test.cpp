@@ -49,10 +49,10 @@ TEST(Tiers, WhatOnlyNamesDoesNotHideWhatHeightsShow) {
   }));
 }
 
-/// Two pours of each filling in each session: with one alone, what sets sessions apart may be the pours.
-World poured_twice_a_session() {
+/// So many pours of each filling in each of two sessions.
+World poured_in_sessions(int pours) {
   CampaignDesign design = small_design();
-  design.pours = 4;
+  design.pours = 2 * pours;
   return World(design);
 }
 
@@ -65,7 +65,7 @@ Evidence with_session_off(const World& world, double by_mm, double stated_mm, st
 }
 
 TEST(Excess, ASessionThatReadsHigherIsAFindingWithItsSize) {
-  const World world = poured_twice_a_session();
+  const World world = poured_in_sessions(2);
   const Diagnosis diagnosis = decide(with_session_off(world, 1.9, 0.1, 4), world.predict());
   EXPECT_TRUE(diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
       << json_from(diagnosis).dump();
@@ -78,13 +78,23 @@ TEST(Excess, ASessionThatReadsHigherIsAFindingWithItsSize) {
   EXPECT_GT(excess.size, 5.0 * excess.sigma);
 }
 
+/// What is stated of sessions is known better than two sessions could tell: with one pour of each filling in each, they
+/// are told from the scatter of pours.
+TEST(Excess, OnePourASessionIsEnough) {
+  const World world = poured_in_sessions(1);
+  const Diagnosis diagnosis = decide(with_session_off(world, 1.9, 0.1, 4), world.predict());
+  EXPECT_EQ(diagnosis.verdict, Verdict::unknown) << json_from(diagnosis).dump();
+  ASSERT_FALSE(diagnosis.excess.empty());
+  EXPECT_NEAR(diagnosis.excess.front().size, 1.9, 4.0 * diagnosis.excess.front().sigma);
+}
+
 TEST(Excess, ASessionThatMayDifferAsMuchIsNone) {
-  const World world = poured_twice_a_session();
+  const World world = poured_in_sessions(2);
   EXPECT_TRUE(decide(with_session_off(world, 1.9, 3.0, 4), world.predict()).excess.empty());
 }
 
 TEST(Excess, SessionsThatAreAlikeRaiseNoAlarm) {
-  const World world = poured_twice_a_session();
+  const World world = poured_in_sessions(2);
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
     alarms += decide(with_session_off(world, 0.0, 0.1, seed), world.predict()).verdict != Verdict::none;
