@@ -22,6 +22,7 @@
 #include "core/json_text.h"
 #include "core/units.h"
 #include "core/visible_text.h"
+#include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/joined.h"
 #include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/designs.h"
@@ -126,10 +127,10 @@ std::string on_bare_desks(const Measurement& measurement, const Predictor& predi
   if (std::any_of(measurement.frames.begin(), measurement.frames.end(), is_bare)) return {};
   const auto known = predictor.unit_knowledge();
   if (!known || known->now_px < kWorthSaying * known->with_bare_desks_px) return {};
-  const LaboratoryRig& rig = measurement.rig;
-  // A desk below the middle of the image: height per disparity.
-  const double away = rig.height_m / std::max(std::sin(rig.pitch_rad), 0.1);
-  const double mm_per_px = mm_from_metres(rig.height_m * away / (rig.focal_px * rig.baseline_m));
+  double sum_mm = 0.0, cups = 0.0;
+  for (const FrameRecord& f : measurement.frames)
+    if (!f.bare_desk()) sum_mm += height_per_px_mm({f.lateral_m, f.distance_m}, measurement.rig), ++cups;
+  const double mm_per_px = sum_mm / std::max(cups, 1.0);
   return fmt::format(
       "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views "
       "without "

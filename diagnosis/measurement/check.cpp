@@ -112,7 +112,7 @@ class Checker {
     for (const FrameRecord& f : frames_) {
       if (f.cloud.empty()) continue;
       if (f.bare_desk()) return;
-      bias += bias_mm(place_of(f), check_.rig), ++cups;
+      bias += kBias_px * height_per_px_mm(place_of(f), check_.rig), ++cups;
     }
     if (cups > 0.0) add({Lack::bare_desk_views, bias / cups});
   }

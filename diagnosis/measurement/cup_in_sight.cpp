@@ -49,11 +49,10 @@ double pixels_in_sight(const Eigen::Vector2d& cup, double fill, const Laboratory
   return pixels;
 }
 
-double bias_mm(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
-  constexpr double kBias_px = 0.1;  // measured desks: 0.097 px rms, a plane taken off and noise smoothed over 8 px
+double height_per_px_mm(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
   const Eigen::Vector3d camera_to_bottom(cup.x() + 0.5 * rig.baseline_m, cup.y(), rig.cup.bottom() - rig.height_m);
   const double depth = camera_to_bottom.y() * std::cos(rig.pitch_rad) - camera_to_bottom.z() * std::sin(rig.pitch_rad);
-  const double too_deep = kBias_px * depth * depth / (rig.focal_px * rig.baseline_m);
+  const double too_deep = depth * depth / (rig.focal_px * rig.baseline_m);
   return mm_from_metres(too_deep * -camera_to_bottom.z() / depth);
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/units.h"
+#include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/predict/slope.h"
 #include "diagnosis/predict/uncertain_rig.h"
 #include "diagnosis/statistics/groups.h"
@@ -104,19 +105,15 @@ std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vect
   std::vector<Nuisance> nuisances;
   for (Eigen::VectorXd& error : predictor.unit_errors())
     nuisances.push_back({fmt::format("bias of the unit, pattern {}", nuisances.size() + 1), 1.0, std::move(error)});
-  // A height above the fitted desk moves by offset · z / (f b) per pixel of disparity (the desk's own part is small: a
-  // bias of that reach is no plane).
-  const LaboratoryRig& rig = predictor.model().laboratory;
-  constexpr double kBias_px = 0.1;  // of measured desks (docs/calibrate.md)
   std::map<std::pair<double, double>, Nuisance> places;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Factors& f = observations[i].factors;
     if (observations[i].observable != "height_mm" || f.region != kWholeInterior) continue;
-    const double away = std::hypot(rig.height_m, metres_from_mm(f.distance_mm), metres_from_mm(f.lateral_mm));
     Nuisance& place = places[{f.distance_mm, f.lateral_mm}];
     if (place.name.empty())
       place = {fmt::format("bias of the unit at ({:g}, {:g}) mm", f.lateral_mm, f.distance_mm),
-               kBias_px * mm_from_metres(rig.height_m * away / (rig.focal_px * rig.baseline_m)),
+               kBias_px * height_per_px_mm({metres_from_mm(f.lateral_mm), metres_from_mm(f.distance_mm)},
+                                           predictor.model().laboratory),
                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()))};
     place.signature[static_cast<Eigen::Index>(i)] = 1.0;
   }

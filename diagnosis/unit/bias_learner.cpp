@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace fathom {
 namespace {
 
@@ -27,7 +29,19 @@ void forbid_planes(const Eigen::MatrixXd& planes, Eigen::MatrixXd& precision) {
   precision.noalias() += planes * planes.transpose() / (kNoPlane * kNoPlane);
 }
 
+void require_definite(const Eigen::LLT<Eigen::MatrixXd>& precision) {
+  if (precision.info() != Eigen::Success)
+    throw Error("these desks do not settle a unit's bias: the normal equations are singular");
+}
+
 }  // namespace
+
+Eigen::VectorXd BiasLearner::without_planes(const Eigen::VectorXd& variance, const Eigen::MatrixXd& planes) {
+  const Eigen::MatrixXd shared = variance.asDiagonal() * planes;
+  Eigen::MatrixXd of_planes = planes.transpose() * shared;
+  of_planes.diagonal().array() += kNoPlane * kNoPlane;
+  return variance - shared.cwiseProduct(shared * of_planes.inverse()).rowwise().sum();
+}
 
 BiasLearner::BiasLearner(std::span<const BiasView> layout, const BiasPrior& prior)
     : prior_(prior),
@@ -69,12 +83,14 @@ BiasLearner::BiasLearner(std::span<const BiasView> layout, const BiasPrior& prio
     own.diagonal() += state_variance_.cwiseInverse();
     forbid_planes(sums_.planes(state).bottomRows(half), own);
     block.precision.compute(own);
+    require_definite(block.precision);
     block.cross = gram.block(first, half, shared, half);
     const Eigen::MatrixXd known = block.precision.matrixL().solve(block.cross.transpose());
     precision.selfadjointView<Eigen::Lower>().rankUpdate(known.transpose(), -1.0);
     precision = precision.selfadjointView<Eigen::Lower>();
   }
   precision_.compute(precision);
+  require_definite(precision_);
 }
 
 BiasLearner::Solution BiasLearner::solve(std::span<const Eigen::VectorXd> errors_px) const {

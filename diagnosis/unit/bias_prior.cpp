@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/unit/bias_learner.h"
@@ -11,7 +12,8 @@
 namespace fathom {
 namespace {
 
-constexpr int kSteps = 8;
+constexpr int kMostSteps = 24;
+constexpr double kEnough = 0.05;  ///< change of an amplitude, of the largest one's, at which the search ends
 constexpr double kMost_px = 0.3, kNegligible_px = 0.002;
 constexpr std::size_t kFewestViews = 3;
 constexpr std::size_t kMostViews = 24;  ///< that are looked at, evenly: a covariance has few numbers
@@ -30,6 +32,17 @@ double better(double variance, double explained, double by_chance) {
   return variance * std::clamp(explained / std::max(by_chance, 1e-300), 1.0 / kMostChange, kMostChange);
 }
 
+/// The largest change of an amplitude, in shares of the largest amplitude.
+double change(const BiasPrior& before, const BiasPrior& after) {
+  double largest = 0.0, most = 0.0;
+  for (const auto amplitudes : {&BiasPrior::reference_px, &BiasPrior::camera_px, &BiasPrior::state_px})
+    for (std::size_t i = 0; i < (after.*amplitudes).size(); ++i) {
+      largest = std::max(largest, (after.*amplitudes)[i]);
+      most = std::max(most, std::abs((after.*amplitudes)[i] - (before.*amplitudes)[i]));
+    }
+  return most / std::max(largest, 1e-9);
+}
+
 }  // namespace
 
 BiasPrior default_bias_prior() { return {{0.02, 0.1, 0.0}, {}, {}, 0.02, 0.0}; }
@@ -39,10 +52,14 @@ BiasPrior learned_bias_prior(std::span<const BiasView> views) {
   std::vector<BiasView> some;
   const std::size_t most = std::min(kMostViews, views.size());
   for (std::size_t i = 0; i < most; ++i) some.push_back(views[i * views.size() / most]);
-  std::set<int> states;
-  for (const BiasView& view : some) states.insert(view.state);
-  BiasPrior prior = wide_prior(static_cast<int>(states.size() - states.count(kNoState)));
-  for (int step = 0; step < kSteps; ++step) prior = BiasLearner(some, prior).improved();
+  std::map<int, int> states;  // numbered anew: each costs the same whether a view has it or not
+  for (BiasView& view : some)
+    if (view.state != kNoState) view.state = states.emplace(view.state, static_cast<int>(states.size())).first->second;
+  BiasPrior prior = wide_prior(static_cast<int>(states.size()));
+  for (int step = 0; step < kMostSteps; ++step) {
+    const BiasPrior before = std::exchange(prior, BiasLearner(some, prior).improved());
+    if (change(before, prior) < kEnough) break;
+  }
   for (BiasAmplitudes* amplitudes : {&prior.reference_px, &prior.camera_px, &prior.state_px})
     for (double& amplitude : *amplitudes)
       if (amplitude < kNegligible_px) amplitude = 0.0;
@@ -69,8 +86,11 @@ BiasPrior BiasLearner::improved() const {
   };
   const Eigen::MatrixXd covariance = precision_.solve(Eigen::MatrixXd::Identity(shared, shared));
   const Eigen::ArrayXd explained = (solution.shared.array() / shared_variance_.array()).square();
-  const Eigen::ArrayXd chance =
-      (1.0 - covariance.diagonal().array() / shared_variance_.array()) / shared_variance_.array();
+  Eigen::VectorXd before(shared);
+  const Eigen::MatrixXd planes = sums_.planes();
+  if (has_reference_) before.head(half) = without_planes(shared_variance_.head(half), planes.topRows(half));
+  if (has_camera_) before.tail(half) = without_planes(shared_variance_.tail(half), planes.bottomRows(half));
+  const Eigen::ArrayXd chance = (before - covariance.diagonal()).array() / shared_variance_.array().square();
   if (has_reference_) improve(result.reference_px, explained.head(half), chance.head(half));
   if (has_camera_) improve(result.camera_px, explained.tail(half), chance.tail(half));
   if (has_states_) {
@@ -82,7 +102,8 @@ BiasPrior BiasLearner::improved() const {
       const Eigen::ArrayXd variance =
           own.diagonal().array() + (known * covariance).cwiseProduct(known).rowwise().sum().array();
       of_states += (solution.states[state].array() / state_variance_.array()).square();
-      by_chance += (1.0 - variance / state_variance_.array()) / state_variance_.array();
+      const Eigen::VectorXd without = without_planes(state_variance_, sums_.planes(state).bottomRows(half));
+      by_chance += (without.array() - variance) / state_variance_.array().square();
     }
     improve(result.state_px, of_states, by_chance);
   }

@@ -2,8 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace fathom {
 namespace {
@@ -27,14 +29,16 @@ std::array<double, 4> corners_of(const BiasView& view) {
 
 }  // namespace
 
-void set_states_by_pose(std::span<BiasView> views, double within_px) {
+void set_states_by_pose(std::span<BiasView> views, PoseTolerance tolerance) {
   std::vector<std::array<double, 4>> firsts;  // of the view that began each state
   for (BiasView& view : views) {
     const std::array<double, 4> corners = corners_of(view);
     const auto is_alike = [&](const std::array<double, 4>& other) {
-      for (int i = 0; i < 4; ++i)
-        if (std::abs(corners[i] - other[i]) > within_px) return false;
-      return true;
+      std::array<double, 4> apart;
+      for (int i = 0; i < 4; ++i) apart[i] = corners[i] - other[i];
+      const double shift = std::accumulate(apart.begin(), apart.end(), 0.0) / 4.0;
+      return std::abs(shift) <= tolerance.shift_px &&
+             std::ranges::all_of(apart, [&](double one) { return std::abs(one - shift) <= tolerance.turn_px; });
     };
     std::size_t state = 0;
     while (state < firsts.size() && !is_alike(firsts[state])) ++state;

@@ -25,8 +25,13 @@ struct BiasView {
   int state = kNoState;
 };
 
-/// Gives views whose desks lie alike, within `within_px` of disparity all over the image, the same state; numbers
-/// from 0.
-void set_states_by_pose(std::span<BiasView> views, double within_px = 0.7);
+/// How far the disparities of two desks may lie apart in one pose: all alike, and in each corner of the image beside
+/// that.
+struct PoseTolerance {
+  double shift_px = 0.7, turn_px = 0.7;
+};
+
+/// Gives views whose desks lie alike the same state; numbers from 0.
+void set_states_by_pose(std::span<BiasView> views, PoseTolerance tolerance = {});
 
 }  // namespace fathom

@@ -21,6 +21,7 @@ namespace {
 constexpr std::array kFocals_px{570.342, 575.816};
 constexpr double kColourFocal_px = 525.0, kColourCamera_m = 0.025;
 constexpr int kWidth = 640, kHeight = 480;
+constexpr double kMostWarmUp_px = 2.0;  ///< by which a device that warms up shifts all disparities
 
 /// One cloud's desk.
 struct Reading {
@@ -102,10 +103,11 @@ struct Scenes {
 
 /// Frames of one scene that stands still are one view: what its dots do is the same in all of them.
 Scenes merged(const std::vector<Reading>& readings) {
-  constexpr double kSamePose_px = 0.1, kSameCells = 0.95;
+  constexpr PoseTolerance kSamePose{.shift_px = kMostWarmUp_px, .turn_px = 0.1};  // means of 1000 pixels: 0.02 px
+  constexpr double kSameCells = 0.95;                                             // a desk's edge is found anew
   std::vector<BiasView> views;
   for (const Reading& reading : readings) views.push_back(reading.desk.view);
-  set_states_by_pose(views, kSamePose_px);
+  set_states_by_pose(views, kSamePose);
   using Place = std::pair<double, double>;
   struct Scene {
     int state;
@@ -279,8 +281,7 @@ std::optional<WarmUp> warm_up_in(const std::vector<Reading>& readings) {
   std::vector<TimedDisparity> timed;
   std::vector<BiasView> views;
   for (const Reading& reading : readings) views.push_back(reading.desk.view);
-  constexpr double kSamePose_px = 2.0;  // what warming up is less than
-  set_states_by_pose(views, kSamePose_px);
+  set_states_by_pose(views, {kMostWarmUp_px, kMostWarmUp_px});
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!readings[i].time_s || views[i].state != views.front().state) continue;
     const Plane& plane = readings[i].desk.plane;

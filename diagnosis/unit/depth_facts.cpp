@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -12,7 +14,9 @@
 namespace fathom {
 namespace {
 
-constexpr int kPhases = 16;
+constexpr int kPhaseSteps = 512;  ///< in which a code's phase is looked for, …
+constexpr int kRoundPhases = 16;
+constexpr int kFarthest = 16;  ///< … so many on either side of what depths have on average
 constexpr double kOnLaw = 0.98;
 constexpr double kTooOften = 0.9;   ///< steps hardly wider than what depths are cut to say nothing
 constexpr double kWhole_mm = 0.01;  ///< what floats and drivers round
@@ -42,19 +46,30 @@ struct Law {
   double steps_mm;  ///< 8 f b
   double phase, cut_mm;
 
+  /// Of a depth, not whole; half of what is cut off added.
+  double exact_code(double depth) const {
+    return steps_mm * (1.0 / mm_from_metres(kReferenceDistance_m) - 1.0 / (depth + 0.5 * cut_mm)) - phase;
+  }
   double depth(int code) const {
     const double exact = 1.0 / (1.0 / mm_from_metres(kReferenceDistance_m) - (code + phase) / steps_mm);
     return cut_mm > 0.0 ? cut_mm * std::floor(exact / cut_mm) : exact;
   }
   /// The code whose depth this is; nothing where none has it.
   std::optional<int> code(double depth) const {
-    const double near = steps_mm * (1.0 / mm_from_metres(kReferenceDistance_m) - 1.0 / (depth + 0.5 * cut_mm)) - phase;
-    for (const int code : {static_cast<int>(std::lround(near)), static_cast<int>(std::lround(near)) - 1,
-                           static_cast<int>(std::lround(near)) + 1})
+    const int near = static_cast<int>(std::lround(exact_code(depth)));
+    for (const int code : {near, near - 1, near + 1})
       if (std::abs(this->depth(code) - depth) < 1.5 * kWhole_mm) return code;
     return std::nullopt;
   }
 };
+
+/// The phase that whole codes have on average, from 0 to 1: what cutting does to them is even.
+double mean_phase(const Law& law, const std::vector<double>& depths) {
+  std::complex<double> sum;
+  for (const double depth : depths) sum += std::polar(1.0, 2.0 * std::numbers::pi * law.exact_code(depth));
+  const double turns = std::arg(sum) / (2.0 * std::numbers::pi);
+  return turns - std::floor(turns);
+}
 
 }  // namespace
 
@@ -66,9 +81,13 @@ DepthFacts depth_facts(std::span<const Points> clouds, std::span<const double> f
     if (facts.cut_mm == 0.0 && share_of_multiples(depths, unit_mm) > kOnLaw) facts.cut_mm = unit_mm;
   double by_chance = 1.0;
   std::vector<int> codes;
-  for (const double focal : focal_px)
-    for (int phase = 0; phase < kPhases; ++phase) {
-      const Law law{8.0 * focal * mm_from_metres(baseline_m), static_cast<double>(phase) / kPhases, facts.cut_mm};
+  for (const double focal : focal_px) {
+    Law law{8.0 * focal * mm_from_metres(baseline_m), 0.0, facts.cut_mm};
+    const double mean = mean_phase(law, depths);
+    std::vector<double> phases{std::round(mean * kRoundPhases) / kRoundPhases};  // of those that do as well the first
+    for (int i = -kFarthest; i <= kFarthest; ++i) phases.push_back((std::round(kPhaseSteps * mean) + i) / kPhaseSteps);
+    for (const double phase : phases) {
+      law.phase = phase - std::floor(phase);
       std::vector<int> found;
       double steps_mm = 0.0;
       for (const double depth : depths) {
@@ -82,6 +101,7 @@ DepthFacts depth_facts(std::span<const Points> clouds, std::span<const double> f
       by_chance = std::min(1.0, std::max(facts.cut_mm, 4.0 * kWhole_mm) / mean_step);
       codes = std::move(found);
     }
+  }
   if (facts.on_law < kOnLaw || by_chance > kTooOften) {
     facts.phase = 0.0;
     return facts;

@@ -91,17 +91,20 @@ TEST(DepthFacts, TheLawIsReadOffTheDepths) {
                          {575.816, 0.5, 1.0, 1},
                          {570.342, 0.0, 1.0, 1},
                          {570.342, 0.5, 0.1, 1},
+                         {570.342, 0.53, 1.0, 1},
+                         {575.816, 0.23, 0.1, 1},
+                         {570.342, 0.71, 0.0, 1},
                          {575.816, 0.5, 1.0, 2}}) {
     const Points points = cloud([&](int, int, double disparity) {
       const double steps_mm = 8.0 * law.focal_px * 75.0, true_mm = kExact.focal_px * 75.0 / disparity;
       double code = std::round(steps_mm * (1.0 / 1200.0 - 1.0 / true_mm) - law.phase);
       code = law.together * std::floor(code / law.together);
       const double mm = 1.0 / (1.0 / 1200.0 - (code + law.phase) / steps_mm);
-      return kExact.focal_px * 75.0 / (law.cut_mm * std::floor(mm / law.cut_mm));
+      return kExact.focal_px * 75.0 / (law.cut_mm > 0.0 ? law.cut_mm * std::floor(mm / law.cut_mm) : mm);
     });
     const DepthFacts facts = depth_facts({&points, 1}, std::array{570.342, 575.816}, 0.075);
     EXPECT_EQ(facts.focal_px, law.focal_px);
-    EXPECT_EQ(facts.phase, law.phase);
+    EXPECT_NEAR(facts.phase, law.phase, 0.005);
     EXPECT_EQ(facts.cut_mm, law.cut_mm);
     EXPECT_EQ(facts.step_px, 0.125 * law.together);
     EXPECT_GT(facts.on_law, 0.98);
