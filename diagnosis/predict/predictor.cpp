@@ -316,8 +316,15 @@ Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::
   return values;
 }
 
-Eigen::VectorXd Predictor::predict_by(const Look& look, const Change& change,
+Eigen::VectorXd Predictor::predict_by(const Shoot& shoot, const Change& change,
                                       const std::vector<std::size_t>& conditions) const {
+  BiasField own;
+  const BiasField* const bias = bias_of(change, own);
+  const Look look = [&](const Setup& shot, const Condition& condition) {
+    std::vector<SensedPoint> points = shoot(shot, condition);
+    if (bias) take_off(as_bias(*bias), model_.laboratory, points);
+    return estimate_frame(points, model_.laboratory, view_of(condition.factors));
+  };
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
   for (const std::vector<std::size_t>& group : alike(change, conditions)) predict_alike(look, change, group, values);
   return values;

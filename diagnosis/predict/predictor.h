@@ -23,8 +23,8 @@ struct Condition {
   std::optional<FrameEstimates> nominal_estimates{};  ///< of that, the unit's bias taken off
 };
 
-/// What a laboratory would find in clouds of a condition's set-up. Nothing when no desk is seen.
-using Look = std::function<std::optional<FrameEstimates>(const Setup& setup, const Condition& condition)>;
+/// The points of a cloud of a condition's set-up.
+using Shoot = std::function<std::vector<SensedPoint>(const Setup& setup, const Condition& condition)>;
 
 /// What changes a set-up, at given values.
 struct Change {
@@ -44,8 +44,10 @@ class Predictor {
   Eigen::VectorXd predict(const Change& change) const;
   /// The same of the conditions listed, all other values 0.
   Eigen::VectorXd predict(const Change& change, const std::vector<std::size_t>& conditions) const;
-  /// The same as somebody else looks at it, at one condition after the other.
-  Eigen::VectorXd predict_by(const Look& look, const Change& change, const std::vector<std::size_t>& conditions) const;
+  /// The same from clouds that somebody else shoots, one condition after the other: what few rays' desks would be taken
+  /// to have of a bias is taken off them, and they are measured as a laboratory does.
+  Eigen::VectorXd predict_by(const Shoot& shoot, const Change& change,
+                             const std::vector<std::size_t>& conditions) const;
 
   /// What errors of the unit's bias change: independent patterns of 1 σ, the largest first. None without a unit.
   std::vector<Eigen::VectorXd> unit_errors() const;
@@ -76,6 +78,8 @@ class Predictor {
   const NominalModel& model() const { return model_; }
 
  private:
+  /// What is found in a condition's set-up. Nothing when no desk is seen.
+  using Look = std::function<std::optional<FrameEstimates>(const Setup& setup, const Condition& condition)>;
   struct Foreseen {
     Setup shot;
     FrameEstimates estimates;

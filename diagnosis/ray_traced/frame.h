@@ -1,18 +1,17 @@
-// What a frame of a set-up says, by the whole simulated camera: infrared image, matcher, depth, cloud.
+// The cloud of a set-up by the whole simulated camera: infrared image, matcher, depth.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "diagnosis/measurement/frame_estimates.h"
 #include "sim/scene/setup.h"
 
 namespace fathom {
 
-/// What the laboratory would find in such clouds: one scene shot twice, both clouds' points together, under the
-/// measurement's own estimators. The light is that of a measurement (measured_light), the unit one without wander.
-/// Equal seeds give equal noise, so that set-ups that differ a little differ in nothing else. Nothing when no desk is
-/// seen.
-std::optional<FrameEstimates> ray_traced_frame(const Setup& setup, const LaboratoryRig& rig, const FrameView& view,
-                                               std::uint64_t seed);
+/// The points of two shots of one scene, each half a pixel of its cloud. The light is that of a measurement
+/// (measured_light), the unit one without wander. Equal seeds give equal noise, so that set-ups that differ a little
+/// differ in nothing else.
+std::vector<SensedPoint> ray_traced_points(const Setup& setup, std::uint64_t seed);
 
 }  // namespace fathom

@@ -65,14 +65,13 @@ RayTracer::Cost RayTracer::cost(const std::vector<EffectValue>& effects) const {
 }
 
 Eigen::VectorXd RayTracer::trace(const std::vector<EffectValue>& effects) {
-  const Look look = [this](const Setup& shot, const Condition& condition) {
-    auto estimates = ray_traced_frame(shot, predictor_->model().laboratory, view_of(condition.factors),
-                                      Rng(seed_, condition.equal).bits());
+  const Shoot shoot = [this](const Setup& shot, const Condition& condition) {
+    std::vector<SensedPoint> points = ray_traced_points(shot, Rng(seed_, condition.equal).bits());
     traced_();
-    return estimates;
+    return points;
   };
   const std::vector<std::size_t> conditions = changed(effects);
-  Eigen::VectorXd values = predictor_->predict_by(look, switch_on(effects), conditions);
+  Eigen::VectorXd values = predictor_->predict_by(shoot, switch_on(effects), conditions);
   if (effects.empty()) return values;
   Eigen::VectorXd all = predict({});
   for (const std::size_t i : conditions)

@@ -13,8 +13,9 @@ namespace fathom {
 namespace {
 
 /// One cup with all that its clouds say but what is noise, as few rays predict it, measured twice.
-Physics one_condition(const char* liquid, double fill_mm) {
+Physics one_condition(const char* liquid, double fill_mm, std::shared_ptr<const UnitBias> unit = {}) {
   Measurement measurement;
+  measurement.unit = std::move(unit);
   measurement.rig = paper_laboratory();
   Factors factors = paper_shot(liquid, fill_mm, 300.0);
   const auto add = [&](const char* observable, std::string_view region) {
@@ -79,6 +80,32 @@ TEST(RayTraced, OtherSetsAreTracedNominallyAndChangedAsFewRaysHaveIt) {
   EXPECT_GT(by_few.lpNorm<Eigen::Infinity>(), 0.1);
 }
 
+/// What desks say of a unit is taken off whole frames as it is off few rays, and with it what bends the desk.
+TEST(RayTraced, WhatTheUnitIsTakenToHaveIsTakenOffFrames) {
+  const LaboratoryRig rig = paper_laboratory();
+  Factors bare;
+  bare.liquid = "none";
+  const std::vector<SensedPoint> desk = ray_traced_points(paper_setup(bare, Json::array()), 1);
+  std::map<int, DeskCells> desks;
+  desks[0].add(desk, estimate_frame(desk, rig, {})->desk, rig, {});
+  const auto change_mm = [](const Physics& physics) {
+    RayTracer tracer = tracer_of(physics);
+    const std::vector<EffectValue> bent{{"radial_distortion", {0.02}}};
+    const Eigen::VectorXd by_frames = tracer.predict(bent) - tracer.predict({}),
+                          by_few = physics.predict(bent) - physics.evidence.predicted;
+    double frames_mm = 0.0, few_mm = 0.0, regions = 0.0;
+    for (Eigen::Index i = 0; i < by_few.size(); ++i)
+      if (physics.evidence.observations[i].observable == "height_mm")
+        frames_mm += by_frames[i], few_mm += by_few[i], ++regions;
+    return std::pair(frames_mm / regions, few_mm / regions);
+  };
+  const auto [frames_mm, few_mm] = change_mm(one_condition("empty", 0.0, std::make_shared<UnitBias>(desks)));
+  const auto [whole_mm, whole_few_mm] = change_mm(one_condition("empty", 0.0));
+  EXPECT_NEAR(frames_mm, few_mm, 0.1);
+  EXPECT_NEAR(whole_mm, whole_few_mm, 0.1);
+  EXPECT_GT(std::abs(whole_mm - frames_mm), 0.4) << "the unit takes nothing off";
+}
+
 TEST(RayTraced, ThreadsDoNotMatter) {
   const Physics physics = one_condition("water", 30.0);
   const auto predicted = [&](std::size_t threads) {
@@ -96,7 +123,7 @@ TEST(RayTraced, LightThatEntersALiquidReadsTooLow) {
   const Factors factors = paper_shot("milk", 30.0, 300.0);
   const Eigen::Vector2d place(0.0, 0.3);
   const auto height_mm = [&](const Json& effects) {
-    const auto frame = ray_traced_frame(paper_setup(factors, effects), rig, {place}, 1);
+    const auto frame = estimate_frame(ray_traced_points(paper_setup(factors, effects), 1), rig, {place});
     return frame ? mm_from_metres(frame->interior.mean) : NAN;
   };
   const double surface_mm = height_mm(Json::array());
