@@ -213,12 +213,18 @@ std::string excess_sentences(const Diagnosis& diagnosis) {
   std::vector<std::string> said;
   std::string text;
   for (const Excess& excess : diagnosis.excess) {
-    if (said.size() == kMost || std::find(said.begin(), said.end(), excess.group) != said.end()) continue;
-    said.push_back(excess.group);
+    const std::string what = excess.level + excess.group;
+    if (said.size() == kMost || std::find(said.begin(), said.end(), what) != said.end()) continue;
+    said.push_back(what);
     const ObservableWords words = observable_words(excess.observable);
     if (excess.level == "trial") {
       text += fmt::format("The {} is {:.2g}{} more than its noise makes ({:.0f} σ): the sensor or the desk trembles. ",
                           words.name, excess.size, words.unit, excess.size / excess.sigma);
+      continue;
+    }
+    if (excess.group.empty()) {
+      text += fmt::format("From {} to {} the {} scatters by {:.2g}{} (± {:.1g}) more than is stated. ", excess.level,
+                          excess.level, words.name, excess.size, words.unit, excess.sigma);
       continue;
     }
     text += fmt::format("In {} {} the {} is {:.2g}{} {} than in the others ({:.0f} σ), more than {}s should differ. ",

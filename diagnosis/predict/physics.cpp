@@ -42,7 +42,9 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   Physics physics;
   Evidence& evidence = physics.evidence;
   evidence.mistakes = measurement.mistakes;
-  evidence.session = {mm_from_metres(measurement.rig.session_m), deg_from_radians(measurement.rig.session_rad)};
+  const LaboratoryRig& rig = measurement.rig;
+  evidence.stated = {mm_from_metres(rig.session_m), deg_from_radians(rig.session_rad), mm_from_metres(rig.fill_sigma_m),
+                     mm_from_metres(rig.placement_sigma_m)};
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor =
       std::make_shared<Predictor>(measurement.rig, observations, model_effects, file, measurement.unit);

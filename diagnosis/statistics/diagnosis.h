@@ -27,8 +27,8 @@ struct GapLocation {
 
 /// A group that differs from the others by more than the laboratory states.
 struct Excess {
-  std::string level;       ///< "session", or "trial": from each to the next
-  std::string group;       ///< the session's number
+  std::string level;       ///< "session"; "pour", "placement", "trial": from each to the next
+  std::string group;       ///< the session's number; of the others nothing
   std::string observable;  ///< "height_mm"
   double size = 0.0;       ///< beside the mean of the others, of trials the motion itself; in the observable's unit
   double sigma = 0.0;      ///< 1 σ of that

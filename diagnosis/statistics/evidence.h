@@ -74,10 +74,11 @@ struct Mistake {
   std::string sentence;  ///< what it was
 };
 
-/// By how much sessions may differ beyond what the nuisances say, 1 σ. What differs more is a finding (excess.h).
-struct SessionScatter {
-  double mm = std::numeric_limits<double>::infinity();   ///< of observables in mm
-  double deg = std::numeric_limits<double>::infinity();  ///< of observables in degrees
+/// By how much the laboratory says that its repetitions may differ, 1 σ. What differs more is a finding (excess.h).
+struct StatedScatter {
+  static constexpr double kAny = std::numeric_limits<double>::infinity();
+  double session_mm = kAny, session_deg = kAny;  ///< sessions, beyond what the nuisances say
+  double fill_mm = kAny, placement_mm = kAny;    ///< fills of pours, places of cups; heights differ by no more
 };
 
 struct Evidence {
@@ -88,7 +89,7 @@ struct Evidence {
   Eigen::VectorXd numerical_sd{};            ///< 1 σ of the predictions' own numerical error; empty: none is stated
   std::vector<SharedError> shared_errors{};  ///< of the predictions, too
   std::vector<Mistake> mistakes{};           ///< put right in the observations
-  SessionScatter session{};                  ///< as the laboratory states it
+  StatedScatter stated{};
 };
 
 /// An effect switched on, with the values of its parameters in their order.

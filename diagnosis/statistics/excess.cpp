@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/null_calibration.h"
 
@@ -81,6 +82,27 @@ void add_trials(const std::vector<Observation>& observations, std::vector<Contra
                          true});
 }
 
+/// Pours and placements whose heights scatter beyond what is stated of them. The variance that was found comes on top
+/// of what the nuisances say.
+std::vector<Excess> scatter_beyond(const StatedScatter& stated, const ErrorBudget& errors) {
+  std::vector<Excess> result;
+  for (const ObservableErrors& of : errors.observables)
+    for (std::size_t k = 0; k < of.components.size(); ++k) {
+      const auto& [observable, level, variance, groups, scale] = of.components[k];
+      const double most = level == ErrorLevel::pour        ? stated.fill_mm
+                          : level == ErrorLevel::placement ? stated.placement_mm
+                                                           : StatedScatter::kAny;
+      const auto row = static_cast<Eigen::Index>(k);
+      if (observable != "height_mm" || !(most > 0.0 && std::isfinite(most)) || variance <= 0.0) continue;
+      const double of_variance = std::sqrt(of.covariance(row, row));
+      const double dof = std::clamp(2.0 * std::pow(variance / of_variance, 2.0), 1.0, groups.count - 1.0);
+      const double p = chi_squared_tail(dof * (1.0 + variance / (most * most)), dof);
+      result.push_back(
+          {name_of(level), "", observable, std::sqrt(variance), 0.5 * of_variance / std::sqrt(variance), p});
+    }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covariance, const Eigen::VectorXd& residual,
@@ -88,7 +110,7 @@ std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covari
   std::vector<Contrast> contrasts;
   add_sessions(evidence.observations, contrasts);
   add_trials(evidence.observations, contrasts);
-  std::vector<Excess> result;
+  std::vector<Excess> looked_at = scatter_beyond(evidence.stated, covariance.errors);
   for (const Contrast& contrast : contrasts) {
     Eigen::MatrixXd columns = covariance.whiten(contrast.columns);
     if (explained.cols() > 0) columns -= explained * (explained.transpose() * columns);
@@ -98,7 +120,12 @@ std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covari
     excess.sigma = weights.norm();
     if (!(excess.sigma > 0.0) || !std::isfinite(excess.size) || (contrast.only_more && excess.size < 0.0)) continue;
     const double z = normal_score(std::abs(excess.size) / excess.sigma, degrees_of_freedom(covariance, weights)[0]);
-    excess.p = std::min(1.0, static_cast<double>(contrasts.size()) * std::erfc(z / std::sqrt(2.0)));
+    excess.p = std::erfc(z / std::sqrt(2.0));
+    looked_at.push_back(std::move(excess));
+  }
+  std::vector<Excess> result;
+  for (Excess& excess : looked_at) {
+    excess.p = std::min(1.0, static_cast<double>(looked_at.size()) * excess.p);
     if (excess.p < level) result.push_back(std::move(excess));
   }
   std::stable_sort(result.begin(), result.end(), [](const Excess& a, const Excess& b) {

@@ -74,8 +74,8 @@ void limit_sessions(const Evidence& evidence, ObservableErrors& errors) {
   for (std::size_t k = 0; k < errors.components.size(); ++k) {
     VarianceComponent& component = errors.components[k];
     if (component.level != ErrorLevel::session) continue;
-    const double most = component.observable.ends_with("_mm")    ? evidence.session.mm
-                        : component.observable.ends_with("_deg") ? evidence.session.deg
+    const double most = component.observable.ends_with("_mm")    ? evidence.stated.session_mm
+                        : component.observable.ends_with("_deg") ? evidence.stated.session_deg
                                                                  : std::numeric_limits<double>::infinity();
     if (component.variance <= most * most) continue;
     const auto row = static_cast<Eigen::Index>(k);

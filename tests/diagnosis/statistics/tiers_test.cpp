@@ -58,7 +58,7 @@ World poured_in_sessions(int pours) {
 
 Evidence with_session_off(const World& world, double by_mm, double stated_mm, std::uint64_t seed) {
   Evidence evidence = world.measure({}, {}, seed);
-  evidence.session.mm = stated_mm;
+  evidence.stated.session_mm = stated_mm;
   for (Observation& o : evidence.observations)
     if (o.observable == "height_mm" && o.factors.session == 1) o.value += by_mm;
   return evidence;
@@ -91,6 +91,25 @@ TEST(Excess, OnePourASessionIsEnough) {
 TEST(Excess, ASessionThatMayDifferAsMuchIsNone) {
   const World world = poured_in_sessions(2);
   EXPECT_TRUE(decide(with_session_off(world, 1.9, 3.0, 4), world.predict()).excess.empty());
+}
+
+/// Every pour of the liquid is off by so much, up and down in turn.
+TEST(Excess, PoursThatScatterMoreThanIsStatedAreAFinding) {
+  const World world = poured_in_sessions(2);
+  for (const double stated_mm : {0.5, 4.0}) {
+    Evidence evidence = world.measure({}, {}, 4);
+    evidence.stated.fill_mm = stated_mm;
+    for (Observation& o : evidence.observations)
+      if (o.observable == "height_mm" && o.factors.liquid != "empty" && o.factors.liquid != "none")
+        o.value += (o.factors.pour + static_cast<int>(o.factors.fill_mm / 10.0)) % 2 ? 2.0 : -2.0;
+    const Diagnosis diagnosis = decide(evidence, world.predict());
+    const bool is_finding = std::any_of(diagnosis.excess.begin(), diagnosis.excess.end(),
+                                        [](const Excess& excess) { return excess.level == "pour"; });
+    EXPECT_EQ(is_finding, stated_mm < 1.0) << json_from(diagnosis)["excess"].dump();
+    if (is_finding) {
+      EXPECT_NE(diagnosis.verdict, Verdict::none);
+    }
+  }
 }
 
 TEST(Excess, SessionsThatAreAlikeRaiseNoAlarm) {
