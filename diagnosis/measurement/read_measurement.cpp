@@ -42,7 +42,7 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
   const Eigen::Vector2f axis = axis_from_camera(rig, cup).cast<float>();
   const float fall = static_cast<float>(desk.offset - rig.cup.height()), focal = static_cast<float>(rig.focal_px);
-  const float radius = static_cast<float>(rig.cup.inner.back().x() - kInteriorMargin);
+  const float radius = static_cast<float>(std::max(rig.cup.inner.back().x() - kInteriorMargin, 0.0));
   int looked = 0, valid = 0;
   for (int row = 0; row < cloud.height; ++row)
     for (int column = 0; column < cloud.width; ++column) {

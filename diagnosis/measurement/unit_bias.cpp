@@ -54,8 +54,9 @@ Bias as_bias(const BiasField& field) {
 Bias as_bias(const UnitMap& map) {
   return [&map](const BiasPoint& point) -> double {
     const Eigen::Vector2d& pixel = point.pixel_px;
+    const auto within = [](double at, double size) { return static_cast<int>(std::clamp(at, 0.0, size - 1.0)); };
     return map.reference_of(pixel.x() - point.nearer_px, pixel.y()) +
-           map.camera_of(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+           map.camera_of(within(pixel.x(), kImageWidth_px), within(pixel.y(), kImageHeight_px));
   };
 }
 

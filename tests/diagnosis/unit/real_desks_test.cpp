@@ -99,6 +99,7 @@ TEST(RealDesks, ABiasLearnedOnSomeDesksIsTakenOffOthers) {
   std::vector<BiasView> views;
   for (const Desk& desk : all) views.push_back(desk.seen.view);
   set_states_by_pose(views);
+  const double at_reference = kKinect.focal_px * kKinect.baseline_m / kReferenceDistance_m;
   double share = 0.0, without_states = 0.0;
   for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
     std::vector<BiasView> others = views;
@@ -107,10 +108,11 @@ TEST(RealDesks, ABiasLearnedOnSomeDesksIsTakenOffOthers) {
     const BiasField field = BiasLearner(others, prior).learn();
     const double before = smooth_rms(all[left_out], [](const Eigen::Vector3f&) { return 0.0; });
     const auto left = [&](int state) {
-      return smooth_rms(all[left_out],
-                        [&](const Eigen::Vector3f& point) {
-                          return field.at({kKinect.pixel_px(point), kKinect.nearer_px(point.z()), state});
-                        }) /
+      return smooth_rms(
+                 all[left_out],
+                 [&](const Eigen::Vector3f& point) {
+                   return field.at({kKinect.pixel_px(point), kKinect.disparity_px(point.z()) - at_reference, state});
+                 }) /
              before;
     };
     share += left(views[left_out].state) / static_cast<double>(all.size());
