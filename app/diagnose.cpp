@@ -131,8 +131,7 @@ std::string on_bare_desks(const Measurement& measurement, const Predictor& predi
   const double away = rig.height_m / std::max(std::sin(rig.pitch_rad), 0.1);
   const double mm_per_px = mm_from_metres(rig.height_m * away / (rig.focal_px * rig.baseline_m));
   return fmt::format(
-      "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views "
-      "without "
+      "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views without "
       "a cup, three in each session, would bring that to {:.2f} mm.",
       mm_per_px * known->now_px, mm_per_px * known->with_bare_desks_px);
 }
@@ -164,7 +163,7 @@ void write_next(const fs::path& folder, const Diagnosis& diagnosis, const std::v
 }
 
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
-  require_gnuplot();
+  require_report(common);
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Measurement measurement = read_measurements(options.folders, common.quiet);
@@ -252,10 +251,7 @@ std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common
                  "images of what is left, minutes)")
       ->check(CLI::IsMember({"geometric", "photometric"}))
       ->capture_default_str();
-  return [options, &common] {
-    require_output(common);
-    run_diagnose(*options, common);
-  };
+  return [options, &common] { run_diagnose(*options, common); };
 }
 
 }  // namespace fathom
