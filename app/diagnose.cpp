@@ -131,7 +131,8 @@ std::string on_bare_desks(const Measurement& measurement, const Predictor& predi
   const double away = rig.height_m / std::max(std::sin(rig.pitch_rad), 0.1);
   const double mm_per_px = mm_from_metres(rig.height_m * away / (rig.focal_px * rig.baseline_m));
   return fmt::format(
-      "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views without "
+      "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views "
+      "without "
       "a cup, three in each session, would bring that to {:.2f} mm.",
       mm_per_px * known->now_px, mm_per_px * known->with_bare_desks_px);
 }
@@ -200,9 +201,9 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
     campaign.diagnosis = traced->diagnosis;
     campaign.ray_traced_html = ray_traced_html(*traced, by_few_rays);
   }
-  for (std::string& sentence : beside_sentences(campaign.diagnosis)) {
-    campaign.notes.push_back(sentence);
-    measurement.notes.push_back(std::move(sentence));
+  if (std::string beside = beside_words(campaign.diagnosis); !beside.empty()) {
+    campaign.notes.push_back(beside);
+    measurement.notes.push_back(std::move(beside));
   }
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));

@@ -62,11 +62,10 @@ Bias as_bias(const UnitMap& map) {
 
 UnitBias::UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated)
     : UnitBias([&] {
-        constexpr double kLeft = 0.45;  // of a Kinect's bias, of 0.1 px, when other desks have told what they can
         Views all;
         all.prior = default_bias_prior();
         if (is_calibrated)
-          for (double& amplitude : all.prior.reference_px) amplitude *= kLeft;
+          for (double& amplitude : all.prior.reference_px) amplitude *= kLeftByCalibration;
         std::vector<double> own_errors;
         for (const auto& [session, cells] : desks) {
           BiasView view = cells.view();
