@@ -128,7 +128,7 @@ LackWords lack_words(const Shortfall& s, const MeasurementCheck& check) {
   std::vector<std::string> defaults;
   for (const std::string& key : s.names) defaults.push_back(with_default(key));
   const LackText& text = kTexts[static_cast<std::size_t>(s.lack)];
-  const auto say = [&](std::string_view sentence) {
+  const auto filled = [&](std::string_view sentence) {
     return fmt::format(
         fmt::runtime(sentence), fmt::arg("size", s.size), fmt::arg("percent", 100.0 * s.size),
         fmt::arg("off", std::abs(s.size)), fmt::arg("more", s.size > 0.0 ? "more" : "less"),
@@ -142,7 +142,7 @@ LackWords lack_words(const Shortfall& s, const MeasurementCheck& check) {
         fmt::arg("beside", check.sessions > 1 ? "fill_sigma_mm, placement_sigma_mm, session_mm and session_deg"
                                               : "fill_sigma_mm and placement_sigma_mm"));
   };
-  return {text.id, say(text.what), say(text.costs), say(text.remedy)};
+  return {text.id, filled(text.what), filled(text.costs), filled(text.remedy)};
 }
 
 }  // namespace fathom
