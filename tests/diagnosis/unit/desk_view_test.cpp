@@ -82,6 +82,15 @@ TEST(DeskView, AThinnedCloudHasTheSameBias) {
     EXPECT_NEAR(all->view.errors_px[i], some->view.errors_px[i], 0.02);
 }
 
+TEST(DeskView, CoordinatesBeyondAnyIntegerLieBesideTheImage) {
+  Points points = cloud([](int, int, double disparity) { return disparity; });
+  const auto without = desk_view({&points, 1}, desk(), kExact);
+  for (const float far : {1e30f, -1e30f}) points.emplace_back(far, far, 0.7f);
+  const auto with = desk_view({&points, 1}, desk(), kExact);
+  ASSERT_TRUE(with && without);
+  EXPECT_EQ(with->view.errors_px, without->view.errors_px);
+}
+
 TEST(DepthFacts, TheLawIsReadOffTheDepths) {
   struct Law {
     double focal_px, phase, cut_mm;
