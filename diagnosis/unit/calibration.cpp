@@ -90,9 +90,8 @@ Plane desk_of(const CalibrationCloud& cloud, const Points& points, const Calibra
   search.threshold_m = std::max(search.threshold_m, 0.5 * depth * depth / (scale.focal_px * scale.baseline_m));
   const auto desk = choose_desk(find_planes(some, search), options.mounted, search);
   if (!desk)
-    throw Error(cloud.file.string(), options.mounted
-                                         ? "no desk found where --height-mm and --pitch-deg put it"
-                                         : "no desk found: no plane faces the sensor within 60°");
+    throw Error(cloud.file.string(), options.mounted ? "no desk found where --height-mm and --pitch-deg put it"
+                                                     : "no desk found: no plane faces the sensor within 60°");
   return desk->plane;
 }
 

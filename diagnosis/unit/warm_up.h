@@ -17,8 +17,8 @@ struct TimedDisparity {
   double time_s, disparity_px;
 };
 
-/// Least squares. Nothing of fewer than five times, nor where the first is less than three sigma: a device that does not
-/// warm up, or times that begin when it has.
+/// Least squares. Nothing of fewer than five times, nor where the first is less than three sigma: a device that does
+/// not warm up, or times that begin when it has.
 std::optional<WarmUp> warm_up_of(std::span<const TimedDisparity> readings);
 
 }  // namespace fathom
