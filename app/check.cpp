@@ -3,14 +3,16 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
 
 #include "app/check_words.h"
 #include "app/commands.h"
+#include "app/measurement_folder.h"
 #include "app/results.h"
 #include "core/json_text.h"
 #include "core/rows.h"
+#include "core/units.h"
 #include "core/visible_text.h"
+#include "diagnosis/predict/nominal_model.h"
 
 namespace fathom {
 namespace {
@@ -25,6 +27,26 @@ std::string trials_text(const MeasurementCheck& check) {
 std::string cloud_text(const MeasurementCheck& check) {
   if (check.height <= 1) return fmt::format("{} points, without rows", check.width);
   return fmt::format("{} x {}", check.width, check.height);
+}
+
+/// Where a diagnosis takes the unit's bias from.
+std::string unit_text(const MeasurementCheck& check) {
+  const std::string file = check.rig.unit.map ? "as in " + check.rig.unit.file : "";
+  if (check.clouds == 0) return file.empty() ? "not known: there are no clouds" : file;
+  return file.empty() ? "will be learned from the desks" : file + ", the rest will be learned from the desks";
+}
+
+Json unit_json(const MeasurementCheck& check) {
+  if (check.rig.unit.map) return {{"from", "calibration"}, {"file", check.rig.unit.file}};
+  return {{"from", check.clouds > 0 ? "desks" : "nothing"}};
+}
+
+std::string sessions_text(const MeasurementCheck& check) {
+  const auto text = [](double value, const char* unit, bool is_stated) {
+    return fmt::format("{:.3g}{}, {}", value, unit, is_stated ? "as stated" : "the default");
+  };
+  return fmt::format("{}; {}", text(mm_from_metres(check.rig.session_m), " mm", check.session_mm_stated),
+                     text(deg_from_radians(check.rig.session_rad), "°", check.session_deg_stated));
 }
 
 std::vector<Row> rows_of(const MeasurementCheck& check) {
@@ -45,6 +67,8 @@ std::vector<Row> rows_of(const MeasurementCheck& check) {
     else
       rows.push_back({"fills_of_" + liquid, lengths(fills_mm), "mm"});
   rows.push_back({"cup", check.rig.cup_shape});
+  rows.push_back({"unit", unit_text(check)});
+  if (check.sessions > 1) rows.push_back({"sessions_differ_by", sessions_text(check)});
   if (check.clouds_read > 0) {
     rows.push_back({"clouds_looked_at", count(check.clouds_read)});
     rows.push_back({"first_cloud", cloud_text(check)});
@@ -65,21 +89,25 @@ std::string rows_text(const MeasurementCheck& check) {
 }
 
 Json json_of(const MeasurementCheck& check) {
-  Json json = {{"can_run", true},
-               {"frames", check.frames},
-               {"clouds", check.clouds},
-               {"heights_without_cloud", check.heights},
-               {"bare_desk_views", check.bare_desk_views},
-               {"sessions", check.sessions},
-               {"pours", check.pours},
-               {"placements", check.placements},
-               {"trials_of_each", {check.fewest_trials, check.most_trials}},
-               {"distances_mm", check.distances_mm},
-               {"laterals_mm", check.laterals_mm},
-               {"fills_mm", check.fills_mm},
-               {"cup", check.rig.cup_shape},
-               {"clouds_looked_at", check.clouds_read},
-               {"missing", Json::array()}};
+  Json json = {
+      {"can_run", true},
+      {"frames", check.frames},
+      {"clouds", check.clouds},
+      {"heights_without_cloud", check.heights},
+      {"bare_desk_views", check.bare_desk_views},
+      {"sessions", check.sessions},
+      {"pours", check.pours},
+      {"placements", check.placements},
+      {"trials_of_each", {check.fewest_trials, check.most_trials}},
+      {"distances_mm", check.distances_mm},
+      {"laterals_mm", check.laterals_mm},
+      {"fills_mm", check.fills_mm},
+      {"cup", check.rig.cup_shape},
+      {"unit", unit_json(check)},
+      {"session_mm", {{"value", mm_from_metres(check.rig.session_m)}, {"stated", check.session_mm_stated}}},
+      {"session_deg", {{"value", deg_from_radians(check.rig.session_rad)}, {"stated", check.session_deg_stated}}},
+      {"clouds_looked_at", check.clouds_read},
+      {"missing", Json::array()}};
   for (const Shortfall& shortfall : check.lacks) {
     const LackWords words = lack_words(shortfall, check);
     json["missing"].push_back({{"name", words.id},
@@ -94,12 +122,10 @@ Json json_of(const MeasurementCheck& check) {
 }  // namespace
 
 std::function<void()> define_check(CLI::App& app, const CommonOptions& common) {
-  const auto folder = std::make_shared<std::filesystem::path>();
-  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")
-      ->required()
-      ->type_name("DIR");
+  const auto folder = add_measurement_folder(app);
   return [folder, &common] {
     const MeasurementCheck check = check_measurement(*folder);
+    nominal_model(check.rig, (*folder / "rig.json").string());  // refuses names and media that a diagnosis refuses
     print_results(common, "check", ".txt", common.json ? json_text(json_of(check)) : rows_text(check));
   };
 }

@@ -3,156 +3,146 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/name_list.h"
 #include "core/units.h"
 #include "diagnosis/measurement/named_values.h"
+#include "diagnosis/measurement/sensed_frame.h"
 #include "diagnosis/predict/uncertain_rig.h"
 #include "diagnosis/statistics/sufficiency.h"
 
 namespace fathom {
 namespace {
 
-/// "1, 2, 3, 4, 5 and 12 more"
-std::string list(const std::vector<std::string>& names) {
-  constexpr std::size_t kNamed = 5;
-  const std::size_t shown = std::min(names.size(), kNamed);
-  const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<long>(shown), ", "));
-  return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
-}
-
 /// "fill_sigma_mm 0.5"
 std::string with_default(const std::string& key) {
   const LaboratoryRig usual;
   if (key == "fill_sigma_mm") return fmt::format("{} {:g}", key, mm_from_metres(usual.fill_sigma_m));
   if (key == "placement_sigma_mm") return fmt::format("{} {:g}", key, mm_from_metres(usual.placement_sigma_m));
+  if (key == "session_mm") return fmt::format("{} {:g}", key, mm_from_metres(usual.session_m));
+  if (key == "session_deg") return fmt::format("{} {:.3g}", key, deg_from_radians(usual.session_rad));
   for (const UncertainValue& value : kUncertainRig)
     if (key == value.key) return fmt::format("{} {:g}", key, value.sigma);
   return key;
 }
 
-/// `value` of the sensor as it is called in a sentence, `off` with its unit.
-LackWords pose(std::string_view id, const char* value, double off, const std::string& size, const char* key) {
-  return {
-      id,
-      fmt::format("By the clouds the sensor's {} is {} {} than in rig.json.", value, size, off > 0.0 ? "more" : "less"),
-      "A diagnosis will name the sensor's pose before anything else, and may mistake other effects for it.",
-      fmt::format("Measure {} anew.", key)};
+/// Sentences with {names} where a Shortfall's own words and numbers stand.
+struct LackText {
+  Lack lack;
+  std::string_view id, what, costs, remedy;
+};
+
+constexpr std::string_view kPoseCosts =
+    "A diagnosis will name the sensor's pose before anything else, and may mistake other effects for it.";
+
+constexpr std::array kTexts{
+    LackText{Lack::conditions, "conditions", "There are {size:.0f} conditions (liquid, fill, distance, lateral).",
+             "The verdict will be insufficient: at least {fewest_conditions} are needed.",
+             "Measure the cup at other places and with other fillings."},
+    LackText{Lack::desk_height, "desk_height",
+             "By the clouds the sensor's height above the desk is {off:.1f} mm {more} than in rig.json.", kPoseCosts,
+             "Measure height_mm anew."},
+    LackText{Lack::desk_pitch, "desk_pitch", "By the clouds the sensor's pitch is {off:.2f}° {more} than in rig.json.",
+             kPoseCosts, "Measure pitch_deg anew."},
+    LackText{Lack::desk_roll, "desk_roll", "By the clouds the sensor's roll is {off:.2f}° {more} than in rig.json.",
+             kPoseCosts, "Measure roll_deg anew."},
+    LackText{Lack::desk_in_sight, "desk_in_sight",
+             "{count} of {looked_at} clouds that were looked at {no_desk}: frames {names}.",
+             "Such clouds do not count.", "Look at these clouds, and at their places in the table."},
+    LackText{Lack::cup_in_sight, "cup_in_sight",
+             "{count} of {looked_at} clouds that were looked at {no_cup}: frames {names}.", "Such clouds do not count.",
+             "Look at distance_mm and lateral_mm of these frames."},
+    LackText{
+        Lack::cup_in_image, "cup_in_image",
+        "Cups reach out of the image at {count} places ({names}); at worst {percent:.0f} % of the cup's outline is "
+        "in it.",
+        "What is not seen of a cup is compared with nothing, and its walls say less of where it stands.",
+        "Put these cups nearer to the middle of the image."},
+    LackText{Lack::inside_in_sight, "inside_in_sight",
+             "In {count} conditions next to nothing is seen of the cup's inside, {size:.0f} pixels at worst: {names}.",
+             "No height is compared there: a region counts from {fewest_pixels:g} pixels on, and 10 mm along the inner "
+             "wall are left out.",
+             "Put the cup nearer to the sensor's foot, or fill it higher."},
+    LackText{Lack::whole_clouds, "whole_clouds",
+             "{count} clouds are less than half as large as the others: frames {names}.",
+             "A file that broke off stops a diagnosis.", "Copy these files anew."},
+    LackText{Lack::clouds, "clouds", "{size:.0f} of {frames} frames have a height and no cloud.",
+             "Only mean heights are compared there. A unit's own error at each place stays unknown: only contrasts "
+             "between fillings at one place are free of it.",
+             "Keep the clouds, and name them in the column cloud."},
+    LackText{Lack::bare_desk_views, "bare_desk_views", "There are no views of the bare desk.",
+             "{bias}, about {size:.1f} mm where these cups stand, cannot be learned there.",
+             "Take three views without a cup before the first cup is put down: liquid none, all lengths 0."},
+    LackText{Lack::repeats, "repeats", "Nothing was measured twice.",
+             "The size of the errors can then only be estimated from how smoothly the heights vary; with fewer than 24 "
+             "of them the verdict is insufficient.",
+             "Take three shots of each placement, and put each cup down twice."},
+    LackText{Lack::trials, "trials", "Each placement has one shot.",
+             "The sensor's noise cannot be told from errors of placing, nor does a trembling sensor show.",
+             "Take three shots of each placement."},
+    LackText{Lack::placements, "placements", "No cup was put down twice at one place with one filling.",
+             "What putting down does is taken to be {placement_mm:g} mm, as rig.json says or by default.",
+             "Lift each cup once and put it down again."},
+    LackText{Lack::pours, "pours", "{count} fillings were poured once: {names}.",
+             "An error of that pour, {fill_mm:g} mm (1 σ) by rig.json or by default, looks like an effect of its "
+             "liquid.",
+             "Pour each filling twice or more."},
+    LackText{Lack::empty_cup, "empty_cup", "There is no empty cup.",
+             "A bottom that lies higher cannot be told from liquids that are deeper than written down.",
+             "Take the empty cup at each place."},
+    LackText{Lack::fills, "fills", "Of {names} there is one depth alone.",
+             "An error that all fills share cannot be told from one that grows with them, nor from another refractive "
+             "index.",
+             "Take two depths, far apart."},
+    LackText{Lack::distances, "distances", "All cups stand at one distance.",
+             "Another refractive index looks like fills that are off in proportion, and a sensor's errors like the "
+             "cup's.",
+             "Take two distances or more, 100 mm apart."},
+    LackText{Lack::laterals, "laterals", "All cups stand at one lateral.",
+             "What differs from left to right does not show.", "Take cups to the left and to the right as well."},
+    LackText{Lack::sessions, "sessions", "There is one session.",
+             "What changes when the sensor is set up anew does not show.", "Take a second session on another day."},
+    LackText{Lack::times, "times", "All frames have the same time_s.", "Warming up and evaporation do not show.",
+             "Write down when each shot was taken, in seconds of its session."},
+    LackText{Lack::brightness, "brightness", "Clouds have no intensity.",
+             "Foam, scattering and absorption show in heights alone.",
+             "Write the infrared image's values as the field intensity of the clouds."},
+    LackText{Lack::stated_sigmas, "stated_sigmas",
+             "rig.json does not say how certain some values are; taken are {defaults}.",
+             "If the rig is less certain than that, its errors are named as effects.",
+             "State those of sensor and cup under sigma, the others as {beside}."},
+};
+
+constexpr bool is_in_order() {
+  for (std::size_t i = 0; i < kTexts.size(); ++i)
+    if (kTexts[i].lack != static_cast<Lack>(i)) return false;
+  return kTexts.back().lack == Lack::stated_sigmas;
 }
+static_assert(is_in_order());
 
 }  // namespace
 
 LackWords lack_words(const Shortfall& s, const MeasurementCheck& check) {
-  const auto size = static_cast<std::size_t>(s.size);
-  switch (s.lack) {
-    case Lack::conditions:
-      return {"conditions", fmt::format("There are {} conditions (liquid, fill, distance, lateral).", size),
-              fmt::format("The verdict will be insufficient: at least {} are needed.", kFewestConditions),
-              "Measure the cup at other places and with other fillings."};
-    case Lack::desk_height:
-      return pose("desk_height", "height above the desk", s.size, fmt::format("{:.1f} mm", std::abs(s.size)),
-                  "height_mm");
-    case Lack::desk_pitch:
-      return pose("desk_pitch", "pitch", s.size, fmt::format("{:.2f}°", std::abs(s.size)), "pitch_deg");
-    case Lack::desk_roll:
-      return pose("desk_roll", "roll", s.size, fmt::format("{:.2f}°", std::abs(s.size)), "roll_deg");
-    case Lack::desk_in_sight:
-      return {"desk_in_sight",
-              fmt::format("{} of {} clouds that were looked at show no desk where rig.json says it is: frames {}.",
-                          s.names.size(), check.clouds_read, list(s.names)),
-              "Such clouds do not count.", "Look at these clouds, and at their places in the table."};
-    case Lack::cup_in_sight:
-      return {
-          "cup_in_sight",
-          fmt::format("{} of {} clouds that were looked at show the bare desk where the cup should stand: frames {}.",
-                      s.names.size(), check.clouds_read, list(s.names)),
-          "Such clouds do not count.", "Look at distance_mm and lateral_mm of these frames."};
-    case Lack::cup_in_image:
-      return {
-          "cup_in_image",
-          fmt::format("Cups reach out of the image at {} places ({}); at worst {:.0f} % of the cup's outline is in it.",
-                      s.names.size(), list(s.names), 100.0 * s.size),
-          "What is not seen of a cup is compared with nothing, and its walls say less of where it stands.",
-          "Put these cups nearer to the middle of the image."};
-    case Lack::inside_in_sight:
-      return {"inside_in_sight",
-              fmt::format("In {} conditions next to nothing is seen of the cup's inside, {:.0f} pixels at worst: {}.",
-                          s.names.size(), s.size, list(s.names)),
-              fmt::format("No height is compared there: a region counts from {:g} pixels on, and 10 mm along the inner "
-                          "wall are left out.",
-                          kFewestInRegion),
-              "Put the cup nearer to the sensor's foot, or fill it higher."};
-    case Lack::whole_clouds:
-      return {
-          "whole_clouds",
-          fmt::format("{} clouds are less than half as large as the others: frames {}.", s.names.size(), list(s.names)),
-          "A file that broke off stops a diagnosis.", "Copy these files anew."};
-    case Lack::clouds:
-      return {"clouds", fmt::format("{} of {} frames have a height and no cloud.", size, check.frames),
-              "Only mean heights are compared there. A unit's own error at each place stays unknown: only contrasts "
-              "between fillings at one place are free of it.",
-              "Keep the clouds, and name them in the column cloud."};
-    case Lack::bare_desk_views:
-      return {
-          "bare_desk_views", "There are no views of the bare desk.",
-          fmt::format("The unit's own bias, about {:.1f} mm where these cups stand, cannot be learned there.", s.size),
-          "Take three views without a cup before the first cup is put down: liquid none, all lengths 0."};
-    case Lack::repeats:
-      return {"repeats", "Nothing was measured twice.",
-              "How large errors are has to be taken from how smooth heights are, or the verdict is insufficient.",
-              "Take three shots of each placement, and put each cup down twice."};
-    case Lack::trials:
-      return {"trials", "Each placement has one shot.",
-              "The sensor's noise cannot be told from errors of placing, nor does a trembling sensor show.",
-              "Take three shots of each placement."};
-    case Lack::placements:
-      return {"placements", "No cup was put down twice at one place with one filling.",
-              fmt::format("What putting down does is taken to be {:g} mm, as rig.json says or by default.",
-                          mm_from_metres(check.rig.placement_sigma_m)),
-              "Lift each cup once and put it down again."};
-    case Lack::pours:
-      return {"pours", fmt::format("{} fillings were poured once: {}.", s.names.size(), list(s.names)),
-              fmt::format("An error of that pour, {:g} mm (1 σ) by rig.json or by default, looks like an effect of its "
-                          "liquid.",
-                          mm_from_metres(check.rig.fill_sigma_m)),
-              "Pour each filling twice or more."};
-    case Lack::empty_cup:
-      return {"empty_cup", "There is no empty cup.",
-              "A bottom that lies higher cannot be told from liquids that are deeper than written down.",
-              "Take the empty cup at each place."};
-    case Lack::fills:
-      return {"fills", fmt::format("Of {} there is one depth alone.", list(s.names)),
-              "An error that all fills share cannot be told from one that grows with them, nor from another refractive "
-              "index.",
-              "Take two depths, far apart."};
-    case Lack::distances:
-      return {"distances", "All cups stand at one distance.",
-              "Another refractive index looks like fills that are off in proportion, and a sensor's errors like the "
-              "cup's.",
-              "Take two distances or more, 100 mm apart."};
-    case Lack::laterals:
-      return {"laterals", "All cups stand at one lateral.", "What differs from left to right does not show.",
-              "Take cups to the left and to the right as well."};
-    case Lack::sessions:
-      return {"sessions", "There is one session.", "What changes when the sensor is set up anew does not show.",
-              "Take a second session on another day."};
-    case Lack::times:
-      return {"times", "All frames have the same time_s.", "Warming up and evaporation do not show.",
-              "Write down when each shot was taken, in seconds of its session."};
-    case Lack::brightness:
-      return {"brightness", "Clouds have no intensity.", "Foam, scattering and absorption show in heights alone.",
-              "Write the infrared image's values as the field intensity of the clouds."};
-    case Lack::stated_sigmas: {
-      std::vector<std::string> keys;
-      for (const std::string& key : s.names) keys.push_back(with_default(key));
-      return {"stated_sigmas",
-              fmt::format("rig.json does not say how certain some values are; taken are {}.", fmt::join(keys, ", ")),
-              "If the rig is less certain than that, its errors are named as effects.",
-              "State them under sigma, as fill_sigma_mm and as placement_sigma_mm."};
-    }
-  }
-  return {};
+  std::vector<std::string> defaults;
+  for (const std::string& key : s.names) defaults.push_back(with_default(key));
+  const LackText& text = kTexts[static_cast<std::size_t>(s.lack)];
+  const auto filled = [&](std::string_view sentence) {
+    return fmt::format(
+        fmt::runtime(sentence), fmt::arg("size", s.size), fmt::arg("percent", 100.0 * s.size),
+        fmt::arg("off", std::abs(s.size)), fmt::arg("more", s.size > 0.0 ? "more" : "less"),
+        fmt::arg("count", s.names.size()), fmt::arg("names", name_list(s.names)),
+        fmt::arg("defaults", fmt::join(defaults, ", ")), fmt::arg("looked_at", check.clouds_read),
+        fmt::arg("frames", check.frames), fmt::arg("no_desk", kNoDesk.finding), fmt::arg("no_cup", kNoCup.finding),
+        fmt::arg("fewest_conditions", kFewestConditions), fmt::arg("fewest_pixels", kFewestInRegion),
+        fmt::arg("placement_mm", mm_from_metres(check.rig.placement_sigma_m)),
+        fmt::arg("fill_mm", mm_from_metres(check.rig.fill_sigma_m)),
+        fmt::arg("bias", check.rig.unit.map ? "What calibration left of the unit's own bias" : "The unit's own bias"),
+        fmt::arg("beside", check.sessions > 1 ? "fill_sigma_mm, placement_sigma_mm, session_mm and session_deg"
+                                              : "fill_sigma_mm and placement_sigma_mm"));
+  };
+  return {text.id, filled(text.what), filled(text.costs), filled(text.remedy)};
 }
 
 }  // namespace fathom

@@ -47,7 +47,8 @@ inline constexpr std::array kCommands{
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
             define_campaign},
-    Command{"check", "What is in a measurement directory, what is missing, and what that costs a diagnosis: in seconds",
+    Command{"check",
+            "Lists in seconds what a measurement directory holds and lacks, and what each lack means for a diagnosis",
             "  fathom check out/paper\n  fathom check scenes/measurements/paper_printed\n"
             "  fathom check out/paper --json -o out/checked",
             define_check},

@@ -1,6 +1,7 @@
 #include "app/cup_height.h"
 
 #include <optional>
+#include "core/cup_json.h"
 
 #include "detector/desk_view.h"
 #include "diagnosis/measurement/sampling.h"

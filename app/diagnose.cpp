@@ -165,7 +165,7 @@ void write_next(const fs::path& folder, const Diagnosis& diagnosis, const std::v
 }
 
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
-  require_gnuplot();
+  require_report(common);
   const Json had = options.model.empty() ? Json::array() : effects_of_model(options.model);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Measurement measurement = read_measurements(options.folders, common.quiet);
@@ -202,9 +202,9 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
     campaign.diagnosis = traced->diagnosis;
     campaign.ray_traced_html = ray_traced_html(*traced, by_few_rays);
   }
-  for (std::string& sentence : beside_sentences(campaign.diagnosis)) {
-    campaign.notes.push_back(sentence);
-    measurement.notes.push_back(std::move(sentence));
+  if (std::string beside = beside_words(campaign.diagnosis); !beside.empty()) {
+    campaign.notes.push_back(beside);
+    measurement.notes.push_back(std::move(beside));
   }
   if (!physics.unseen.empty())
     campaign.notes.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
@@ -253,10 +253,7 @@ std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common
                  "images of what is left, minutes)")
       ->check(CLI::IsMember({"geometric", "photometric"}))
       ->capture_default_str();
-  return [options, &common] {
-    require_output(common);
-    run_diagnose(*options, common);
-  };
+  return [options, &common] { run_diagnose(*options, common); };
 }
 
 }  // namespace fathom

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -330,20 +331,22 @@ std::string parameter_words(const NamedParameter& parameter) {
                      parameter.high95);
 }
 
-std::vector<std::string> beside_sentences(const Diagnosis& diagnosis) {
+std::string beside_words(const Diagnosis& diagnosis) {
   std::vector<std::string> names;
   for (const GapLocation& where : diagnosis.beside) {
     const std::string name = fmt::format("the {}", observable_words(where.observable).name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   if (names.empty() && diagnosis.beside_effects.empty()) return {};
-  std::string text = names.empty() ? "Something besides heights and shapes departs from the model"
-                                   : fmt::format("Not as the model has it: {}", joined(names, "and"));
-  text += ". By itself that is no gap: heights and shapes decide.";
+  std::string text = names.empty()      ? "Something besides heights and shapes departs"
+                     : names.size() > 1 ? joined(names, "and") + " depart"
+                                        : names.front() + " departs";
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  text += " from the model. That alone is no gap: heights and shapes decide.";
   if (!diagnosis.beside_effects.empty())
     text +=
         fmt::format(" It may be {}{}.", effects_words(diagnosis.beside_effects), anew_words(diagnosis.beside_lacks));
-  return {text};
+  return text;
 }
 
 std::string answer(const Diagnosis& diagnosis) {

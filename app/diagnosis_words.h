@@ -16,8 +16,8 @@ std::string stratum_words(const GapLocation& where);         ///< "height in the
 std::vector<NamedParameter> shown_parameters(const NamedEffect& effect);
 std::string parameter_words(const NamedParameter& parameter);  ///< "scattering = 2.1 per mm (1.9 to 2.4)"
 
-/// Of what departs and is no gap by itself, a sentence each.
-std::vector<std::string> beside_sentences(const Diagnosis& diagnosis);
+/// What departs and is no gap by itself, in two or three sentences; empty where nothing does.
+std::string beside_words(const Diagnosis& diagnosis);
 
 /// The answer in one to three sentences.
 std::string answer(const Diagnosis& diagnosis);

@@ -123,6 +123,11 @@ void require_gnuplot() {
   if (run_gnuplot(".", {"-e", "exit"}).exit_code != 0) throw Error("gnuplot", "does not run, and draws the figures");
 }
 
+void require_report(const CommonOptions& common) {
+  require_output(common);
+  require_gnuplot();
+}
+
 void draw(const fs::path& folder, const std::string& name, const std::string& plot, const std::string& before_svg) {
   const fs::path file = folder / (name + ".gp");
   write_text(file, script(name, plot, before_svg));

@@ -4,10 +4,15 @@
 #include <filesystem>
 #include <string>
 
+#include "app/command.h"
+
 namespace fathom {
 
 /// For work that ends in a picture, before it starts. Throws Error when gnuplot is missing.
 void require_gnuplot();
+
+/// The same, of a command that writes its report to the folder of -o. Throws UsageError when that is missing.
+void require_report(const CommonOptions& common);
 
 /// Writes folder/NAME.gp: the house's style, then `plot` (which ends with one plot command and names its data files
 /// relative to the folder), for NAME.png and NAME.svg; and runs it. Throws Error when gnuplot is missing or fails;

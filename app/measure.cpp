@@ -9,9 +9,10 @@
 
 #include "app/commands.h"
 #include "app/cup_height.h"
+#include "app/measurement_folder.h"
 #include "app/print.h"
-#include "core/error.h"
 #include "core/folder_owner.h"
+#include "core/name_list.h"
 #include "core/progress.h"
 #include "core/rows.h"
 #include "core/table.h"
@@ -23,21 +24,10 @@ namespace {
 
 constexpr std::array kHeightColumns{"height_mm", "height_sd_mm", "points"};
 
-Cloud read_cloud_of(const FrameRecord& frame, const Table& frames, std::size_t row,
-                    const std::filesystem::path& folder) {
-  try {
-    return read_frame_cloud(frame, folder);
-  } catch (const Error& problem) {
-    frames.fail(row, "cloud", problem.what());
-  }
-}
-
 /// One line, with the first few frames by name.
 void warn(NoHeight reason, const std::vector<std::string>& frames) {
-  constexpr std::size_t kNamed = 5;
-  print_warning(fmt::format("{} frames have no height because {}: {}{}", frames.size(), name_of(reason),
-                            fmt::join(frames.begin(), frames.begin() + std::min(frames.size(), kNamed), ", "),
-                            frames.size() > kNamed ? ", …" : ""));
+  print_warning(
+      fmt::format("{} frames have no height because {}: {}", frames.size(), name_of(reason), name_list(frames)));
 }
 
 void run_measure(const std::filesystem::path& folder, const CommonOptions& common) {
@@ -56,7 +46,7 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
     for (const char* column : kHeightColumns) frames.set(row, column, "");
     if (record.bare_desk()) continue;
     ++clouds;
-    const auto found = height_in_cup(read_cloud_of(record, frames, row, folder), rig,
+    const auto found = height_in_cup(read_frame_cloud(record, folder, frames, row), rig,
                                      Eigen::Vector2d(record.lateral_m, record.distance_m));
     if (const NoHeight* reason = std::get_if<NoHeight>(&found)) {
       frames_without[*reason].push_back(record.frame);
@@ -82,10 +72,7 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
 }  // namespace
 
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common) {
-  const auto folder = std::make_shared<std::filesystem::path>();
-  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")
-      ->required()
-      ->type_name("DIR");
+  const auto folder = add_measurement_folder(app);
   return [folder, &common] { run_measure(*folder, common); };
 }
 

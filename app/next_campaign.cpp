@@ -1,7 +1,6 @@
 #include "app/next_campaign.h"
 
 #include "app/nominal_rig.h"
-#include "diagnosis/predict/nominal_model.h"
 
 namespace fathom {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/cup_json.h"
 #include "core/error.h"
 #include "core/library.h"
 #include "core/units.h"
@@ -18,26 +19,21 @@ double tidy(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 double tidy_mm(double metres) { return tidy(mm_from_metres(metres)); }
 
-Json tidy_profile(const std::vector<Eigen::Vector2d>& profile) {
-  Json points = Json::array();
-  for (const Eigen::Vector2d& point : profile) points.push_back({tidy_mm(point.x()), tidy_mm(point.y())});
-  return points;
+Json tidied(Json json) {
+  if (json.is_number()) return tidy(json);
+  for (Json& part : json) part = tidied(part);
+  return json;
 }
 
 /// By lengths where these say all: of straight cups, and of the library's by name. A name of the library that stands
 /// for another cup needs the profiles if that one's walls lean.
 Json cup_json(const LaboratoryRig& rig) {
   const std::optional<CupProfile> known = library_cup(rig.cup_shape);
-  const bool is_library_cup = known && is_same_cup(*known, rig.cup);
-  if (!is_library_cup && (!rig.cup.is_straight() || (known && !known->is_straight())))
-    return {{"shape", rig.cup_shape},
-            {"inner_profile_mm", tidy_profile(rig.cup.inner)},
-            {"outer_profile_mm", tidy_profile(rig.cup.outer)}};
-  return {{"shape", rig.cup_shape},
-          {"height_mm", tidy_mm(rig.cup.height())},
-          {"inner_radius_mm", tidy_mm(rig.cup.inner_radius(kRadiiAt_m))},
-          {"outer_radius_mm", tidy_mm(rig.cup.outer_radius(kRadiiAt_m))},
-          {"bottom_mm", tidy_mm(rig.cup.bottom())}};
+  const bool by_lengths =
+      (known && is_same_cup(*known, rig.cup)) || (rig.cup.is_straight() && (!known || known->is_straight()));
+  Json json = {{"shape", rig.cup_shape}};
+  json.update(tidied(by_lengths ? lengths_json(rig.cup) : profiles_json(rig.cup)));
+  return json;
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ Json json_of(const Figure& figure) {
 }
 
 void run_reproduce(const ReproduceOptions& options, const CommonOptions& common) {
-  require_gnuplot();
+  require_report(common);
   const FolderOwner owner(common.output);
   remove_if_ours(common.output / "report.html", kReportTitle);  // it comes last, and is of the figures beside it
   Reproduction reproduction(
@@ -117,10 +117,7 @@ std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& commo
   app.add_option("--trials", options->trials,
                  "Shots of each condition: of figures 3 (the paper's are 10), desks of recognition 20 and of table1 10")
       ->check(CLI::Range(1, 1000));
-  return [options, &common] {
-    require_output(common);
-    run_reproduce(*options, common);
-  };
+  return [options, &common] { run_reproduce(*options, common); };
 }
 
 }  // namespace fathom

@@ -13,30 +13,25 @@
 namespace fathom {
 namespace {
 
-constexpr int kEvery_px = 8;          ///< of the picture's points
-constexpr double kKnown_share = 0.7;  ///< of what was thought beforehand: with a larger sigma nothing was seen there
+constexpr int kEvery_px = 8;  ///< of the picture's points
 
-double most_known_px(const Calibration& unit) {
-  return kKnown_share * *std::ranges::max_element(unit.sigma_px.pixels());
-}
-
-double rms(const Image<float>& image, const Image<float>& sigma, double most_sigma) {
+/// Root mean square where desk was seen.
+double rms(const Image<float>& image, const Calibration& unit) {
   double squares = 0.0, count = 0.0;
   for (std::size_t i = 0; i < image.size(); ++i)
-    if (sigma.pixels()[i] < most_sigma) squares += image.pixels()[i] * image.pixels()[i], count += 1.0;
+    if (unit.seen.pixels()[i]) squares += image.pixels()[i] * image.pixels()[i], count += 1.0;
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
 void draw_unit(const std::filesystem::path& folder, const Calibration& unit) {
-  const double most_sigma = most_known_px(unit);
   Table table({"column_px", "row_px", "bias_px", "sigma_px"});
   double most = 0.05;
   for (int y = kEvery_px / 2; y < unit.bias_px.height(); y += kEvery_px)
     for (int x = kEvery_px / 2; x < unit.bias_px.width(); x += kEvery_px) {
-      const bool known = unit.sigma_px(x, y) < most_sigma;
-      if (known) most = std::max(most, static_cast<double>(std::abs(unit.bias_px(x, y))));
+      const bool seen = unit.seen(x, y);
+      if (seen) most = std::max(most, static_cast<double>(std::abs(unit.bias_px(x, y))));
       table.add({fmt::format("{}", x), fmt::format("{}", y),
-                 known ? fmt::format("{:.4f}", unit.bias_px(x, y)) : std::string("nan"),
+                 seen ? fmt::format("{:.4f}", unit.bias_px(x, y)) : std::string("nan"),
                  fmt::format("{:.4f}", unit.sigma_px(x, y))});
     }
   write_table(folder / "unit_map.csv", table);
@@ -65,17 +60,16 @@ std::string facts_html(const Calibration& unit) {
 
 std::vector<Row> unit_rows(const Calibration& unit) {
   const auto number = [](auto value) { return static_cast<double>(value); };
-  const double most_sigma = most_known_px(unit);
-  double known = 0.0;
-  for (const float sigma : unit.sigma_px.pixels()) known += sigma < most_sigma;
+  double seen = 0.0;
+  for (const char desk : unit.seen.pixels()) seen += desk;
   std::vector<Row> rows{{"clouds", number(unit.clouds)},
                         {"views", number(unit.views)},
                         {"poses", number(unit.poses.size())},
                         {"focal_length", unit.scale.focal_px, "px"},
                         {"camera_offset", 1000.0 * unit.scale.camera_m, "mm"},
-                        {"seen_share", known / number(unit.sigma_px.size())},
-                        {"bias", rms(unit.bias_px, unit.sigma_px, most_sigma), "px"},
-                        {"bias_sigma", rms(unit.sigma_px, unit.sigma_px, most_sigma), "px"},
+                        {"seen_share", seen / number(unit.seen.size())},
+                        {"bias", rms(unit.bias_px, unit), "px"},
+                        {"bias_sigma", rms(unit.sigma_px, unit), "px"},
                         {"desk_error_before", unit.without_px, "px"},
                         {"desk_error_after", unit.left_px, "px"},
                         {"cell_error", unit.prior.cell_px, "px"},

@@ -4,7 +4,8 @@
   bench/device_campaigns.py build/release/app/fathom --nulls 60 --singles 30 -o out/device_campaigns
   bench/device_campaigns.py build/release/app/fathom --nulls 12 --mode photometric -o out/device_photometric
 
-Prints one row a campaign and counts with Clopper–Pearson intervals. A folder that holds answers already goes on.
+Prints one row a campaign and counts with Clopper–Pearson intervals. Campaigns whose report is in the
+folder already are not run again; a folder of other options is refused.
 """
 import argparse, json, math, pathlib, shutil, subprocess, sys
 
@@ -17,7 +18,7 @@ DESIGNS = {
                                 ("paint", 30)], distance_mm=[200, 300, 400, 500], lateral_mm=[0], pours=2, trials=2),
     "sessions": dict(fillings=[("empty", 0), ("water", 30), ("paint", 20)], distance_mm=[250], lateral_mm=[-60, 60],
                      pours=2, trials=3, sessions=3)}
-# Each several times what such a campaign is uncertain by; what the effect is named is what must be named.
+# Each is several times as large as such a campaign's uncertainty; the diagnosis must give the name that stands here.
 EFFECTS = ({"name": "fill_scale", "scale": 0.15}, {"name": "fill_offset", "fill_mm": 4},
            {"name": "refractive_index", "liquid": "water", "index_change": 0.06}, {"name": "cup_bottom_height", "height_mm": 3},
            {"name": "sensor_height", "height_mm": 8})
@@ -47,6 +48,16 @@ def diagnosed(args, name, campaign, seed):
         run([args.fathom, "diagnose", folder / "measured", "-o", folder / "diagnosis", "--quiet"])
         shutil.rmtree(folder / "measured")
     return json.loads(report.read_text())
+
+
+def require_same_options(args):
+    """Answers of other campaigns would be counted as these."""
+    asked = {"mode": args.mode, "bare_desk_views": args.bare_desk_views}
+    file = args.output / "options.json"
+    if file.exists() and json.loads(file.read_text()) != asked:
+        sys.exit(f"error: {file}: is of other campaigns, {json.loads(file.read_text())}; choose another -o")
+    args.output.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps(asked))
 
 
 def interval(k, n):
@@ -79,6 +90,7 @@ def main():
     parser.add_argument("--first", type=int, default=1, help="seed and serial of the first campaign")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     args = parser.parse_args()
+    require_same_options(args)
     silent = named = first = held = 0
     for i in range(args.nulls + args.singles):
         number, is_null = args.first + i, i < args.nulls

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/cup_json.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -38,16 +39,6 @@ bool less_wide(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x(
 /// The axis, an edge at its height, and the rim straight above that.
 bool is_upright(const std::vector<Eigen::Vector2d>& profile) {
   return profile.size() == 3 && profile[1].y() == profile[0].y() && profile[2].x() == profile[1].x();
-}
-
-CupProfile straight_cup_from_json(const JsonReader& json) {
-  const double height = metres_from_mm(json.number("height_mm", kCupLengthMm));
-  const double bottom = metres_from_mm(json.number("bottom_mm", kCupLengthMm));
-  const double inner = metres_from_mm(json.number("inner_radius_mm", kCupLengthMm));
-  const double outer = metres_from_mm(json.number("outer_radius_mm", kCupLengthMm));
-  if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
-  if (outer <= inner) json.fail_at("outer_radius_mm", "must be above inner_radius_mm");
-  return straight_cup(height, bottom, inner, outer);
 }
 
 }  // namespace

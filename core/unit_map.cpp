@@ -31,8 +31,8 @@ bool is_same(const Image<float>& a, const Image<float>& b) { return std::ranges:
 }  // namespace
 
 float UnitMap::reference_of(double column_px, double row_px) const {
-  const int x = static_cast<int>(std::floor(column_px + reference_at)), y = static_cast<int>(std::floor(row_px));
-  return reference(std::clamp(x, 0, kWidth - 1), std::clamp(y, 0, kHeight - 1));
+  const auto within = [](double at, int size) { return static_cast<int>(std::clamp(at, 0.0, size - 1.0)); };
+  return reference(within(column_px + reference_at, kWidth), within(row_px, kHeight));
 }
 
 float UnitMap::camera_of(int column, int row) const {

@@ -10,6 +10,7 @@
 #include "diagnosis/measurement/check_clouds.h"
 #include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/named_values.h"
+#include "diagnosis/measurement/unit_bias.h"
 #include "diagnosis/statistics/sufficiency.h"
 
 namespace fathom {
@@ -114,7 +115,7 @@ class Checker {
       if (f.bare_desk()) return;
       bias += kBias_px * height_per_px_mm(place_of(f), check_.rig), ++cups;
     }
-    if (cups > 0.0) add({Lack::bare_desk_views, bias / cups});
+    if (cups > 0.0) add({Lack::bare_desk_views, (check_.rig.unit.map ? kLeftByCalibration : 1.0) * bias / cups});
   }
 
   void look_for_repeats() {
@@ -166,6 +167,11 @@ class Checker {
       if (!check_.rig.sigma.contains(key)) unsaid.names.emplace_back(key);
     for (const char* key : {"fill_sigma_mm", "placement_sigma_mm"})
       if (!rig.contains(key)) unsaid.names.emplace_back(key);
+    check_.session_mm_stated = rig.contains("session_mm"), check_.session_deg_stated = rig.contains("session_deg");
+    if (check_.sessions > 1) {
+      if (!check_.session_mm_stated) unsaid.names.emplace_back("session_mm");
+      if (!check_.session_deg_stated) unsaid.names.emplace_back("session_deg");
+    }
     if (!unsaid.names.empty()) add(std::move(unsaid));
   }
 

@@ -23,7 +23,7 @@ enum class Lack {
   inside_in_sight,  ///< of the cup's inside too few pixels are seen: `size` at worst, `names` of conditions
   whole_clouds,     ///< files much smaller than the others: `names` of frames
   clouds,           ///< `size` frames have a height and no cloud
-  bare_desk_views,  ///< there are none; a unit's own bias is about `size` mm where cups stand
+  bare_desk_views,  ///< there are none; a unit's own bias, or what calibration left of it, is about `size` mm at cups
   repeats,          ///< nothing was measured twice
   trials,           ///< each placement has one shot
   placements,       ///< no cup was put down twice at one place with one filling
@@ -50,7 +50,8 @@ struct MeasurementCheck {
   std::size_t bare_desk_views = 0, pours = 0, placements = 0;
   std::size_t fewest_trials = 0, most_trials = 0;  ///< of placements
   std::size_t sessions = 0;
-  std::map<std::string, std::set<double>> fills_mm;  ///< by liquid; of "empty" 0
+  bool session_mm_stated = false, session_deg_stated = false;  ///< in rig.json; else their defaults hold
+  std::map<std::string, std::set<double>> fills_mm;            ///< by liquid; of "empty" 0
   std::set<double> distances_mm, laterals_mm;
   std::size_t clouds_read = 0;
   int width = 0, height = 0;  ///< of the first cloud; 0 without one, height 1 of one without rows

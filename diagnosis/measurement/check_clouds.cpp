@@ -42,7 +42,7 @@ class CloudChecker {
     bool is_bright = true;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t row = rows[count == 1 ? 0 : i * (rows.size() - 1) / (count - 1)];
-      const Cloud cloud = read(row);
+      const Cloud cloud = read_frame_cloud(frames_[row], folder_, table_, row);
       if (i == 0) check_.width = cloud.width, check_.height = cloud.height;
       is_bright = is_bright && !cloud.intensity.empty();
       const auto estimates = estimate_frame(sensed_points(cloud, check_.rig), check_.rig, view_of(frames_[row]));
@@ -58,15 +58,9 @@ class CloudChecker {
       }
     }
     check_.clouds_read = count;
-    require_few(silent, "cloud",
-                "show no desk where rig.json says it is, must be in metres in the camera's frame: x "
-                "right, y down, z forward");
-    require_few(bare, "distance_mm",
-                "show the bare desk where distance_mm and lateral_mm say the cup is, must be the "
-                "places of the cup's axis in mm");
+    note(Lack::desk_in_sight, kNoDesk, silent);
+    note(Lack::cup_in_sight, kNoCup, bare);
     compare_pose(height_mm, pitch_deg, roll_deg);
-    if (!silent.empty()) add({Lack::desk_in_sight, 0.0, names_of(silent)});
-    if (!bare.empty()) add({Lack::cup_in_sight, 0.0, names_of(bare)});
     if (count > 0 && !is_bright) add({Lack::brightness});
   }
 
@@ -91,25 +85,17 @@ class CloudChecker {
  private:
   void add(Shortfall shortfall) { check_.lacks.push_back(std::move(shortfall)); }
 
+  /// Where it is most of the clouds a diagnosis stops as well.
+  void note(Lack lack, const Misplaced& what, const std::vector<std::size_t>& rows) {
+    if (rows.empty()) return;
+    finding_of(what, rows, check_.clouds_read, table_, "clouds that were looked at");
+    add({lack, 0.0, names_of(rows)});
+  }
+
   std::vector<std::string> names_of(const std::vector<std::size_t>& rows) const {
     std::vector<std::string> names;
     for (const std::size_t row : rows) names.push_back(frames_[row].frame);
     return names;
-  }
-
-  Cloud read(std::size_t row) const {
-    try {
-      return read_frame_cloud(frames_[row], folder_);
-    } catch (const Error& problem) {
-      table_.fail(row, "cloud", problem.what());
-    }
-  }
-
-  /// As a diagnosis does where it is most of all clouds.
-  void require_few(const std::vector<std::size_t>& rows, const char* column, const char* what) const {
-    if (2 * rows.size() > check_.clouds_read)
-      table_.fail(rows.front(), column,
-                  fmt::format("{} of {} clouds that were looked at {}", rows.size(), check_.clouds_read, what));
   }
 
   /// A tape finds more than these; less is for the diagnosis, which knows how sure it is.

@@ -12,11 +12,15 @@ constexpr double kReference = 25600.0;  // pixels of a whole band of rows
 constexpr double kFewestPixels = 1000.0;
 constexpr double kOfPlane = 2.0;  // of a plane's three parameters, each kind of bands feels so many
 
-/// Mean over bands of the variance between trials [px²], times the pixels of a band and over kReference.
+struct Pooled {
+  double sum_px2 = 0.0;  ///< of the bands' variances between trials, each times its pixels
+  double seen = 0.0;     ///< bands that are whole enough in all trials
+};
+
 template <class Bands>
-std::optional<double> variance_of(std::span<const DeskBands> trials, Bands DeskBands::*bands) {
+Pooled pooled(std::span<const DeskBands> trials, Bands DeskBands::*bands) {
   const auto n = static_cast<double>(trials.size());
-  double sum = 0.0, seen = 0.0;
+  Pooled pooled;
   for (std::size_t i = 0; i < std::tuple_size_v<Bands>; ++i) {
     double weight = 0.0, mean = 0.0, squares = 0.0;
     bool in_all = true;
@@ -28,11 +32,18 @@ std::optional<double> variance_of(std::span<const DeskBands> trials, Bands DeskB
     }
     if (!in_all) continue;
     for (const DeskBands& trial : trials) squares += std::pow((trial.*bands)[i].mean - mean, 2);
-    sum += weight * squares / (n - 1.0);
-    seen += 1.0;
+    pooled.sum_px2 += weight * squares / (n - 1.0);
+    pooled.seen += 1.0;
   }
-  if (seen <= 2.0 * kOfPlane) return std::nullopt;
-  return sum / (seen - kOfPlane) / kReference;
+  return pooled;
+}
+
+/// Mean over bands of the variance between trials [px²], times the pixels of a band and over kReference.
+template <class Bands>
+std::optional<double> variance_of(std::span<const DeskBands> trials, Bands DeskBands::*bands) {
+  const Pooled all = pooled(trials, bands);
+  if (all.seen <= 2.0 * kOfPlane) return std::nullopt;
+  return all.sum_px2 / (all.seen - kOfPlane) / kReference;
 }
 
 }  // namespace
@@ -48,23 +59,10 @@ std::optional<PlaneNoise> plane_noise_of(std::span<const DeskBands> trials, cons
   if (trials.size() < 2) return std::nullopt;
   constexpr double kFewestThirds = 5.0, kOfDesk = 3.0;  // the plane takes as many
   const auto n = static_cast<double>(trials.size());
-  double sum = 0.0, seen = 0.0;
+  const Pooled thirds = pooled(trials, &DeskBands::thirds);
+  if (thirds.seen < kFewestThirds) return std::nullopt;
+  const double of_pixel_px2 = thirds.sum_px2 / (thirds.seen - kOfDesk);  // as if each pixel had an error of its own
   Eigen::Matrix3d sights = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < trials.front().thirds.size(); ++i) {
-    double weight = 0.0, mean = 0.0, squares = 0.0;
-    bool in_all = true;
-    for (const DeskBands& trial : trials) {
-      in_all = in_all && trial.thirds[i].weight >= kFewestPixels;
-      weight += trial.thirds[i].weight / n;
-      mean += trial.thirds[i].mean / n;
-    }
-    if (!in_all) continue;
-    for (const DeskBands& trial : trials) squares += std::pow(trial.thirds[i].mean - mean, 2);
-    sum += weight * squares / (n - 1.0);
-    seen += 1.0;
-  }
-  if (seen < kFewestThirds) return std::nullopt;
-  const double of_pixel_px2 = sum / (seen - kOfDesk);  // as if each pixel had an error of its own
   for (const DeskBands& trial : trials) sights += trial.sights / n;
   // 1/z = q · s: errors of q, and of what follows from it by derivatives.
   const double per_px = 1.0 / (rig.focal_px * rig.baseline_m);

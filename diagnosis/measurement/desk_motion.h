@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-/// Bare-desk observations, at the session's start; two for each session with enough repeats, or for each part of a
+/// Bare-desk observations, at the session's start; four for each session with enough repeats, or for each part of a
 /// single one, three at most, of four placements at least. "desk_wander_mm": the root of the variance by which the
 /// desk's height differs between trials, less that which follows from how the thirds of the image scatter; uncertain by
 /// what waves may make of it. "desk_waves_px": the same of the mean disparity of 40 rows, less that of as many pixels

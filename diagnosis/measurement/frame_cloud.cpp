@@ -19,4 +19,13 @@ Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& fo
   return cloud;
 }
 
+Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder, const Table& table,
+                       std::size_t row) {
+  try {
+    return read_frame_cloud(frame, folder);
+  } catch (const Error& problem) {
+    table.fail(row, "cloud", problem.what());
+  }
+}
+
 }  // namespace fathom

@@ -39,8 +39,8 @@ std::optional<double> not_negative(const Table& frames, std::size_t row, const c
   return value;
 }
 
-/// No cup stands far nearer than where the sensor looks: steep ones see next to their foot, where no distance is but
-/// one in cm.
+/// Whether the cup is in the image, and not far nearer than where the sensor looks. A steep sensor sees the desk beside
+/// its own foot, where a distance is most often one in cm.
 bool is_in_sight(const FrameRecord& record, const LaboratoryRig& rig) {
   constexpr double kNear = 0.15, kNear_m = 0.1;
   if (record.distance_m < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;

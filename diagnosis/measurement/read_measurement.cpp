@@ -1,7 +1,6 @@
 #include "diagnosis/measurement/read_measurement.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
@@ -9,6 +8,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/name_list.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/units.h"
@@ -42,7 +42,7 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
   const Eigen::Vector2f axis = axis_from_camera(rig, cup).cast<float>();
   const float fall = static_cast<float>(desk.offset - rig.cup.height()), focal = static_cast<float>(rig.focal_px);
-  const float radius = static_cast<float>(rig.cup.inner.back().x() - kInteriorMargin);
+  const float radius = static_cast<float>(std::max(rig.cup.inner.back().x() - kInteriorMargin, 0.0));
   int looked = 0, valid = 0;
   for (int row = 0; row < cloud.height; ++row)
     for (int column = 0; column < cloud.width; ++column) {
@@ -76,7 +76,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   const FrameView view = view_of(frame);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
-  reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
+  if (!bias) reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
   reading.bands = estimates->desk_bands;
@@ -166,17 +166,15 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
     measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s, stood_s));
 }
 
-/// "12 of 378 clouds WHAT: frames 3, 4, …". Where it is most of them, the line of the first is an error.
-void note_clouds(const std::vector<std::size_t>& rows, std::size_t clouds, const Table& table, const char* column,
-                 const char* what, const char* wanted, Measurement& measurement) {
-  constexpr std::size_t kNamed = 5;
+/// "12 of 378 clouds WHAT and do not count: frames 3, 4, … and 7 more". Where it is most of them, the line of the first
+/// is an error.
+void note_clouds(const Misplaced& what, const std::vector<std::size_t>& rows, std::size_t clouds, const Table& table,
+                 Measurement& measurement) {
   if (rows.empty()) return;
-  const std::string finding = fmt::format("{} of {} clouds {}", rows.size(), clouds, what);
-  if (2 * rows.size() > clouds) table.fail(rows.front(), column, fmt::format("{}, {}", finding, wanted));
   std::vector<std::string> frames;
-  for (std::size_t i = 0; i < std::min(rows.size(), kNamed); ++i) frames.push_back(measurement.frames[rows[i]].frame);
-  measurement.notes.push_back(fmt::format("{} and do not count: {} {}{}", finding, rows.size() > 1 ? "frames" : "frame",
-                                          fmt::join(frames, ", "), rows.size() > kNamed ? ", …" : ""));
+  for (const std::size_t row : rows) frames.push_back(measurement.frames[row].frame);
+  measurement.notes.push_back(fmt::format("{} and do not count: {} {}", finding_of(what, rows, clouds, table),
+                                          rows.size() > 1 ? "frames" : "frame", name_list(frames)));
 }
 
 /// What shows no desk or no cup is said, and does not count.
@@ -195,10 +193,8 @@ void leave_out_misplaced(const Table& table, std::vector<FrameReading>& readings
         fmt::format("{} of {} frames have a height and no cloud: only mean heights are compared there, which tell few "
                     "effects apart",
                     tables, readings.size()));
-  note_clouds(silent, clouds, table, "cloud", "show no desk where rig.json says it is",
-              "must be in metres in the camera's frame: x right, y down, z forward", measurement);
-  note_clouds(bare, clouds, table, "distance_mm", "show the bare desk where distance_mm and lateral_mm say the cup is",
-              "must be the places of the cup's axis in mm", measurement);
+  note_clouds(kNoDesk, silent, clouds, table, measurement);
+  note_clouds(kNoCup, bare, clouds, table, measurement);
   for (const std::size_t row : bare) {
     readings[row].values.clear();
     readings[row].bands.reset();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/cup_json.h"
 #include "core/input_policy.h"
 #include "core/lengths.h"
 #include "core/library.h"
@@ -47,29 +48,16 @@ void read_sensor(const JsonReader& json, LaboratoryRig& rig) {
 
 constexpr std::array kLengthKeys{"height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm"};
 
-/// The lengths that stand there, where they do not the other cup's; of upright walls on a flat bottom.
-CupProfile straight_cup_like(const JsonReader& json, const CupProfile& other) {
-  const double height = json.metres_or("height_mm", other.height(), kLengthMm);
-  const double inner = json.metres_or("inner_radius_mm", other.inner_radius(kRadiiAt_m), kLengthMm);
-  const double outer = json.metres_or("outer_radius_mm", other.outer_radius(kRadiiAt_m), kLengthMm);
-  const double bottom = json.metres_or("bottom_mm", other.bottom(), kLengthOrNoneMm);
-  if (inner > outer) json.fail_at("inner_radius_mm", "must not be above outer_radius_mm");
-  if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
-  return straight_cup(height, bottom, inner, outer);
-}
-
 /// Lengths cannot change a cup whose walls lean: nobody could say where.
 void require_lengths_of(const CupProfile& cup, const std::string& shape, const JsonReader& json) {
   constexpr double kSame_mm = 1e-3;
-  const double own_mm[] = {mm_from_metres(cup.height()), mm_from_metres(cup.bottom()),
-                           mm_from_metres(cup.inner_radius(kRadiiAt_m)), mm_from_metres(cup.outer_radius(kRadiiAt_m))};
-  for (std::size_t i = 0; i < kLengthKeys.size(); ++i)
-    if (json.has(kLengthKeys[i]) && !(std::abs(json.number(kLengthKeys[i]) - own_mm[i]) <= kSame_mm))
+  const Json own_mm = lengths_json(cup);
+  for (const auto& [key, own] : own_mm.items())
+    if (const double own_length_mm = own; json.has(key) && !(std::abs(json.number(key) - own_length_mm) <= kSame_mm))
       json.fail_at(
-          kLengthKeys[i],
-          fmt::format("must be {:.6g} or left out: the walls of {} lean, its radii are those {:g} mm above the "
-                      "desk; another cup takes inner_profile_mm and outer_profile_mm",
-                      own_mm[i], shape, mm_from_metres(kRadiiAt_m)));
+          key, fmt::format("must be {:.6g} or left out: the walls of {} lean, its radii are those {:g} mm above the "
+                           "desk; another cup takes inner_profile_mm and outer_profile_mm",
+                           own_length_mm, shape, mm_from_metres(kRadiiAt_m)));
 }
 
 void read_cup(const JsonReader& json, LaboratoryRig& rig) {
@@ -94,7 +82,7 @@ void read_cup(const JsonReader& json, LaboratoryRig& rig) {
         json.fail_at(length, fmt::format("is missing: {} is no cup of the library, whose lengths are known ({}); "
                                          "inner_profile_mm and outer_profile_mm describe one whose walls lean",
                                          rig.cup_shape, fmt::join(library_names("cups"), ", ")));
-  rig.cup = straight_cup_like(json, known.value_or(rig.cup));
+  rig.cup = straight_cup_from_json(json, known.value_or(rig.cup));
 }
 
 void read_liquids(const JsonReader& json, LaboratoryRig& rig) {
@@ -123,6 +111,11 @@ bool is_same_cup(const CupProfile& a, const CupProfile& b) {
   };
   return std::equal(a.inner.begin(), a.inner.end(), b.inner.begin(), b.inner.end(), near) &&
          std::equal(a.outer.begin(), a.outer.end(), b.outer.begin(), b.outer.end(), near);
+}
+
+Json cup_json_of(const LaboratoryRig& rig) {
+  if (const auto known = library_cup(rig.cup_shape); known && is_same_cup(*known, rig.cup)) return rig.cup_shape;
+  return rig.cup.is_straight() ? lengths_json(rig.cup) : profiles_json(rig.cup);
 }
 
 LaboratoryRig read_rig(const std::filesystem::path& path) {

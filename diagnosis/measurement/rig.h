@@ -40,14 +40,15 @@ struct LaboratoryRig {
   std::map<std::string, double> sigma;  ///< 1 σ of the value of that key, in the key's unit, e.g. "height_mm" → 0.5
 };
 
-/// [m] above the desk: where a rig's radii are those of a cup whose walls lean, and a detector fits its circle.
-inline constexpr double kRadiiAt_m = 0.045;
-
 /// The shape of a cup of scenes/cups; nothing where that has no such cup. Throws Error when its file is wrong.
 std::optional<CupProfile> library_cup(const std::string& name);
 
 /// Whether the rim and both walls are the same to a micrometre; a rig's lengths are written to the nanometre.
 bool is_same_cup(const CupProfile& a, const CupProfile& b);
+
+/// The cup as a scene has it: the library's, where the rig's is that one, with its albedo and handle; else by the rig's
+/// profiles or lengths.
+Json cup_json_of(const LaboratoryRig& rig);
 
 /// Throws Error on unknown, missing or impossible values. Only sensor.model, sensor.height_mm, sensor.pitch_deg, cup
 /// and liquids must be there. A cup is one of scenes/cups by `shape`, or described by its profiles or its lengths.

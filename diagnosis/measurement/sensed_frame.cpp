@@ -1,5 +1,7 @@
 #include "diagnosis/measurement/sensed_frame.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "diagnosis/measurement/sampling.h"
@@ -32,6 +34,13 @@ bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
   constexpr double kFewestPixels = 10.0;
   const double clear = 0.3 * rig.cup.bottom();
   return clear > 0.001 && estimates.interior.weight >= kFewestPixels && estimates.interior.mean < clear;
+}
+
+std::string finding_of(const Misplaced& what, const std::vector<std::size_t>& rows, std::size_t clouds,
+                       const Table& table, std::string_view which) {
+  std::string finding = fmt::format("{} of {} {} {}", rows.size(), clouds, which, what.finding);
+  if (2 * rows.size() > clouds) table.fail(rows.front(), what.column, fmt::format("{}, {}", finding, what.wanted));
+  return finding;
 }
 
 }  // namespace fathom

@@ -54,18 +54,18 @@ Bias as_bias(const BiasField& field) {
 Bias as_bias(const UnitMap& map) {
   return [&map](const BiasPoint& point) -> double {
     const Eigen::Vector2d& pixel = point.pixel_px;
+    const auto within = [](double at, double size) { return static_cast<int>(std::clamp(at, 0.0, size - 1.0)); };
     return map.reference_of(pixel.x() - point.nearer_px, pixel.y()) +
-           map.camera_of(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+           map.camera_of(within(pixel.x(), kImageWidth_px), within(pixel.y(), kImageHeight_px));
   };
 }
 
 UnitBias::UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated)
     : UnitBias([&] {
-        constexpr double kLeft = 0.45;  // of a Kinect's bias, of 0.1 px, when other desks have told what they can
         Views all;
         all.prior = default_bias_prior();
         if (is_calibrated)
-          for (double& amplitude : all.prior.reference_px) amplitude *= kLeft;
+          for (double& amplitude : all.prior.reference_px) amplitude *= kLeftByCalibration;
         std::vector<double> own_errors;
         for (const auto& [session, cells] : desks) {
           BiasView view = cells.view();

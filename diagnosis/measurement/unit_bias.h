@@ -16,6 +16,9 @@ using Bias = std::function<double(const BiasPoint&)>;
 /// How far a model's desk is off its plane at a cell [px]; nothing where it shows none.
 using DeskError = std::function<std::optional<double>(const BiasCell& cell)>;
 
+/// Share of a Kinect's bias that is left on a desk when other desks were learned from (docs/calibrate.md).
+inline constexpr double kLeftByCalibration = 0.45;
+
 class UnitBias {
  public:
   /// Of each session: within one, sensor and desk stay where they are, so that the same dots fall on the same places.

@@ -4,26 +4,6 @@
 #include "sim/scene/medium_json.h"
 
 namespace fathom {
-namespace {
-
-Json profile_json(const std::vector<Eigen::Vector2d>& profile) {
-  Json points = Json::array();
-  for (const Eigen::Vector2d& point : profile) points.push_back({mm_from_metres(point.x()), mm_from_metres(point.y())});
-  return points;
-}
-
-}  // namespace
-
-Json cup_json_of(const LaboratoryRig& rig) {
-  if (const auto known = library_cup(rig.cup_shape); known && is_same_cup(*known, rig.cup)) return rig.cup_shape;
-  if (!rig.cup.is_straight())
-    return {{"inner_profile_mm", profile_json(rig.cup.inner)}, {"outer_profile_mm", profile_json(rig.cup.outer)}};
-  return {{"height_mm", mm_from_metres(rig.cup.height())},
-          {"bottom_mm", mm_from_metres(rig.cup.bottom())},
-          {"inner_radius_mm", mm_from_metres(rig.cup.inner.back().x())},
-          {"outer_radius_mm", mm_from_metres(rig.cup.outer.back().x())}};
-}
-
 NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file) {
   NominalModel model;
   model.laboratory = laboratory;

@@ -17,10 +17,6 @@ struct NominalModel {
   std::map<std::string, Medium> liquids;
 };
 
-/// The cup as a scene has it: the library's, where the rig's is that one, with its albedo and handle; else by the rig's
-/// profiles or lengths.
-Json cup_json_of(const LaboratoryRig& rig);
-
 /// The sensor's model with the rig's numbers, and the cup. Throws Error, as coming from `file`, on unknown names and
 /// media.
 NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file);

@@ -49,7 +49,7 @@ class Predictor {
   Eigen::VectorXd predict_by(const Shoot& shoot, const Change& change,
                              const std::vector<std::size_t>& conditions) const;
 
-  /// What errors of the unit's bias change: independent patterns of 1 σ, the largest first. None without a unit.
+  /// What errors of the unit's bias change: patterns of 1 σ, planes first, then the largest. None without a unit.
   std::vector<Eigen::VectorXd> unit_errors() const;
 
   /// 1 σ of what is not known of the unit's bias, mean over what is seen in cups [px]: now, and if every session had

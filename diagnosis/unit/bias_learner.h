@@ -27,7 +27,6 @@ class BiasLearner {
   /// The posterior error as independent patterns of 1 σ: the `count` that matter most for these points, largest first.
   std::vector<BiasField> error_modes(int count, std::span<const BiasPoint> where) const;
 
-  const BiasPrior& prior() const { return prior_; }
   int states() const { return static_cast<int>(of_state_.size()); }
   /// The prior after one step towards the largest restricted likelihood of the views' errors.
   BiasPrior improved() const;

@@ -1,4 +1,4 @@
-// What is thought of a unit's bias of disparity before its clouds are seen, or learned from all of them.
+// The assumed size and smoothness of a unit's bias, by default or learned from views.
 #pragma once
 
 #include <array>

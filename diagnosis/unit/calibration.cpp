@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -90,9 +91,8 @@ Plane desk_of(const CalibrationCloud& cloud, const Points& points, const Calibra
   search.threshold_m = std::max(search.threshold_m, 0.5 * depth * depth / (scale.focal_px * scale.baseline_m));
   const auto desk = choose_desk(find_planes(some, search), options.mounted, search);
   if (!desk)
-    throw Error(cloud.file.string(), options.mounted
-                                         ? "no desk found where --height-mm and --pitch-deg put it"
-                                         : "no desk found: no plane that faces the sensor has most of the points");
+    throw Error(cloud.file.string(), options.mounted ? "no desk found where --height-mm and --pitch-deg put it"
+                                                     : "no desk found: no plane faces the sensor within 60°");
   return desk->plane;
 }
 
@@ -247,6 +247,21 @@ Image<float> sigma_of(const Sight& sight, const BiasLearner& learner) {
   return image;
 }
 
+/// Where the squares of any view are desk.
+Image<char> seen_in(const Sight& sight, const std::vector<BiasView>& views) {
+  std::set<std::pair<int, int>> squares;
+  const auto number = [](double at_px) { return static_cast<int>(std::floor(at_px / kBiasCell_px)); };
+  for (const BiasView& view : views)
+    for (const BiasCell& cell : view.cells) squares.emplace(number(cell.column_px), number(cell.row_px));
+  Image<char> seen(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Eigen::Vector2d pixel_px = sight.at(x + 0.5, y + 0.5).pixel_px;
+      seen(x, y) = squares.contains({number(pixel_px.x()), number(pixel_px.y())});
+    }
+  return seen;
+}
+
 void map_bias(const std::vector<Reading>& readings, const Scenes& scenes, const BiasLearner& learner,
               const BiasField& field, Calibration& result) {
   std::vector<const Reading*> all;
@@ -258,6 +273,7 @@ void map_bias(const std::vector<Reading>& readings, const Scenes& scenes, const 
   const Sight sight(all, result);
   result.bias_px = image_of(sight, field, kNoState);
   result.sigma_px = sigma_of(sight, learner);
+  result.seen = seen_in(sight, scenes.views);
   result.reference_at_px = std::round(nearer / cells);
   result.reference_px = result.camera_px = Image<float>(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)

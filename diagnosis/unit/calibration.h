@@ -42,6 +42,7 @@ struct Calibration {
   double image_focal_px = 0.0;  ///< of the clouds' own image
   BiasPrior prior;
   Image<float> bias_px, sigma_px;  ///< at the clouds' pixels, where they show the mean of their desks
+  Image<char> seen;                ///< at the same pixels: 1 where any view has desk, else 0
   Image<float> reference_px, camera_px;
   double reference_at_px = 0.0;  ///< see core/unit_map.h
   std::vector<CalibrationPose> poses;

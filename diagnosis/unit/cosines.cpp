@@ -8,7 +8,7 @@ namespace fathom {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// [1/px] A field of 28 px of reach has 6 % of its spectral density there, and less beyond.
+// [1/px] The shortest reach is 30 px: such a field has 4 % of its greatest spectral density there, and less beyond.
 constexpr double kShortestWave = 0.085;
 constexpr double kWidth = Cosines::kRight_px - Cosines::kLeft_px, kHeight = Cosines::kBottom_px - Cosines::kTop_px;
 

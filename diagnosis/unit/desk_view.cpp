@@ -24,11 +24,11 @@ std::vector<Pixel> pixels_of(std::span<const Points> clouds, const DeviceScale& 
   for (const Points& points : clouds)
     for (const Eigen::Vector3f& point : points) {
       if (!point.allFinite() || !(point.z() > 0.0f)) continue;
-      const Eigen::Vector2d at = scale.pixel_px(point) / kBiasCell_px;
-      const int column = static_cast<int>(std::floor(at.x())), row = static_cast<int>(std::floor(at.y()));
-      const bool inside = column >= 0 && column < kColumns && row >= 0 && row < kRows;
+      const Eigen::Vector2d at = (scale.pixel_px(point) / kBiasCell_px).array().floor();  // may be beyond any int
+      const bool inside = at.x() >= 0.0 && at.x() < kColumns && at.y() >= 0.0 && at.y() < kRows;
       pixels.push_back({static_cast<double>(point.x()) / point.z(), static_cast<double>(point.y()) / point.z(),
-                        scale.disparity_px(point.z()), inside ? row * kColumns + column : -1});
+                        scale.disparity_px(point.z()),
+                        inside ? static_cast<int>(at.y()) * kColumns + static_cast<int>(at.x()) : -1});
     }
   return pixels;
 }
@@ -99,9 +99,7 @@ std::optional<DeskView> desk_view(std::span<const Points> clouds, const Plane& g
   const auto most = filled.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(filled.size()));
   std::nth_element(filled.begin(), most, filled.end());
   DeskView result;
-  double desk = 0.0;
   for (int cell = 0; cell < kColumns * kRows; ++cell) {
-    desk += sums.desk[cell];
     if (sums.desk[cell] < kLeastFilled * *most || sums.desk[cell] < kLeastDesk * sums.seen[cell]) continue;
     const double points = sums.desk[cell];
     result.view.cells.push_back({(cell % kColumns + 0.5) * kBiasCell_px, (cell / kColumns + 0.5) * kBiasCell_px,
@@ -111,7 +109,6 @@ std::optional<DeskView> desk_view(std::span<const Points> clouds, const Plane& g
   }
   if (result.view.cells.size() < kFewestCells) return std::nullopt;
   result.plane = {-plane.normalized(), product / plane.norm()};
-  result.desk_share = desk / static_cast<double>(pixels.size());
   return result;
 }
 

@@ -18,9 +18,6 @@ struct DeviceScale {
 
   /// f b / Z [px]; what was cut off is half a multiple in the mean.
   double disparity_px(double depth_m) const { return focal_px * baseline_m / (depth_m + 0.5 * cut_m); }
-  double nearer_px(double depth_m) const {
-    return disparity_px(depth_m) - focal_px * baseline_m / kReferenceDistance_m;
-  }
   /// In the depth image, principal point in its middle.
   Eigen::Vector2d pixel_px(const Eigen::Vector3f& point) const {
     return {focal_px * (point.x() + camera_m) / point.z() + 320.0, focal_px * point.y() / point.z() + 240.0};
@@ -31,7 +28,6 @@ struct DeviceScale {
 struct DeskView {
   BiasView view;
   Plane plane;
-  double desk_share = 0.0;  ///< of the measured points
 };
 
 /// Of clouds of one pose, together. The plane is refitted from `guess` in disparity, where it is linear and noise is

@@ -60,7 +60,6 @@ void NoiseSums::add(const Points& points, int width, const Plane& desk, const De
   for (int top = 0; top + kWindow <= errors.height(); top += kWindow)
     for (int left = 0; left + kWindow <= errors.width(); left += kWindow) {
       if (!take_plane_out(errors, left, top, window)) continue;
-      ++windows_;
       for (int y = 0; y < kWindow; ++y)
         for (int x = 0; x < kWindow; ++x) {
           const double here = window(x, y);
@@ -79,8 +78,7 @@ void NoiseSums::add(const Points& points, int width, const Plane& desk, const De
 
 PixelNoise NoiseSums::noise() const {
   PixelNoise noise;
-  noise.windows = windows_;
-  if (windows_ == 0 || squares_ <= 0.0) return noise;
+  if (squares_ <= 0.0) return noise;
   const double variance = squares_ / pixels_;
   noise.sigma_px = std::sqrt(variance);
   for (std::size_t i = 0; i < kNoiseLags_px.size(); ++i) {

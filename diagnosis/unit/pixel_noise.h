@@ -11,7 +11,6 @@ namespace fathom {
 inline constexpr std::array kNoiseLags_px{1, 2, 4, 8};
 
 struct PixelNoise {
-  int windows = 0;
   double sigma_px = 0.0;
   std::array<double, kNoiseLags_px.size()> along_rows{}, along_columns{};  ///< correlation at each lag
 };
@@ -25,7 +24,6 @@ class NoiseSums {
   PixelNoise noise() const;
 
  private:
-  int windows_ = 0;
   double pixels_ = 0.0, squares_ = 0.0;
   std::array<double, kNoiseLags_px.size()> row_products_{}, row_pairs_{}, column_products_{}, column_pairs_{};
 };

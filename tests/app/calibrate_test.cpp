@@ -5,7 +5,9 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
+#include "core/cloud_file.h"
 #include "core/files.h"
 #include "core/image_file.h"
 #include "core/json.h"
@@ -13,6 +15,7 @@
 #include "sim/scene/unit_model.h"
 #include "sim/sensor/reference.h"
 #include "tests/app/run_fathom.h"
+#include "tests/core/temporary_folder.h"
 
 namespace fathom {
 namespace {
@@ -20,10 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateCommand : testing::Test {
-  fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-
-  void SetUp() override { make_directory(folder); }
-  void TearDown() override { fs::remove_all(folder); }
+  TemporaryFolder folder;
 
   /// A scene with the device's faults; things stand on every other desk.
   fathom::Setup write_scene(const std::string& name, double height_mm, double aim_mm, bool cluttered,
@@ -40,10 +40,40 @@ struct CalibrateCommand : testing::Test {
   }
 
   std::string capture(const std::string& name, int seed) const {
-    const ProgramRun run = run_fathom(fmt::format("capture {0}/{1}.json --mode geometric --seed {2} -o {0}/{1} --quiet",
-                                                  folder.string(), name, seed));
+    const ProgramRun run = run_fathom(fmt::format("capture {0}{1}.json --mode geometric --seed {2} -o {0}{1} --quiet",
+                                                  (folder / "").string(), name, seed));
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    return fmt::format("{}/{}/cloud.pcd ", folder.string(), name);
+    return (folder / name / "cloud.pcd ").string();
+  }
+
+  /// What an ideal device sees of a desk 0.65 m below it.
+  struct Shown {
+    double more_px = 0.0;       ///< of every disparity
+    double focal_px = 570.342;  ///< of the cloud's rays
+    int columns = 640;          ///< in which there is desk, from the left
+  };
+  /// The file's name and a blank.
+  std::string write_desk(const std::string& name, const Shown& shown) const {
+    constexpr double kProduct = 570.342 * 0.075, kPitch = 1.0;
+    constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
+    Image<CloudPoint> cloud(640, 480, {kHole, kHole, kHole, 100.0f});
+    for (int y = 0; y < 480; ++y)
+      for (int x = 0; x < shown.columns; ++x) {
+        const double u = (x + 0.5 - 320.0) / shown.focal_px, v = (y + 0.5 - 240.0) / shown.focal_px;
+        const double true_px = kProduct * (std::sin(kPitch) + v * std::cos(kPitch)) / 0.65;
+        const double z = kProduct / (true_px + shown.more_px);
+        cloud(x, y) = {static_cast<float>(u * z), static_cast<float>(v * z), static_cast<float>(z), 100.0f};
+      }
+    write_pcd(folder / name, cloud);
+    return (folder / name).string() + " ";
+  }
+
+  std::string unit() const { return (folder / "unit").string(); }
+  /// Runs it to `unit()` and returns the rows.
+  Json calibrate(const std::string& arguments) const {
+    const ProgramRun run = run_fathom("calibrate " + arguments + " -o " + unit() + " --json --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.exit_code == 0 ? Json::parse(run.out) : Json();
   }
 };
 
@@ -96,13 +126,113 @@ TEST_F(CalibrateCommand, ASimulatedUnitsMapComesBackFromItsClouds) {
     all -= planes * (planes.transpose() * planes).inverse() * (planes.transpose() * all);
     return std::sqrt(all.squaredNorm() / static_cast<double>(values.size()));
   };
-  const double without = rms(before), with = rms(left);
-  EXPECT_GT(without, 0.06);
-  EXPECT_LT(with, 0.3 * without);
+  const double without_px = rms(before), with_px = rms(left);
+  EXPECT_GT(without_px, 0.06);
+  EXPECT_LT(with_px, 0.3 * without_px);
 
   // The simulator takes the unit, and its desks then have the map.
-  write_scene("again", 700.0, 350.0, false, "unit/unit.json");
-  capture("again", 1);
+  const auto disparity_of = [&](const std::string& name, const Json& of_unit) {
+    write_scene(name, 700.0, 350.0, false, of_unit);
+    capture(name, 1);
+    return read_exr_channel(folder / name / "disparity.exr", "Y");
+  };
+  const Image<float> as_learned = disparity_of("again", "unit/unit.json"),
+                     without = disparity_of("without", {{"residue_px", 0.0}});
+  double squares = 0.0, pixels = 0.0;
+  const double at_reference = sensor.focal_px * sensor.baseline / 1.2;
+  constexpr int kCells = 16;
+  for (int top = 32; top < 448; top += kCells)
+    for (int left_px = 64; left_px < 576; left_px += kCells) {
+      double more = 0.0, map = 0.0, seen = 0.0;
+      for (int y = top; y < top + kCells; ++y)
+        for (int x = left_px; x < left_px + kCells; ++x) {
+          if (as_learned(x, y) <= 0.0f || without(x, y) <= 0.0f) continue;
+          const int column = x - static_cast<int>(std::lround(without(x, y) - at_reference - at));
+          if (column < 0 || column >= 640) continue;
+          more += as_learned(x, y) - without(x, y), map += reference(column, y) + camera(x, y), seen += 1.0;
+        }
+      if (seen < 0.5 * kCells * kCells) continue;
+      squares += std::pow((more - map) / seen, 2.0), pixels += 1.0;
+    }
+  ASSERT_GT(pixels, 500.0);
+  EXPECT_LT(std::sqrt(squares / pixels), 0.25 * without_px);
+}
+
+TEST_F(CalibrateCommand, KnowsWhereDeskWasSeen) {
+  const Json whole = calibrate(write_desk("whole.pcd", {}));
+  EXPECT_EQ(whole["seen_share"]["value"], 1.0);
+  EXPECT_EQ(read_text(folder / "unit" / "unit_map.csv").find("nan"), std::string::npos);
+  const Json half = calibrate(write_desk("half.pcd", {.columns = 320}));
+  EXPECT_NEAR(half["seen_share"]["value"].get<double>(), 0.5, 0.01);
+  EXPECT_LT(half["bias_sigma"]["value"].get<double>(), 0.03);  // of what was seen alone
+  EXPECT_NE(read_text(folder / "unit" / "unit_map.csv").find("nan"), std::string::npos);
+}
+
+TEST_F(CalibrateCommand, CloudsWithTimesTellOfWarmingUp) {
+  std::string clouds, rows, sessions;
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = fmt::format("{}.pcd", i);
+    clouds += write_desk(name, {.more_px = 0.4 * std::exp(-i * 60.0 / 200.0)});
+    rows += fmt::format("{},{}\n", name, 60 * i);
+    sessions += fmt::format("{},{},{}\n", name, 60 * (i % 3), i / 3);
+  }
+  const auto expect_warm_up = [](const Json& found) {
+    ASSERT_TRUE(found.contains("warm_up")) << found;
+    EXPECT_NEAR(found["warm_up"]["value"].get<double>(), 0.4, 0.01);
+    EXPECT_NEAR(found["warm_up_time"]["value"].get<double>(), 200.0, 5.0);
+  };
+  expect_warm_up(calibrate(clouds + "--interval-s 60"));
+  EXPECT_NEAR(read_json(folder / "unit" / "unit.json")["warm_up"]["warm_up_px"].get<double>(), 0.4, 0.01);
+  const std::string table = (folder / "frames.csv").string();
+  write_text(table, "cloud,time_s\n" + rows);
+  expect_warm_up(calibrate(table));
+  EXPECT_FALSE(calibrate(clouds).contains("warm_up")) << "nobody said when";
+  write_text(table, "cloud,time_s,session\n" + sessions);
+  EXPECT_FALSE(calibrate(table).contains("warm_up")) << "the time of each session is its own";
+
+  const auto error_of = [&](const std::string& arguments, int exit_code) {
+    const ProgramRun run = run_fathom("calibrate " + arguments + " -o " + unit());
+    EXPECT_EQ(run.exit_code, exit_code);
+    return run.err;
+  };
+  EXPECT_NE(error_of(table + " --interval-s 60", 2).find("--interval-s"), std::string::npos);
+  write_text(table, "cloud,time_s\n0.pcd,-1\n");
+  EXPECT_EQ(error_of(table, 1), "error: " + table + ": line 2, column 'time_s': must be at least 0, got '-1'\n");
+}
+
+TEST_F(CalibrateCommand, WhetherCloudsAreRegisteredTheyTellOrTheUserDoes) {
+  const auto camera_mm = [&](const std::string& arguments) {
+    const double offset_mm = calibrate(arguments)["camera_offset"]["value"].get<double>();
+    EXPECT_EQ(read_json(folder / "unit" / "unit.json")["device"]["camera_mm"], offset_mm);
+    return offset_mm;
+  };
+  const std::string infrared = write_desk("infrared.pcd", {}), colour = write_desk("colour.pcd", {.focal_px = 525.0});
+  EXPECT_EQ(camera_mm(infrared), 0.0);
+  EXPECT_EQ(camera_mm(infrared + "--registered"), 25.0);
+  EXPECT_EQ(camera_mm(colour), 25.0);
+  EXPECT_EQ(camera_mm(colour + "--unregistered"), 0.0);
+}
+
+/// One that stands there stays whole until another is.
+TEST_F(CalibrateCommand, ASecondRunTakesThePlaceOfTheFirst) {
+  calibrate(write_desk("a.pcd", {}));
+  const std::string first = read_text(folder / "unit" / "unit.json");
+  write_text(folder / "nothing.pcd", "");
+  EXPECT_EQ(run_fathom("calibrate " + (folder / "nothing.pcd").string() + " -o " + unit()).exit_code, 1);
+  EXPECT_EQ(read_text(folder / "unit" / "unit.json"), first);
+  const Json second = calibrate(write_desk("b.pcd", {}) + (folder / "a.pcd").string());
+  EXPECT_EQ(second["clouds"]["value"], 2.0);
+  EXPECT_EQ(read_json(folder / "unit" / "unit.json")["source"], "fathom calibrate: 2 clouds, 1 views");
+}
+
+TEST_F(CalibrateCommand, EachPoseHasItsChannel) {
+  std::string clouds = write_desk("a.pcd", {}) + write_desk("b.pcd", {}) + write_desk("c.pcd", {.more_px = 5.0});
+  EXPECT_EQ(calibrate(clouds)["poses"]["value"], 2.0);
+  const Json poses = read_json(folder / "unit" / "unit.json")["bias"]["poses"];
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0]["clouds"], 2);
+  EXPECT_NEAR(poses[0]["height_mm"].get<double>(), 650.0, 0.1);
+  EXPECT_EQ(read_exr_channel(folder / "unit" / "unit_bias.exr", poses[1]["channel"].get<std::string>()).width(), 640);
 }
 
 TEST_F(CalibrateCommand, SaysInOneLineWhatIsWrongAndWritesNothing) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/files.h"
+#include "core/image_file.h"
 #include "core/json.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/temporary_folder.h"
@@ -69,6 +70,47 @@ TEST_F(CheckCommand, WhereNoDiagnosisCanRunItFailsWithOneLine) {
                 "line 2, column 'fill_mm': must be from 0 to 86, the depth of the cup, got '2000'");
   expect_failed("height_mm\n0,0,0,0,0,0,water,20,300,0,\n",
                 "line 2, column 'height_mm': is empty, and there is no cloud in its place");
+}
+
+/// What only the model of the measurement refuses.
+TEST_F(CheckCommand, AModelThatDoesNotExistStopsItAsItStopsADiagnosis) {
+  const auto error_of = [&](const std::string& sensor, const std::string& cup, const std::string& liquids) {
+    write_text(folder / "rig.json", R"({"sensor": {"height_mm": 650, "pitch_deg": 58.4, )" + sensor + R"(}, "cup": {)" +
+                                        cup + R"(}, "liquids": {)" + liquids + "}}");
+    const ProgramRun run = check(kTable);
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.out, "");
+    const std::string file = "error: " + (folder / "rig.json").string() + ": ";
+    EXPECT_EQ(run.err.substr(0, file.size()), file);
+    return run.err.substr(std::min(run.err.size(), file.size()));
+  };
+  const std::string model = R"("model": "xtion_pro_live")", water = R"("water": "water")";
+  const auto expect_start = [](const std::string& text, const std::string& start) {
+    EXPECT_EQ(text.substr(0, start.size()), start);
+  };
+  expect_start(error_of(R"("model": "xtionn")", "", water), "/sensor/model: ");
+  expect_start(error_of(model, "", R"("water": "watr")"), "/liquids/water: ");
+  expect_start(error_of(model, R"("bottom_mm": 0)", water), "/cup/bottom_mm: ");
+  expect_start(error_of(model, R"("inner_radius_mm": 43)", water), "/cup/outer_radius_mm: ");
+}
+
+TEST_F(CheckCommand, SaysWhatIsTakenOfSessionsAndWhereTheUnitComesFrom) {
+  const std::string two_sessions = kTable + "3,1,0,0,0,0,water,20,400,0,9.4\n";
+  ProgramRun run = check(two_sessions);
+  EXPECT_NE(run.out.find("0.1 mm, the default; 0.0115°, the default"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("session_mm 0.1, session_deg 0.0115"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("not known: there are no clouds"), std::string::npos) << run.out;
+  write_exr(folder / "map.exr", {{"reference_px", Image<float>(640, 480)}, {"camera_px", Image<float>(640, 480)}});
+  write_text(folder / "unit.json", R"({"bias": {"image": "map.exr", "reference_at_px": 30}})");
+  write_text(folder / "rig.json", R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": 58.4,
+      "unit": "unit.json"}, "cup": {"shape": "tapered_cup"}, "liquids": {"water": "water"}, "session_mm": 0.3})");
+  run = check(two_sessions, "--json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json found = Json::parse(run.out);
+  EXPECT_EQ(found["session_mm"], Json({{"value", 0.3}, {"stated", true}}));
+  EXPECT_EQ(found["session_deg"]["stated"], false);
+  EXPECT_EQ(found["unit"], Json({{"from", "calibration"}, {"file", (folder / "unit.json").string()}}));
+  EXPECT_EQ(check(kTable).out.find("session_mm"), std::string::npos) << "of one session there is nothing to take";
 }
 
 /// A table of heights is read by all commands without a column for clouds.

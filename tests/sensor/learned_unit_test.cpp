@@ -11,20 +11,13 @@
 #include "sim/sensor/capture.h"
 #include "sim/sensor/depth.h"
 #include "tests/core/expect_error.h"
+#include "tests/core/temporary_folder.h"
 
 namespace fathom {
 namespace {
 
 class LearnedUnit : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("learned_unit_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// A map of slow waves, of the reference 0.2 px and of the camera 0.1 px.
   void write_unit(int width = 640) const {
     Image<float> reference(width, 480), camera(width, 480);
@@ -50,7 +43,7 @@ class LearnedUnit : public testing::Test {
     return Camera(setup, mode, 4, 1).shoot(0).disparity_px;
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(LearnedUnit, IsSeenWhereTheRememberedImageAndTheCameraHaveIt) {

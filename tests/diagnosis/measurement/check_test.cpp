@@ -1,45 +1,28 @@
 // What `fathom check` finds in a measurement directory, and what it does not miss.
 #include "diagnosis/measurement/check.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
-#include "core/files.h"
+#include "core/image_file.h"
 #include "tests/core/expect_error.h"
-#include "tests/core/temporary_folder.h"
-#include "tests/diagnosis/measurement/ideal_cloud.h"
+#include "tests/diagnosis/measurement/written_measurement.h"
 
 namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kColumns = "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm";
-
-struct CheckedFolder : testing::Test {
-  TemporaryFolder folder;
+struct CheckedFolder : WrittenMeasurement {
   std::string rows;
   int frames = 0;
 
-  void SetUp() override {
-    make_directory(folder / "clouds");
-    write_pcd(folder / "clouds/a.pcd", ideal_cloud(kHeight, 0.020));
-    write_rig("");
-  }
-  void write_rig(const std::string& more, double height_mm = 650.0) {
-    write_text(folder / "rig.json", fmt::format(R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": {},
-        "pitch_deg": {}}}, "cup": {{}}, "liquids": {{"water": "water"}}{}}})",
-                                                height_mm, kPitchDeg, more));
-  }
   /// One shot: "SESSION,POUR,PLACEMENT,TRIAL" and "LIQUID,FILL,DISTANCE,LATERAL", a second after the one before.
   void add(const std::string& repeat, const std::string& what, const std::string& cloud = "clouds/a.pcd") {
     rows += fmt::format("{},{},{},{},{}\n", frames, repeat, frames, what, cloud);
     ++frames;
   }
   MeasurementCheck check(const std::string& last_column = "cloud") {
-    write_text(folder / "frames.csv", kColumns + ("," + last_column) + "\n" + rows);
+    write_text(folder / "frames.csv", kFrameColumns + last_column + "\n" + rows);
     return check_measurement(folder / "");
   }
 };
@@ -77,7 +60,8 @@ TEST_F(CheckedFolder, ACampaignThatHasAllLacksNothing) {
   write_text(folder / "rig.json",
              R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": 58.4, "sigma":
       {"height_mm": 1, "pitch_deg": 0.1, "roll_deg": 0.1, "baseline_mm": 0.1, "focal_px": 1, "disparity_offset_px": 0.1}},
-      "cup": {"sigma": {"bottom_mm": 0.2}}, "liquids": {"water": "water"}, "fill_sigma_mm": 1, "placement_sigma_mm": 1})");
+      "cup": {"sigma": {"bottom_mm": 0.2}}, "liquids": {"water": "water"}, "fill_sigma_mm": 1, "placement_sigma_mm": 1,
+      "session_mm": 0.2, "session_deg": 0.02})");
   int pour = 0, placement = 0;
   for (const std::string session : {"0", "1"}) {
     add(session + ",0,0,0", "none,0,0,0");
@@ -113,6 +97,33 @@ TEST_F(CheckedFolder, SaysWhatACampaignOfOneShotEachLacks) {
     EXPECT_FALSE(find(found, lack)) << static_cast<int>(lack);
   EXPECT_TRUE(std::is_sorted(found.lacks.begin(), found.lacks.end(),
                              [](const Shortfall& a, const Shortfall& b) { return a.lack < b.lack; }));
+}
+
+/// A share of a calibrated unit's bias is left to learn.
+TEST_F(CheckedFolder, OfACalibratedUnitLessBiasIsLeft) {
+  add("0,0,0,0", "water,20,300,0");
+  write_exr(folder / "map.exr", {{"reference_px", Image<float>(640, 480)}, {"camera_px", Image<float>(640, 480)}});
+  write_text(folder / "unit.json", R"({"bias": {"image": "map.exr", "reference_at_px": 30}})");
+  write_text(folder / "rig.json", R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": 58.4,
+      "unit": "unit.json"}, "cup": {}, "liquids": {"water": "water"}})");
+  EXPECT_NEAR(find(check(), Lack::bare_desk_views)->size, 0.45 * 1.06, 0.01);
+}
+
+TEST_F(CheckedFolder, WhatSessionsMayDifferByIsAskedForWhereThereAreSeveral) {
+  const auto names_of = [&](const std::string& more) {
+    write_rig(more);
+    const MeasurementCheck found = check();
+    return find(found, Lack::stated_sigmas)->names;
+  };
+  const auto has = [](const std::vector<std::string>& names, const char* key) {
+    return std::find(names.begin(), names.end(), key) != names.end();
+  };
+  add("0,0,0,0", "water,20,300,0");
+  EXPECT_FALSE(has(names_of(""), "session_mm"));
+  add("1,0,0,0", "water,20,300,0");
+  EXPECT_TRUE(has(names_of(""), "session_mm"));
+  EXPECT_FALSE(has(names_of(R"(, "session_mm": 0.3)"), "session_mm"));
+  EXPECT_TRUE(has(names_of(R"(, "session_mm": 0.3)"), "session_deg"));
 }
 
 /// A table has no desk to learn a unit from, so that bare-desk views are no remedy.

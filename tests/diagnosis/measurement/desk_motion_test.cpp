@@ -11,16 +11,12 @@
 #include "core/units.h"
 #include "diagnosis/measurement/desk_bands.h"
 #include "diagnosis/measurement/named_values.h"
+#include "tests/diagnosis/measurement/tilted_desk.h"
 
 namespace fathom {
 namespace {
 
-LaboratoryRig rig() {
-  LaboratoryRig rig;
-  rig.height_m = 0.65;
-  rig.pitch_rad = radians_from_deg(58.4);
-  return rig;
-}
+const LaboratoryRig kRig = laboratory();
 
 /// Amplitudes of what changes from frame to frame, in disparity [px]; waves of 180 rows or columns, of any phase.
 struct Motion {
@@ -30,21 +26,13 @@ struct Motion {
 
 /// Every fourth pixel of a desk whose disparities differ by that from the true ones.
 std::vector<SensedPoint> desk_frame(const Motion& motion, Rng& rng) {
-  const double trembles = motion.pitch_deg > 0.0 ? radians_from_deg(motion.pitch_deg) * rng.normal() : 0.0;
-  const Plane desk = plane_from(DeskPrior{rig().height_m, rig().pitch_rad + trembles, rig().roll_rad});
+  LaboratoryRig trembling = kRig;
+  if (motion.pitch_deg > 0.0) trembling.pitch_rad += radians_from_deg(motion.pitch_deg) * rng.normal();
   const double all = motion.all * rng.normal(), phase = 2.0 * std::numbers::pi * rng.uniform();
   const auto wave = [&](double at) { return std::sin(2.0 * std::numbers::pi * at / 180.0 + phase); };
-  std::vector<SensedPoint> points;
-  for (double row = 2.0; row < kImageHeight_px; row += 4.0)
-    for (double column = 2.0; column < kImageWidth_px; column += 4.0) {
-      const Eigen::Vector3d sight((column - 0.5 * kImageWidth_px) / rig().focal_px,
-                                  (row - 0.5 * kImageHeight_px) / rig().focal_px, 1.0);
-      const double error =
-          motion.noise * rng.normal() + all + motion.along_rows * wave(row) + motion.along_columns * wave(column);
-      const double inverse = -desk.normal.dot(sight) / desk.offset + error / (rig().focal_px * rig().baseline_m);
-      points.push_back({(sight / inverse).cast<float>(), 100.0f, 16.0f});
-    }
-  return points;
+  return desk_points(trembling, 4.0, [&](double column, double row, double) {
+    return motion.noise * rng.normal() + all + motion.along_rows * wave(row) + motion.along_columns * wave(column);
+  });
 }
 
 double deviation(const std::vector<double>& values) {
@@ -62,7 +50,7 @@ std::vector<Observation> observations_of(const Motion& motion, std::uint64_t see
     std::vector<DeskBands> bands;
     std::vector<std::vector<NamedValue>> frames;
     for (int trial = 0; trial < 5; ++trial) {
-      const auto frame = estimate_frame(desk_frame(motion, rng), rig(), {});
+      const auto frame = estimate_frame(desk_frame(motion, rng), kRig, {});
       bands.push_back(frame->desk_bands);
       frames.push_back(named_values(*frame));
     }
@@ -78,7 +66,7 @@ std::vector<Observation> observations_of(const Motion& motion, std::uint64_t see
       for (const auto& frame : frames) values.push_back(frame[k].value);
       add(frames[0][k].observable, frames[0][k].region, values[0], deviation(values));
     }
-    for (const NamedValue& scatter : scatter_values(bands, rig()))
+    for (const NamedValue& scatter : scatter_values(bands, kRig))
       add(scatter.observable, scatter.region, scatter.value, 0.0);
   }
   return result;
@@ -90,7 +78,7 @@ struct Found {
 };
 Found found(const char* observable, const Motion& motion) {
   Found mean;
-  for (const Observation& o : desk_motion(observations_of(motion, 7), rig()))
+  for (const Observation& o : desk_motion(observations_of(motion, 7), kRig))
     if (o.observable == observable) {
       mean.value += o.value / 3.0;
       mean.z += o.value / (o.repeat_sd / std::sqrt(o.repeats)) / std::sqrt(3.0);
@@ -102,12 +90,12 @@ Found found(const char* observable, const Motion& motion) {
 TEST(DeskMotion, AShortSessionIsOfOnePart) {
   std::vector<Observation> observations = observations_of({.noise = 0.1, .along_rows = 0.1}, 7);
   std::erase_if(observations, [](const Observation& o) { return o.factors.placement >= 7; });
-  const std::vector<Observation> motion = desk_motion(observations, rig());
+  const std::vector<Observation> motion = desk_motion(observations, kRig);
   ASSERT_EQ(motion.size(), 4U);
   EXPECT_EQ(motion[1].observable, "desk_waves_px");
   EXPECT_GT(motion[1].value / (motion[1].repeat_sd / std::sqrt(motion[1].repeats)), 3.0);
   std::erase_if(observations, [](const Observation& o) { return o.factors.placement >= 3; });
-  EXPECT_TRUE(desk_motion(observations, rig()).empty());
+  EXPECT_TRUE(desk_motion(observations, kRig).empty());
 }
 
 constexpr double kSure = 5.0, kChance = 3.0;  // σ
@@ -120,9 +108,9 @@ TEST(DeskMotion, NoiseAloneIsNone) {
 TEST(DeskMotion, DeskThatMovesAsAWholeWandersAndMakesNoWaves) {
   const Motion motion{.noise = 0.1, .all = 0.1};
   const Found wander = found("desk_wander_mm", motion);
-  const Plane desk = plane_from(DeskPrior{rig().height_m, rig().pitch_rad, rig().roll_rad});
+  const Plane desk = plane_from(DeskPrior{kRig.height_m, kRig.pitch_rad, kRig.roll_rad});
   const double expected =
-      mm_from_metres(desk.offset * desk.offset * std::abs(desk.normal.z()) * 0.1 / (rig().focal_px * rig().baseline_m));
+      mm_from_metres(desk.offset * desk.offset * std::abs(desk.normal.z()) * 0.1 / (kRig.focal_px * kRig.baseline_m));
   EXPECT_GT(wander.z, kSure);
   EXPECT_NEAR(wander.value, expected, 0.35 * expected);  // 48 degrees of freedom: 3 σ and a little
   EXPECT_LT(std::abs(found("desk_waves_px", motion).z), kChance);
@@ -152,7 +140,7 @@ TEST(DeskMotion, ColumnsThatShakeAreToldFromRows) {
 
 TEST(DeskBands, OneFrameTellsNothing) {
   Rng rng(1);
-  const auto frame = estimate_frame(desk_frame({.noise = 0.1}, rng), rig(), {});
+  const auto frame = estimate_frame(desk_frame({.noise = 0.1}, rng), kRig, {});
   const std::vector<DeskBands> one{frame->desk_bands};
   EXPECT_FALSE(scatter_of(one).has_value());
 }

@@ -14,25 +14,18 @@
 #include "core/rng.h"
 #include "core/units.h"
 #include "tests/core/expect_error.h"
-#include "tests/core/temporary_folder.h"
-#include "tests/diagnosis/measurement/ideal_cloud.h"
+#include "tests/diagnosis/measurement/written_measurement.h"
 
 namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHeader = "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud";
-struct MeasurementFolder : testing::Test {
-  TemporaryFolder folder;
+const std::string kHeader = std::string(kFrameColumns) + "cloud";
 
+struct MeasurementFolder : WrittenMeasurement {
   void SetUp() override {
-    make_directory(folder / "clouds");
-    write_text(folder / "rig.json",
-               fmt::format(R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": {}}},
-                   "cup": {{}}, "liquids": {{"water": "water"}}}})",
-                           kPitchDeg));
-    write_pcd(folder / "clouds/a.pcd", ideal_cloud(kHeight, 0.020));
+    WrittenMeasurement::SetUp();
     write_pcd(folder / "clouds/b.pcd", ideal_cloud(kHeight + 0.001, 0.022));
     write_pcd(folder / "clouds/tilted.pcd", ideal_cloud(kHeight, 0.020, 0.1));
     write_pcd(folder / "clouds/mm.pcd", ideal_cloud(kHeight, 0.020, 0.0, 1000.0f));
@@ -194,7 +187,7 @@ TEST_F(MeasurementFolder, CopiedRowsOfATableAreFoundWhereChanceWouldNotMakeThem)
     for (const char* trial : trials) text += fmt::format("{0},0,0,0,{0},0,water,20,300,0,,{1}\n", next++, trial);
     return text;
   };
-  const std::string header = std::string(kHeader) + ",height_mm,height_sd_mm,points";
+  const std::string header = kHeader + ",height_mm,height_sd_mm,points";
   const auto first = {"15.1,0.8,900", "15.3,0.7,902", "15.2,0.8,899"};
   const std::string once = rows(first);
   EXPECT_TRUE(read(once, header).mistakes.empty());
@@ -215,7 +208,7 @@ TEST_F(MeasurementFolder, RowsOfFewPointsOnTheStepsOfDepthAreNoCopies) {
     const double height = 9.2 + 0.5 * spread + i / 10 + 0.1 * (rng.uniform() - 0.5);
     rows += fmt::format("{0},0,0,{1},{2},0,water,20,300,0,,{3:.1f},{4:.3f},6\n", i, i / 10, i % 10, height, spread);
   }
-  const Measurement measurement = read(rows, std::string(kHeader) + ",height_mm,height_sd_mm,points");
+  const Measurement measurement = read(rows, kHeader + ",height_mm,height_sd_mm,points");
   EXPECT_TRUE(measurement.mistakes.empty());
   EXPECT_EQ(measurement.observations.front().repeats, 10);
 }
@@ -225,7 +218,7 @@ TEST_F(MeasurementFolder, HeightsKnowWhatTheyAreRoundedTo) {
     std::string rows;
     int next = 0;
     for (const char* height : heights) rows += fmt::format("{0},0,0,0,{0},{0},water,20,300,0,,{1}\n", next++, height);
-    return read(rows, std::string(kHeader) + ",height_mm").observations.front().rounding;
+    return read(rows, kHeader + ",height_mm").observations.front().rounding;
   };
   EXPECT_DOUBLE_EQ(rounding({"15", "16", "15"}), 1.0 / std::sqrt(12.0));
   EXPECT_DOUBLE_EQ(rounding({"15.5", "16.0", "15.0"}), 0.5 / std::sqrt(12.0));
@@ -270,7 +263,7 @@ TEST_F(MeasurementFolder, ABareDeskHasNoCup) {
 
 TEST_F(MeasurementFolder, ATableOfHeightsWorksAndSaysWhatItLacks) {
   const Measurement measurement =
-      read("0,0,0,0,0,0,water,20,300,0,,12.5\n1,0,0,0,1,1,water,20,300,0,,12.7\n", kHeader + std::string(",height_mm"));
+      read("0,0,0,0,0,0,water,20,300,0,,12.5\n1,0,0,0,1,1,water,20,300,0,,12.7\n", kHeader + ",height_mm");
   ASSERT_EQ(measurement.observations.size(), 1u);
   EXPECT_EQ(measurement.observations[0].factors.region, "interior");
   EXPECT_NEAR(measurement.observations[0].value, 12.6, 1e-12);
@@ -317,7 +310,7 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
   expect_refused("0,0,0,0,0,0,water,200,300,0,clouds/a.pcd\n",
                  "line 2, column 'fill_mm': must be from 0 to 80, the depth of the cup, got '200'");
   expect_refused("0,0,0,0,0,0,water,20,300,0,,nan\n", "line 2, column 'height_mm': must be a finite number, got 'nan'",
-                 kHeader + std::string(",height_mm"));
+                 kHeader + ",height_mm");
   expect_refused("0,0,0,0,0,0,water,20,300,0,clouds/a.pcd\n1,0,0,0,1,1,water,20,300,0,clouds/mm.pcd\n",
                  "line 3, column 'cloud': " + (folder / "clouds/mm.pcd").string() +
                      ": must be in metres: most of its points lie more than 50 away");
@@ -336,7 +329,7 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
 }
 
 TEST_F(MeasurementFolder, AHeightMayBeNoiseWhereThoseOfItsFillingArePossible) {
-  const std::string header = kHeader + std::string(",height_mm");
+  const std::string header = kHeader + ",height_mm";
   const std::string noisy =
       "0,0,0,0,0,0,empty,0,300,0,,-0.4\n1,0,0,0,1,1,empty,0,300,0,,6.9\n2,0,0,0,2,2,empty,0,300,0,,8.1\n";
   EXPECT_NEAR(read(noisy, header).observations.front().value, 14.6 / 3.0, 1e-9);
@@ -366,7 +359,7 @@ TEST_F(MeasurementFolder, RowsMustBePossible) {
        "line 3, column 'frame': must be another one for every frame of a session, got '0' again"},
       {"0,0,0,0,0,9,water,20,300,0,,15\n1,0,0,0,1,8,water,20,300,0,,15",
        "line 3, column 'time_s': must not run backwards over the trials of a placement, got '8'"}};
-  for (const auto& [row, what] : rows) expect_refused(row, what, kHeader + std::string(",height_mm"));
+  for (const auto& [row, what] : rows) expect_refused(row, what, kHeader + ",height_mm");
 }
 
 }  // namespace

@@ -121,7 +121,10 @@ TEST(Rig, WhatCannotBeIsRefused) {
     return R"({"sensor": {"model": "kinect_v1", "height_mm": 600, "pitch_deg": 45}, "cup": {)" + cup +
            R"(}, "liquids": {)" + liquids + "}}";
   };
-  EXPECT_EQ(error_of(with(R"("inner_radius_mm": 50)", "")), "/cup/inner_radius_mm: must not be above outer_radius_mm");
+  for (const char* inner : {R"("inner_radius_mm": 50)", R"("inner_radius_mm": 43)"})
+    EXPECT_EQ(error_of(with(inner, "")), "/cup/outer_radius_mm: must be above inner_radius_mm");
+  EXPECT_EQ(error_of(with(R"("bottom_mm": 0)", "")),
+            "/cup/bottom_mm: must be a number above 0 and at most 2000, got 0");
   EXPECT_EQ(error_of(with(R"("bottom_mm": 87)", "")), "/cup/bottom_mm: must be below height_mm");
   EXPECT_EQ(error_of(with(R"("radius_mm": 40)", "")).find("/cup/radius_mm: unknown key 'radius_mm', choose from shape"),
             0u);

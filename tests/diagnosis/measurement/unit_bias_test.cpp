@@ -7,17 +7,12 @@
 #include <numbers>
 
 #include "core/rng.h"
-#include "core/units.h"
+#include "tests/diagnosis/measurement/tilted_desk.h"
 
 namespace fathom {
 namespace {
 
-LaboratoryRig rig() {
-  LaboratoryRig rig;
-  rig.height_m = 0.65;
-  rig.pitch_rad = radians_from_deg(58.4);
-  return rig;
-}
+const LaboratoryRig kRig = laboratory();
 
 /// A bias [px] in the frame of the reference, of the size and reach that units have.
 double bias_px(double column_px, double row_px) {
@@ -26,20 +21,11 @@ double bias_px(double column_px, double row_px) {
 
 /// Every second pixel of a desk as such a unit reads it.
 std::vector<SensedPoint> desk(double noise_px, std::uint64_t seed) {
-  const Plane plane = plane_from(DeskPrior{rig().height_m, rig().pitch_rad, rig().roll_rad});
-  const double of_inverse = rig().focal_px * rig().baseline_m;
+  const double at_reference = kRig.focal_px * kRig.baseline_m / kReferenceDistance_m;
   Rng rng(seed);
-  std::vector<SensedPoint> points;
-  for (double row = 0.5; row < kImageHeight_px; row += 2.0)
-    for (double column = 0.5; column < kImageWidth_px; column += 2.0) {
-      const Eigen::Vector3d sight((column - 0.5 * kImageWidth_px) / rig().focal_px,
-                                  (row - 0.5 * kImageHeight_px) / rig().focal_px, 1.0);
-      const double disparity = of_inverse * -plane.normal.dot(sight) / plane.offset;
-      const double nearer = disparity - of_inverse / kReferenceDistance_m;
-      const double read = disparity + bias_px(column - nearer, row) + noise_px * rng.normal();
-      points.push_back({(of_inverse / read * sight).cast<float>(), 100.0f, 4.0f});
-    }
-  return points;
+  return desk_points(kRig, 2.0, [&](double column, double row, double true_px) {
+    return bias_px(column - (true_px - at_reference), row) + noise_px * rng.normal();
+  });
 }
 
 double residual_mm(const FrameEstimates& estimates) {
@@ -52,7 +38,7 @@ UnitBias learned(double noise_px) {
   std::map<int, DeskCells> desks;
   for (std::uint64_t cloud = 0; cloud < 4; ++cloud) {
     const std::vector<SensedPoint> points = desk(noise_px, cloud);
-    desks[0].add(points, estimate_frame(points, rig(), {})->desk, rig(), {});
+    desks[0].add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
   }
   return UnitBias(desks);
 }
@@ -60,9 +46,9 @@ UnitBias learned(double noise_px) {
 TEST(UnitBias, LearnedFromDesksFlattensThem) {
   const UnitBias unit = learned(0.1);
   std::vector<SensedPoint> points = desk(0.1, 99);
-  const double before = residual_mm(*estimate_frame(points, rig(), {}));
-  take_off(as_bias(unit.field()), rig(), points);
-  const double after = residual_mm(*estimate_frame(points, rig(), {}));
+  const double before = residual_mm(*estimate_frame(points, kRig, {}));
+  take_off(as_bias(unit.field()), kRig, points);
+  const double after = residual_mm(*estimate_frame(points, kRig, {}));
   EXPECT_GT(before, 0.2);
   EXPECT_LT(after, 0.1 * before);
 }
@@ -70,7 +56,7 @@ TEST(UnitBias, LearnedFromDesksFlattensThem) {
 TEST(UnitBias, LeavesWhatTheDeviceGaveKnown) {
   std::vector<SensedPoint> points = desk(0.0, 1);
   const std::vector<SensedPoint> given = points;
-  take_off(as_bias(learned(0.0).field()), rig(), points);
+  take_off(as_bias(learned(0.0).field()), kRig, points);
   for (std::size_t i = 0; i < points.size(); i += 1000) {
     EXPECT_EQ(points[i].device_z, given[i].point.z());
     // Along the same line of sight.
@@ -95,10 +81,10 @@ TEST(UnitBias, WhereNoDeskWasSeenItsErrorIsLargerThanWhereItWas) {
   std::map<int, DeskCells> desks;
   std::vector<SensedPoint> points = desk(0.1, 5);
   std::erase_if(points, [](const SensedPoint& p) {
-    const Eigen::Vector2d pixel = bias_point(p.point, rig()).pixel_px;
+    const Eigen::Vector2d pixel = bias_point(p.point, kRig).pixel_px;
     return (pixel - Eigen::Vector2d(320.0, 240.0)).norm() < 120.0;
   });
-  desks[0].add(points, estimate_frame(points, rig(), {})->desk, rig(), {});
+  desks[0].add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
   const UnitBias unit(desks);
   const double hidden = unit.sigma({.pixel_px = {320.0, 240.0}, .nearer_px = 0.0}),
                seen = unit.sigma({.pixel_px = {500.0, 100.0}, .nearer_px = 0.0});

@@ -82,6 +82,15 @@ TEST(DeskView, AThinnedCloudHasTheSameBias) {
     EXPECT_NEAR(all->view.errors_px[i], some->view.errors_px[i], 0.02);
 }
 
+TEST(DeskView, CoordinatesBeyondAnyIntegerLieBesideTheImage) {
+  Points points = cloud([](int, int, double disparity) { return disparity; });
+  const auto without = desk_view({&points, 1}, desk(), kExact);
+  for (const float far : {1e30f, -1e30f}) points.emplace_back(far, far, 0.7f);
+  const auto with = desk_view({&points, 1}, desk(), kExact);
+  ASSERT_TRUE(with && without);
+  EXPECT_EQ(with->view.errors_px, without->view.errors_px);
+}
+
 TEST(DepthFacts, TheLawIsReadOffTheDepths) {
   struct Law {
     double focal_px, phase, cut_mm;
@@ -128,7 +137,6 @@ TEST(PixelNoise, HasTheSizeAndTheCorrelationThatWereMade) {
   NoiseSums sums;
   sums.add(points, kWidth, desk(), kExact);
   const PixelNoise noise = sums.noise();
-  EXPECT_EQ(noise.windows, (kWidth / 31) * (kHeight / 31));
   EXPECT_NEAR(noise.sigma_px, 0.1, 0.002);
   EXPECT_NEAR(noise.along_rows[0], 0.75, 0.02);
   EXPECT_NEAR(noise.along_rows[1], 0.5, 0.02);
@@ -147,6 +155,43 @@ TEST(WarmUp, ComesBackWithItsTime) {
   EXPECT_LT(warm_up->sigma_px, 0.02);
   EXPECT_NEAR(warm_up->warm_up_s, 900.0, 200.0);
   EXPECT_FALSE(warm_up_of(std::span(readings).first(4)));
+}
+
+/// `count` readings a minute apart, the first at `from_s`, of a device that has `amplitude_px` too much when cold.
+std::vector<TimedDisparity> readings_of(std::uint64_t seed, double amplitude_px, double from_s, int count) {
+  Rng rng(seed, 8, 9);
+  std::vector<TimedDisparity> readings;
+  for (int i = 0; i < count; ++i) {
+    const double time_s = from_s + 60.0 * i;
+    readings.push_back({time_s, 30.0 + amplitude_px * std::exp(-time_s / 300.0) + 0.01 * rng.normal()});
+  }
+  return readings;
+}
+
+TEST(WarmUp, SigmaCountsThatTheTimeIsNotKnown) {
+  constexpr int kTimes = 400;
+  double squares = 0.0;
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= kTimes; ++seed)
+    if (const auto warm_up = warm_up_of(readings_of(seed, 0.5, 120.0, 20))) {
+      squares += std::pow((warm_up->warm_up_px - 0.5) / warm_up->sigma_px, 2.0);
+      ++found;
+    }
+  EXPECT_EQ(found, kTimes);
+  EXPECT_LT(std::sqrt(squares / found), 1.2);
+  EXPECT_GT(std::sqrt(squares / found), 0.85);
+}
+
+TEST(WarmUp, ADeviceThatDoesNotWarmUpHasNone) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) found += warm_up_of(readings_of(seed, 0.0, 0.0, 30)).has_value();
+  EXPECT_LE(found, 3);
+}
+
+TEST(WarmUp, ARecordingThatBeginsWhenTheDeviceIsWarmSaysNothingOfACold) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) found += warm_up_of(readings_of(seed, 0.5, 2400.0, 20)).has_value();
+  EXPECT_LE(found, 1);
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// The argument of commands that read one measurement directory.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+namespace CLI {
+class App;
+}
+
+namespace fathom {
+
+/// Adds it; it is filled when the run starts.
+std::shared_ptr<std::filesystem::path> add_measurement_folder(CLI::App& app);
+
+}  // namespace fathom
