@@ -82,7 +82,7 @@ def share(what, k, n):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("fathom", type=pathlib.Path)
+    parser.add_argument("fathom", type=lambda text: pathlib.Path(text).resolve())
     parser.add_argument("--nulls", type=int, default=12)
     parser.add_argument("--singles", type=int, default=0)
     parser.add_argument("--mode", choices=("geometric", "photometric"), default="geometric")
