@@ -56,7 +56,7 @@ inline constexpr std::array kCommands{
             "Fills the height columns of a measurement directory: writes heights.csv there, or to the folder of -o",
             "  fathom measure out/paper\n  fathom measure out/paper -o out/heights", define_measure},
     Command{"calibrate", "Learns how one device differs from its model, from clouds of desks and walls: unit.json",
-            "  fathom calibrate ../shared/data/mOSD/learn33.pcd ../shared/data/mOSD/learn34.pcd -o out/unit\n"
+            "  fathom calibrate out/water/cloud.pcd -o out/unit\n"
             "  fathom calibrate out/paper/frames.csv --height-mm 650 --pitch-deg 58.4 -o out/unit",
             define_calibrate},
     Command{"diagnose",

@@ -27,6 +27,7 @@
 #include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/designs.h"
 #include "diagnosis/predict/physics.h"
+#include "diagnosis/predict/predictable.h"
 #include "diagnosis/statistics/decide.h"
 #include "diagnosis/statistics/diagnosis_json.h"
 #include "diagnosis/statistics/effect_name.h"
@@ -170,9 +171,9 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   Measurement measurement = read_measurements(options.folders, common.quiet);
   const std::string rig_file = (options.folders.front() / "rig.json").string();
+  require_room(predictable(measurement.observations), options.folders.front());
   put_bookkeeping_right(had, rig_file, measurement);
   Physics physics = physics_of(measurement, had, rig_file, {}, common.quiet);
-  require_room(physics.evidence.observations, options.folders.front());
   if (std::string note = on_missing_heights(measurement, physics.evidence.observations); !note.empty())
     measurement.notes.push_back(std::move(note));
   if (std::string note = on_bare_desks(measurement, *physics.predictor); !note.empty())

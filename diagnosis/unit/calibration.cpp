@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/input_policy.h"
 #include "core/progress.h"
 #include "core/units.h"
 #include "detector/read_cloud.h"
@@ -293,6 +294,17 @@ void map_bias(const std::vector<Reading>& readings, const Scenes& scenes, const 
   }
 }
 
+/// Views and poses have equations of their own, which are there twice while views are left out.
+void require_room(const std::vector<BiasView>& views, std::size_t cells, const std::string& file) {
+  constexpr std::uint64_t kTwice = 2, kOfState = 3, kOfCell = 110;  // squares of waves, numbers
+  std::uint64_t poses = 0;
+  for (const BiasView& view : views) poses = std::max<std::uint64_t>(poses, view.state + 1);
+  const auto waves = static_cast<std::uint64_t>(Cosines().size());
+  const std::uint64_t bytes = bytes_of({kTwice, sizeof(double), kOfState, poses, waves, waves}) +
+                              bytes_of({kTwice, sizeof(double), kOfCell, cells});
+  require_within_limit(file, "", bytes, fmt::format("equations of {} views in {} poses", views.size(), poses));
+}
+
 std::optional<WarmUp> warm_up_in(const std::vector<Reading>& readings) {
   std::vector<TimedDisparity> timed;
   std::vector<BiasView> views;
@@ -328,6 +340,7 @@ Calibration calibrate(const std::vector<CalibrationCloud>& clouds, const Calibra
   result.clouds = clouds.size();
   result.views = views.size();
   for (const BiasView& view : views) result.cells += view.cells.size();
+  require_room(views, result.cells, clouds.front().file.string());
   result.noise = noise.noise();
   result.warm_up = warm_up_in(readings);
   if (result.warm_up) {

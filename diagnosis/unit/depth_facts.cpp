@@ -56,7 +56,8 @@ struct Law {
   }
   /// The code whose depth this is; nothing where none has it.
   std::optional<int> code(double depth) const {
-    const int near = static_cast<int>(std::lround(exact_code(depth)));
+    constexpr double kMostCodes = 1e6;  // of a depth that is all but 0
+    const int near = static_cast<int>(std::lround(std::clamp(exact_code(depth), -kMostCodes, kMostCodes)));
     for (const int code : {near, near - 1, near + 1})
       if (std::abs(this->depth(code) - depth) < 1.5 * kWhole_mm) return code;
     return std::nullopt;

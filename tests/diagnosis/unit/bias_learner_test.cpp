@@ -222,8 +222,8 @@ TEST(BiasLearner, StepsOfColumnsAreNoBias) {
   EXPECT_LT(left, rms(left_over(BiasLearner(views, blind).learn(), drawn, views.front())));
 }
 
-/// A bias that reaches far is nearly a plane, and planes are pose. What is left of it says how large it is all the same:
-/// a prior that is right stays as it is.
+/// A bias that reaches far is nearly a plane, and planes are pose. What is left of it says how large it is all the
+/// same: a prior that is right stays as it is.
 TEST(BiasLearner, APriorThatIsRightStays) {
   double better = 0.0;
   constexpr int kUnits = 240;
