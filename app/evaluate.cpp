@@ -92,6 +92,7 @@ std::vector<Row> summary(const LabelledResult& result) {
 void keep_templates(const std::filesystem::path& folder, const ClutterEvaluation& evaluation) {
   Json config = evaluation.config.is_null() ? Json::object() : evaluation.config;
   make_directory(folder / "templates");
+  remove_leftovers(folder / "templates");
   for (const CupTemplate& cup : evaluation.detector.templates) {
     save_template(folder / "templates", cup);
     config["templates"].push_back("templates/" + cup.name + ".json");

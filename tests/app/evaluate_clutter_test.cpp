@@ -95,7 +95,10 @@ TEST_F(EvaluateClutter, ThePageOfFailuresShowsThoseOfTheTrialsAskedFor) {
 TEST_F(EvaluateClutter, GoesOnWhereItStoppedWithTheSameBytes) {
   const auto cups = [&](const char* name) { return read_text(folder / name / "cups.csv"); };
   ASSERT_EQ(evaluate("recognition", lone_cup(), "--trials 1 " + output("pieces")).exit_code, 0);
+  const auto killed = folder / "pieces" / "templates" / ".paper_cup.999999.fathom.part.json";
+  write_text(killed, "{");
   ASSERT_EQ(evaluate("recognition", lone_cup(), "--trials 3 " + output("pieces")).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(killed));
   ASSERT_EQ(evaluate("recognition", lone_cup(), "--trials 3 --threads 1 " + output("whole")).exit_code, 0);
   EXPECT_EQ(cups("pieces"), cups("whole"));
 }
