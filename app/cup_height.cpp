@@ -1,8 +1,8 @@
 #include "app/cup_height.h"
 
 #include <optional>
-#include "core/cup_json.h"
 
+#include "core/cup_json.h"
 #include "detector/desk_view.h"
 #include "diagnosis/measurement/sampling.h"
 

@@ -134,8 +134,7 @@ std::string on_bare_desks(const Measurement& measurement, const Predictor& predi
   const double mm_per_px = sum_mm / std::max(cups, 1.0);
   return fmt::format(
       "No view shows the bare desk, so the sensor's own bias where cups stand is known to {:.2f} mm only. Views "
-      "without "
-      "a cup, three in each session, would bring that to {:.2f} mm.",
+      "without a cup, three in each session, would bring that to {:.2f} mm.",
       mm_per_px * known->now_px, mm_per_px * known->with_bare_desks_px);
 }
 

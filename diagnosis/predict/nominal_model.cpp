@@ -4,6 +4,7 @@
 #include "sim/scene/medium_json.h"
 
 namespace fathom {
+
 NominalModel nominal_model(const LaboratoryRig& laboratory, const std::string& file) {
   NominalModel model;
   model.laboratory = laboratory;

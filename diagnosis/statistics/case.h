@@ -35,7 +35,7 @@ Case case_of(const Evidence& evidence, const Predict& predict, const DecisionSet
 struct Rest {
   Eigen::VectorXd residual;    ///< whitened
   Eigen::MatrixXd explained;   ///< orthonormal directions that were taken out
-  std::vector<Excess> excess;  ///< of sessions and trials, in the residual
+  std::vector<Excess> excess;  ///< of sessions, pours, placements and trials
   double p = 1.0;              ///< that errors alone leave as much
 };
 Rest rest_of(const Case& c, const Refit& fit);

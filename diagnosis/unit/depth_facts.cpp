@@ -14,9 +14,9 @@
 namespace fathom {
 namespace {
 
-constexpr int kPhaseSteps = 512;  ///< in which a code's phase is looked for, …
-constexpr int kRoundPhases = 16;
-constexpr int kFarthest = 16;  ///< … so many on either side of what depths have on average
+constexpr int kPhaseSteps = 512;  ///< of a code, in which its phase is looked for: …
+constexpr int kFarthest = 16;     ///< … so many on either side of what depths have on average
+constexpr int kRoundPhases = 16;  ///< of a code; the nearest one is taken where it does as well
 constexpr double kOnLaw = 0.98;
 constexpr double kTooOften = 0.9;   ///< steps hardly wider than what depths are cut to say nothing
 constexpr double kWhole_mm = 0.01;  ///< what floats and drivers round
