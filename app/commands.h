@@ -40,8 +40,8 @@ inline constexpr std::array kCommands{
             define_detect},
     Command{"evaluate", "Detection rates over random desks, or over a folder of clouds whose containers are labelled",
             "  fathom evaluate recognition --trials 20 -o out/recognition\n"
-            "  fathom evaluate liquid --method paper --trials 1 -o out/table1\n  fathom evaluate ../shared/data/mOSD\n "
-            " fathom evaluate ../shared/data/mOSD --method paper -o out/paper",
+            "  fathom evaluate liquid --method paper --trials 1 -o out/table1\n"
+            "  fathom evaluate mOSD --method paper -o out/paper",
             define_evaluate},
     Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"

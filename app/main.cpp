@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,15 +27,23 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-/// The word that should be a command must be one: CLI11 would only say that it did not expect it.
-void check_command(int argc, char** argv) {
+/// The words that should be a command and one of its own must be some: CLI11 would only say that it did not expect
+/// them.
+void check_command(const CLI::App& app, std::span<char* const> words) {
   std::vector<std::string> names;
-  for (const fathom::Command& command : fathom::kCommands) names.emplace_back(command.name);
-  if (argc < 2) throw fathom::UsageError(fmt::format("a command is missing, choose from {}", fmt::join(names, ", ")));
-  const std::string word = argv[1];
-  if (word.starts_with('-') || std::find(names.begin(), names.end(), word) != names.end()) return;
-  throw fathom::UsageError(fathom::unknown_name("command", word, names));
+  const CLI::App* chosen = nullptr;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(sub->get_name());
+    if (!words.empty() && names.back() == words[0]) chosen = sub;
+  }
+  if (names.empty()) return;
+  if (words.empty())
+    throw fathom::UsageError(fmt::format("a command is missing, choose from {}", fmt::join(names, ", ")));
+  if (chosen) return check_command(*chosen, words.subspan(1));
+  if (*words[0] != '-') throw fathom::UsageError(fathom::unknown_name("command", words[0], names));
 }
+
+std::string some_name(const std::string& text) { return text.empty() ? "must name a folder, got ''" : ""; }
 
 int bad_usage(const std::string& what) {
   fathom::print_error(what, "Run with --help for more information.\n");
@@ -42,7 +51,7 @@ int bad_usage(const std::string& what) {
 }
 
 void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
-  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR");
+  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR")->check(some_name);
   app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
@@ -73,7 +82,7 @@ int main(int argc, char** argv) {
   fathom::require_numbers(app);
 
   try {
-    check_command(argc, argv);
+    check_command(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     app.exit(help);

@@ -39,9 +39,9 @@ bool is_file_of(int descriptor, const fs::path& path) {
 }
 
 /// The lock file, opened; negative where its folder is no more.
-int open_lock(const fs::path& file) {
+int open_lock(const fs::path& file, bool folder_may_vanish) {
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
-  if (descriptor < 0 && errno != ENOENT)
+  if (descriptor < 0 && !(errno == ENOENT && folder_may_vanish))
     throw Error(file.string(), fmt::format("cannot be created: {}", std::strerror(errno)));
   return descriptor;
 }
@@ -49,11 +49,14 @@ int open_lock(const fs::path& file) {
 }  // namespace
 
 FolderOwner::FolderOwner(fs::path folder) : folder_(std::move(folder)), file_(folder_ / ".fathom.lock") {
-  while (descriptor_ < 0) {
+  // An owner that wrote nothing removes its folder, which can happen between the two calls, but not every time. /proc
+  // says of itself at every call that it does not exist.
+  constexpr int kAttempts = 1000;
+  for (int attempt = 1; descriptor_ < 0; ++attempt) {
     is_new_ = !fs::exists(folder_);
     make_directory(folder_);
-    const int descriptor = open_lock(file_);
-    if (descriptor < 0) continue;  // an owner that wrote nothing has just removed its folder
+    const int descriptor = open_lock(file_, attempt < kAttempts);
+    if (descriptor < 0) continue;
     if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
       if (is_file_of(descriptor, file_))
         descriptor_ = descriptor;

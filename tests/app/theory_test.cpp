@@ -79,6 +79,8 @@ TEST(Commands, OnesThatDoNotExistAreNamedBesideThoseThatDo) {
   EXPECT_EQ(result.text.rfind("error: unknown command 'theroy', choose from capture, theory, detect, ", 0), 0u)
       << result.text;
   EXPECT_EQ(run_program("").text.rfind("error: a command is missing, choose from capture, ", 0), 0u);
+  EXPECT_EQ(run_program("verify slap").text.rfind("error: unknown command 'slap', choose from slab, fresnel, ", 0), 0u);
+  EXPECT_EQ(run_program("theory -o ''").text.rfind("error: --output: must name a folder, got ''", 0), 0u);
   EXPECT_EQ(run_program("--help").exit_code, 0);
   EXPECT_EQ(run_program("--version").exit_code, 0);
 }

@@ -78,6 +78,11 @@ TEST(FolderOwner, LeavesNothingOfItsOwn) {
   EXPECT_EQ(read_text(folder / "written/a.txt"), "a");
 }
 
+/// /proc says of a new file that its folder does not exist.
+TEST(FolderOwner, AFolderThatTakesNoFilesIsRefused) {
+  expect_error([] { const FolderOwner owner("/proc/self"); }, {"/proc/self/.fathom.lock: cannot be created: "});
+}
+
 TEST(FolderOwner, RemovesOnlyWhatADeadWriterOfOursLeft) {
   const TemporaryFolder folder;
   make_directory(folder / "out");
