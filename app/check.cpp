@@ -58,9 +58,11 @@ std::vector<Row> rows_of(const MeasurementCheck& check) {
                         {"sessions", count(check.sessions)},
                         {"pours", count(check.pours)},
                         {"placements", count(check.placements)},
-                        {"trials_of_each", trials_text(check)},
-                        {"distances", lengths(check.distances_mm), "mm"},
-                        {"laterals", lengths(check.laterals_mm), "mm"}};
+                        {"trials_of_each", trials_text(check)}};
+  if (!check.distances_mm.empty()) {
+    rows.push_back({"distances", lengths(check.distances_mm), "mm"});
+    rows.push_back({"laterals", lengths(check.laterals_mm), "mm"});
+  }
   for (const auto& [liquid, fills_mm] : check.fills_mm)
     if (liquid == "empty")
       rows.push_back({"empty_cup", "yes"});

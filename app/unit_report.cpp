@@ -116,11 +116,12 @@ void write_unit_report(const std::filesystem::path& folder, const Calibration& u
     std::vector<std::vector<std::string>> rows;
     for (std::size_t i = 0; i < unit.poses.size(); ++i)
       rows.push_back({fmt::format("pose_{}_px", i), fmt::format("{}", unit.poses[i].clouds),
-                      fmt::format("{:.0f}", unit.poses[i].height_mm), fmt::format("{:.1f}", unit.poses[i].pitch_deg)});
+                      fmt::format("{:.0f}", unit.poses[i].height_mm), fmt::format("{:.1f}", unit.poses[i].pitch_deg),
+                      fmt::format("{:.1f}", unit.poses[i].roll_deg)});
     html +=
         "<h2>Poses</h2>\n<p>In one pose the device does something of its own besides. Each has a channel in "
         "<code>unit_bias.exr</code>.</p>\n" +
-        html_table({"channel", "clouds", "height [mm]", "pitch [°]"}, rows, true);
+        html_table({"channel", "clouds", "height [mm]", "pitch [°]", "roll [°]"}, rows, true);
   }
   write_text(folder / "report.html", html_page("Fathom: calibration", html));
 }

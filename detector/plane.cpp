@@ -26,6 +26,8 @@ Plane plane_from(const DeskPrior& prior) {
 
 double pitch_above(const Plane& plane) { return std::asin(std::clamp(-plane.normal.z(), -1.0, 1.0)); }
 
+double roll_above(const Plane& plane) { return std::atan2(-plane.normal.x(), -plane.normal.y()); }
+
 Eigen::Isometry3d desk_from_camera(const Plane& desk) {
   const Eigen::Vector3d up = desk.normal;
   const auto horizontal = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d { return v - v.dot(up) * up; };

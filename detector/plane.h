@@ -31,6 +31,9 @@ Plane plane_from(const DeskPrior& prior);
 /// Pitch of a camera above a plane whose normal points up.
 double pitch_above(const Plane& plane);
 
+/// Its roll, as in DeskPrior.
+double roll_above(const Plane& plane);
+
 /// From the camera frame to the desk's: origin below the camera on the desk, z up, y the horizontal line of sight (the
 /// direction of the image's top when the camera looks straight down), x to the camera's right.
 Eigen::Isometry3d desk_from_camera(const Plane& desk);

@@ -64,7 +64,10 @@ class Checker {
   void find_lacks(const Json& rig) {
     std::set<Condition> conditions;
     for (const FrameRecord& f : frames_) conditions.insert(condition_of(f));
-    if (conditions.size() < kFewestConditions) add({Lack::conditions, static_cast<double>(conditions.size())});
+    const bool is_desk_known =
+        check_.rig.unit.map && std::ranges::all_of(frames_, [](const FrameRecord& f) { return f.bare_desk(); });
+    if (conditions.size() < kFewestConditions && !is_desk_known)
+      add({Lack::conditions, static_cast<double>(conditions.size())});
     look_at_places();
     look_into_cups();
     if (check_.heights > 0) add({Lack::clouds, static_cast<double>(check_.heights)});

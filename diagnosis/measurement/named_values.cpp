@@ -27,10 +27,9 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     values.push_back({"cup_y_mm", kWalls, mm_from_metres(estimates.outline->off.y())});
     values.push_back({"cup_radius_mm", kWalls, mm_from_metres(estimates.outline->wider)});
   }
-  const Eigen::Vector3d& normal = estimates.desk.normal;
   values.push_back({"desk_height_mm", kDesk, mm_from_metres(estimates.desk.offset)});
   values.push_back({"desk_pitch_deg", kDesk, deg_from_radians(pitch_above(estimates.desk))});
-  values.push_back({"desk_roll_deg", kDesk, deg_from_radians(std::atan2(-normal.x(), -normal.y()))});
+  values.push_back({"desk_roll_deg", kDesk, deg_from_radians(roll_above(estimates.desk))});
   for (std::size_t i = 0; i < estimates.desk_residual.size(); ++i)
     if (estimates.desk_residual[i].weight >= kFewestOnDesk)
       values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean)});

@@ -45,6 +45,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   const LaboratoryRig& rig = measurement.rig;
   evidence.stated = {mm_from_metres(rig.session_m), deg_from_radians(rig.session_rad), mm_from_metres(rig.fill_sigma_m),
                      mm_from_metres(rig.placement_sigma_m)};
+  evidence.is_calibrated = rig.unit.map != nullptr;
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor =
       std::make_shared<Predictor>(measurement.rig, observations, model_effects, file, measurement.unit);

@@ -90,6 +90,7 @@ struct Evidence {
   std::vector<SharedError> shared_errors{};  ///< of the predictions, too
   std::vector<Mistake> mistakes{};           ///< put right in the observations
   StatedScatter stated{};
+  bool is_calibrated = false;  ///< the sensor's own errors were learned from other views, as far as they can be
 };
 
 /// An effect switched on, with the values of its parameters in their order.

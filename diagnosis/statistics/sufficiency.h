@@ -11,7 +11,8 @@ namespace fathom {
 inline constexpr std::size_t kFewestConditions = 3;
 
 /// What is missing, one sentence each; nothing if it is enough. Asked for are eight observations in three conditions,
-/// a candidate, and something that tells how large errors are: repeats, replicates or prior nuisances.
+/// a candidate, and something that tells how large errors are: repeats, replicates or prior nuisances. One view of a
+/// bare desk by a calibrated sensor is enough: rig, calibration and model say how far it may be off.
 std::vector<std::string> missing_for_diagnosis(const Evidence& evidence);
 
 }  // namespace fathom

@@ -287,7 +287,11 @@ void map_bias(const std::vector<Reading>& readings, const Scenes& scenes, const 
     const int state = scenes.views[scenes.of_reading[i]].state;
     if (static_cast<std::size_t>(state) == result.poses.size() && result.poses.size() < kMostPoses) {
       const Plane& plane = readings[i].desk.plane;
-      result.poses.push_back({0, mm_from_metres(plane.offset), deg_from_radians(pitch_above(plane)), {}});
+      result.poses.push_back({0,
+                              mm_from_metres(plane.offset),
+                              deg_from_radians(pitch_above(plane)),
+                              deg_from_radians(roll_above(plane)),
+                              {}});
       result.poses.back().bias_px = image_of(Sight({&readings[i]}, result), field, state);
     }
     if (static_cast<std::size_t>(state) < result.poses.size()) ++result.poses[state].clouds;

@@ -31,8 +31,8 @@ struct CalibrationOptions {
 /// Clouds whose desks lie alike, by the first of them.
 struct CalibrationPose {
   int clouds = 0;
-  double height_mm = 0.0, pitch_deg = 0.0;  ///< of the clouds' camera over the desk
-  Image<float> bias_px;                     ///< what the device does in that pose, at the clouds' pixels
+  double height_mm = 0.0, pitch_deg = 0.0, roll_deg = 0.0;  ///< of the clouds' camera over the desk
+  Image<float> bias_px;  ///< what the device does in that pose, at the clouds' pixels
 };
 
 /// Images are 640 × 480 [px of disparity].

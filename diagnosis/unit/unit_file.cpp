@@ -18,7 +18,8 @@ Json json_from(const Calibration& unit) {
     poses.push_back({{"channel", channel_of_pose(i)},
                      {"clouds", unit.poses[i].clouds},
                      {"height_mm", unit.poses[i].height_mm},
-                     {"pitch_deg", unit.poses[i].pitch_deg}});
+                     {"pitch_deg", unit.poses[i].pitch_deg},
+                     {"roll_deg", unit.poses[i].roll_deg}});
   Json json = {{"source", fmt::format("fathom calibrate: {} clouds, {} views", unit.clouds, unit.views)},
                {"device",
                 {{"focal_px", unit.scale.focal_px},

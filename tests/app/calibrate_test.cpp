@@ -225,6 +225,36 @@ TEST_F(CalibrateCommand, ASecondRunTakesThePlaceOfTheFirst) {
   EXPECT_EQ(read_json(folder / "unit" / "unit.json")["source"], "fathom calibrate: 2 clouds, 1 views");
 }
 
+/// A sensor whose unit is known has errors that are known: one view of a bare desk is a measurement.
+TEST_F(CalibrateCommand, OneBareDeskBeforeACalibratedSensorIsDiagnosed) {
+  std::string clouds;
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = fmt::format("desk{}", i);
+    write_scene(name, 640.0 + 10.0 * i, 360.0, false, {{"serial", 5}});
+    const std::string cloud = capture(name, i + 1);
+    if (i < 3) clouds += cloud;
+  }
+  calibrate(clouds);
+  const fs::path measured = folder / "unit";
+  fs::copy_file(folder / "desk3" / "cloud.pcd", measured / "cloud.pcd");
+  write_text(measured / "frames.csv",
+             "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud\n"
+             "0,0,0,0,0,0,none,0,0,0,cloud.pcd\n");
+  const auto verdict_of = [&](const Json& more) {
+    Json sensor = {{"model", "xtion_pro_live_device"}, {"height_mm", 670.0}, {"pitch_deg", 61.75}};
+    sensor.update(more);
+    write_json(measured / "rig.json",
+               {{"sensor", sensor}, {"cup", {{"shape", "paper_cup"}}}, {"liquids", Json::object()}});
+    const ProgramRun run =
+        run_fathom(fmt::format("diagnose {} -o {} --quiet", measured.string(), (folder / "diagnosis").string()));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.exit_code == 0 ? read_json(folder / "diagnosis" / "report.json")["verdict"] : Json();
+  };
+  EXPECT_EQ(verdict_of({{"unit", "unit.json"}}), "none");
+  EXPECT_NE(verdict_of({{"unit", "unit.json"}, {"pitch_deg", 61.0}}), "none");
+  EXPECT_EQ(verdict_of(Json::object()), "insufficient");
+}
+
 TEST_F(CalibrateCommand, EachPoseHasItsChannel) {
   std::string clouds = write_desk("a.pcd", {}) + write_desk("b.pcd", {}) + write_desk("c.pcd", {.more_px = 5.0});
   EXPECT_EQ(calibrate(clouds)["poses"]["value"], 2.0);
@@ -232,6 +262,7 @@ TEST_F(CalibrateCommand, EachPoseHasItsChannel) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0]["clouds"], 2);
   EXPECT_NEAR(poses[0]["height_mm"].get<double>(), 650.0, 0.1);
+  EXPECT_NEAR(poses[0]["roll_deg"].get<double>(), 0.0, 0.05);
   EXPECT_EQ(read_exr_channel(folder / "unit" / "unit_bias.exr", poses[1]["channel"].get<std::string>()).width(), 640);
 }
 

@@ -1,6 +1,7 @@
 // What a diagnosis promises, on campaigns of which the truth is known. Rates over many sets:
 // bench/diagnosis_statistics.
 #include "diagnosis/statistics/decide.h"
+#include "diagnosis/statistics/sufficiency.h"
 
 #include <gtest/gtest.h>
 
@@ -421,6 +422,8 @@ TEST(Decide, ABareDeskAloneAsksForCups) {
   EXPECT_EQ(diagnosis.verdict, Verdict::insufficient);
   EXPECT_TRUE(has(diagnosis.missing, "1 condition ("));
   EXPECT_TRUE(has(diagnosis.missing, "cups at known places"));
+  evidence.is_calibrated = true;
+  EXPECT_TRUE(missing_for_diagnosis(evidence).empty());
 }
 
 TEST(Decide, IsDeterministic) {
