@@ -42,26 +42,25 @@ std::optional<CupPlace> place_of(const FrameView& view, const LaboratoryRig& rig
   return CupPlace{axis_from_camera(rig, *view.cup), clear_of_cup(rig)};
 }
 
-/// 1/z = q · (x/z, y/z, 1) for every `stride`-th of the points within `gate` of the plane; q = −n / offset.
-std::optional<Plane> refit(std::span<const SensedPoint> points, std::size_t stride, const Plane& desk, double gate,
+/// 1/z = q · (x/z, y/z, 1) for the points within `gate` of the plane; q = −n / offset.
+std::optional<Plane> refit(std::span<const SensedPoint> points, const Plane& desk, double gate,
                            const std::optional<CupPlace>& cup) {
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
   const Eigen::Vector2d axis = cup ? cup->centre : Eigen::Vector2d::Zero();
   const double clear = cup ? cup->clear_of_cup * cup->clear_of_cup : -1.0;
   const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
-  const Eigen::RowVector3f up = turn.row(2);
   const float offset = static_cast<float>(to_desk.translation().z()), within = static_cast<float>(gate);
   double uu = 0, uv = 0, vv = 0, u1 = 0, v1 = 0, ww = 0, uq = 0, vq = 0, qq = 0;
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    const SensedPoint& sensed = points[i];
-    if (std::abs(up.dot(sensed.point) + offset) > within) continue;
-    if (cup && ((turn.topRows<2>() * sensed.point).cast<double>() - axis).squaredNorm() < clear) continue;
+  for (const SensedPoint& sensed : points) {
+    const Eigen::Vector3f p = turn * sensed.point;
+    if (std::abs(p.z() + offset) > within) continue;
+    if ((p.head<2>().cast<double>() - axis).squaredNorm() < clear) continue;
     const double w = sensed.weight, inverse = 1.0 / sensed.point.z();
     const double u = sensed.point.x() * inverse, v = sensed.point.y() * inverse;
     uu += w * u * u, uv += w * u * v, vv += w * v * v, u1 += w * u, v1 += w * v, ww += w;
     uq += w * u * inverse, vq += w * v * inverse, qq += w * inverse;
   }
-  if (ww * static_cast<double>(stride) < kFewestPixels) return std::nullopt;
+  if (ww < kFewestPixels) return std::nullopt;
   Eigen::Matrix3d normal;
   normal << uu, uv, u1, uv, vv, v1, u1, v1, ww;
   const Eigen::Vector3d q = normal.ldlt().solve(Eigen::Vector3d(uq, vq, qq));
@@ -71,12 +70,10 @@ std::optional<Plane> refit(std::span<const SensedPoint> points, std::size_t stri
 
 std::optional<Plane> fit_desk(std::span<const SensedPoint> points, const LaboratoryRig& rig,
                               const std::optional<CupPlace>& cup) {
-  constexpr std::size_t kEnough = 20'000;  // points: the steps on the way need no more
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kEnough);
   std::optional<Plane> desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
-  for (const double gate : {0.060, 0.020, 0.008, 0.005})
-    if (desk) desk = refit(points, stride, *desk, gate, cup);
-  return desk ? refit(points, 1, *desk, 0.005, cup) : desk;
+  for (const double gate : {0.060, 0.020, 0.008, 0.005, 0.005})
+    if (desk) desk = refit(points, *desk, gate, cup);
+  return desk;
 }
 
 /// A point of the cup or next to it.
@@ -119,7 +116,7 @@ RegionEstimate region_mean(std::vector<SharedHeight>& heights) {
   return sums.estimate();
 }
 
-void set_inside(std::span<const CupPoint> points, double radius, double soft, CupEstimates& estimates) {
+void set_inside(std::span<const CupPoint> points, double radius, double soft, FrameEstimates& estimates) {
   const Eigen::Vector2d axis = middle_of_regions(estimates.outline);
   const double reach = radius + soft;
   std::array<std::vector<SharedHeight>, 5> height;
@@ -142,48 +139,67 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Cu
   estimates.interior_intensity = intensity.estimate();
 }
 
-template <std::size_t parts>
-void set_estimates(const std::array<Sums, parts>& sums, std::array<RegionEstimate, parts>& estimates) {
-  for (std::size_t i = 0; i < parts; ++i) estimates[i] = sums[i].estimate();
+}  // namespace
+
+double clear_of_cup(const LaboratoryRig& rig) {
+  constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
+  return rig.cup.widest() + kAround;
 }
 
-/// What the desk's points say, whose plane is known.
-void set_desk(std::span<const SensedPoint> points, const LaboratoryRig& rig, const std::optional<CupPlace>& cup,
-              FrameEstimates& estimates) {
+std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows) {
+  const double column = focal_px * point.x() / point.z() / kImageWidth_px + 0.5,
+               row = focal_px * point.y() / point.z() / kImageHeight_px + 0.5;
+  const auto part = [](double share, int parts) {
+    return static_cast<std::size_t>(std::clamp(share * parts, 0.0, parts - 1.0));
+  };
+  return columns * part(row, rows) + part(column, columns);
+}
+
+std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
+                                             const FrameView& view) {
+  const std::optional<CupPlace> cup = place_of(view, rig);
+  const std::optional<Plane> desk = fit_desk(points, rig, cup);
+  if (!desk) return std::nullopt;
+  const Eigen::Isometry3d to_desk = desk_from_camera(*desk);
+  const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
+  const Eigen::Vector3f shift = to_desk.translation().cast<float>();
+  const double steps_per_inverse = 8.0 * rig.focal_px * rig.baseline_m, two_pi = 2.0 * std::numbers::pi;
   constexpr float kOnDesk = 0.005f;
-  DeskBands& bands = estimates.desk_bands;
-  bands.desk = estimates.desk;
-  const Eigen::Isometry3f to_desk = desk_from_camera(bands.desk).cast<float>();
-  const double clear = cup ? cup->clear_of_cup * cup->clear_of_cup : 0.0;
-  const Eigen::Vector2d centre = cup ? cup->centre : Eigen::Vector2d::Zero();
-  const double of_inverse = rig.focal_px * rig.baseline_m, steps_per_inverse = 8.0 * of_inverse,
-               two_pi = 2.0 * std::numbers::pi;
-  const Eigen::Vector3d inverse_desk = -bands.desk.normal / bands.desk.offset;  // 1/z of it = that · (x/z, y/z, 1)
+  const Eigen::Vector3d inverse_desk = -desk->normal / desk->offset;  // 1/z of the desk = that · (x/z, y/z, 1)
   std::array<Sums, 9> residual, thirds;
+  Eigen::Matrix3d sights = Eigen::Matrix3d::Zero();
   std::array<Sums, std::tuple_size_v<decltype(DeskBands::rows)>> rows;
   std::array<Sums, std::tuple_size_v<decltype(DeskBands::columns)>> columns;
-  Sums intensity, codes;
-  Eigen::Matrix3d sights = Eigen::Matrix3d::Zero();
+  Sums desk_intensity;
+  std::vector<CupPoint> around;
+  std::optional<OutlineFit> outline;
+  if (cup) outline.emplace(rig, cup->centre, view.fill_m);
+  const double walls_reach = cup ? outline->reach() : 0.0;
   std::complex<double> comb;
   std::array<std::complex<double>, 2> coarse, coarse_of_plane;
   double millimetres = 0.0;
+  Sums codes;
   for (std::size_t number = 0; number < points.size(); ++number) {
     const SensedPoint& sensed = points[number];
-    const Eigen::Vector3f p = to_desk * sensed.point;
+    const Eigen::Vector3f p = turn * sensed.point + shift;
+    const Eigen::Vector2d from_axis = p.head<2>().cast<double>() - (cup ? cup->centre : Eigen::Vector2d::Zero());
+    const double squared = from_axis.squaredNorm(), w = sensed.weight;
+    if (squared < walls_reach * walls_reach) outline->add(from_axis, p.z(), w);
+    if (cup && squared < cup->clear_of_cup * cup->clear_of_cup) {
+      around.push_back({from_axis, p.z(), sensed.intensity, sensed.weight});
+      continue;
+    }
     if (std::abs(p.z()) > kOnDesk) continue;
-    if ((p.head<2>().cast<double>() - centre).squaredNorm() < clear) continue;
-    const double w = sensed.weight;
-    const Eigen::Vector3d seen = sensed.point.cast<double>(), sight = seen / seen.z();
-    const double inverse_of_plane = inverse_desk.dot(sight);
-    const double off_px = of_inverse * (1.0 / seen.z() - inverse_of_plane);
-    const ImageShare share = share_of_image(sensed.point, rig.focal_px);
-    const std::size_t third = 3 * part_of(share.row, 3) + part_of(share.column, 3);
+    const Eigen::Vector3d seen = sensed.point.cast<double>();
+    const double off_px = rig.focal_px * rig.baseline_m * (1.0 - inverse_desk.dot(seen)) / seen.z();
+    const std::size_t third = part_of_image(sensed.point, rig.focal_px, 3, 3);
     residual[third].add(p.z(), w);
     thirds[third].add(off_px, w);
+    const Eigen::Vector3d sight = seen / seen.z();
     sights += w * sight * sight.transpose();
-    rows[part_of(share.row, rows.size())].add(off_px, w);
-    columns[part_of(share.column, columns.size())].add(off_px, w);
-    intensity.add(sensed.intensity, w);
+    rows[part_of_image(sensed.point, rig.focal_px, 1, static_cast<int>(rows.size()))].add(off_px, w);
+    columns[part_of_image(sensed.point, rig.focal_px, static_cast<int>(columns.size()), 1)].add(off_px, w);
+    desk_intensity.add(sensed.intensity, w);
     if (number % kCombEvery != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.device_z > 0.0f ? sensed.device_z : sensed.point.z();  // steps are the device's
@@ -192,66 +208,32 @@ void set_desk(std::span<const SensedPoint> points, const LaboratoryRig& rig, con
     const std::complex<double> of_half = std::polar(1.0, 0.25 * two_pi * steps), of_quarter = of_half * of_half;
     coarse[0] += w * of_quarter;
     coarse[1] += w * of_half;
-    const double steps_of_plane = steps_per_inverse * (1.0 / kReference - inverse_of_plane) - 0.5;
+    const double steps_of_plane = steps_per_inverse * (1.0 / kReference - inverse_desk.dot(seen) / seen.z()) - 0.5;
     const std::complex<double> half_of_plane = std::polar(1.0, 0.25 * two_pi * steps_of_plane);
     coarse_of_plane[0] += w * half_of_plane * half_of_plane;
     coarse_of_plane[1] += w * half_of_plane;
     comb += w * of_quarter * of_quarter;
     millimetres += w * std::cos(two_pi * mm_from_metres(z));
   }
-  bands.sights = sights;
-  set_estimates(residual, estimates.desk_residual);
-  set_estimates(thirds, bands.thirds);
-  set_estimates(rows, bands.rows);
-  set_estimates(columns, bands.columns);
-  estimates.desk_intensity = intensity.estimate();
-  if (codes.weight <= 0.0) return;
-  estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
-  const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };
-  for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = length(coarse[i]);
-  estimates.spans_codes = codes.estimate().sd > kManyCodes &&
-                          std::max(length(coarse_of_plane[0]), length(coarse_of_plane[1])) < kTeethOfPlane;
-  estimates.millimetre_comb = millimetres / codes.weight;
-}
-
-}  // namespace
-
-double clear_of_cup(const LaboratoryRig& rig) {
-  constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
-  return rig.cup.widest() + kAround;
-}
-
-std::optional<CupEstimates> estimate_cup(std::span<const SensedPoint> points, const LaboratoryRig& rig,
-                                         const FrameView& view) {
-  const std::optional<CupPlace> cup = place_of(view, rig);
-  const std::optional<Plane> desk = fit_desk(points, rig, cup);
-  if (!desk) return std::nullopt;
-  CupEstimates estimates;
-  estimates.desk = *desk;
-  if (!cup) return estimates;
-  const Eigen::Isometry3f to_desk = desk_from_camera(*desk).cast<float>();
-  OutlineFit outline(rig, cup->centre, view.fill_m);
-  const double walls = outline.reach() * outline.reach(), clear = cup->clear_of_cup * cup->clear_of_cup;
-  std::vector<CupPoint> around;
-  for (const SensedPoint& sensed : points) {
-    const Eigen::Vector3f p = to_desk * sensed.point;
-    const Eigen::Vector2d from_axis = p.head<2>().cast<double>() - cup->centre;
-    const double squared = from_axis.squaredNorm();
-    if (squared < walls) outline.add(from_axis, p.z(), sensed.weight);
-    if (squared < clear) around.push_back({from_axis, p.z(), sensed.intensity, sensed.weight});
-  }
-  estimates.outline = outline.solve();
-  set_inside(around, interior_radius(rig.cup), view.soft_m, estimates);
-  return estimates;
-}
-
-std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
-                                             const FrameView& view) {
-  const std::optional<CupEstimates> of_cup = estimate_cup(points, rig, view);
-  if (!of_cup) return std::nullopt;
   FrameEstimates estimates;
-  static_cast<CupEstimates&>(estimates) = *of_cup;
-  set_desk(points, rig, place_of(view, rig), estimates);
+  estimates.desk = *desk;
+  for (std::size_t i = 0; i < residual.size(); ++i) estimates.desk_residual[i] = residual[i].estimate();
+  for (std::size_t i = 0; i < thirds.size(); ++i) estimates.desk_bands.thirds[i] = thirds[i].estimate();
+  estimates.desk_bands.desk = *desk;
+  estimates.desk_bands.sights = sights;
+  for (std::size_t i = 0; i < rows.size(); ++i) estimates.desk_bands.rows[i] = rows[i].estimate();
+  for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
+  estimates.desk_intensity = desk_intensity.estimate();
+  if (outline) estimates.outline = outline->solve();
+  set_inside(around, interior_radius(rig.cup), view.soft_m, estimates);
+  if (codes.weight > 0.0) {
+    estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
+    const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };
+    for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = length(coarse[i]);
+    estimates.spans_codes = codes.estimate().sd > kManyCodes &&
+                            std::max(length(coarse_of_plane[0]), length(coarse_of_plane[1])) < kTeethOfPlane;
+    estimates.millimetre_comb = millimetres / codes.weight;
+  }
   return estimates;
 }
 

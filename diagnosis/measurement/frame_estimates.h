@@ -1,7 +1,6 @@
 // What one frame says about desk and cup: the same estimators for a cloud's points and for a model's few rays.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -38,21 +37,16 @@ struct DeskBands {
 /// Codes of 1/8 px that the coarser combs have between their teeth.
 inline constexpr std::array<int, 2> kCoarseCombs{2, 4};
 
-/// Of the desk's plane and of the cup.
-struct CupEstimates {
+struct FrameEstimates {
   Plane desk;
+  std::array<RegionEstimate, 9> desk_residual;  ///< [m] heights above the fitted desk, by third of the image
+  DeskBands desk_bands;
+  RegionEstimate desk_intensity;  ///< [DN]
   std::array<RegionEstimate, 5>
       height;                         ///< [m] above the fitted desk, by region of the cup; of what lies near the median
   RegionEstimate interior;            ///< plain mean of all regions together
   RegionEstimate interior_intensity;  ///< [DN]
   std::optional<CupOutline> outline;
-};
-
-/// These, and what the desk's points say.
-struct FrameEstimates : CupEstimates {
-  std::array<RegionEstimate, 9> desk_residual;  ///< [m] heights above the fitted desk, by third of the image
-  DeskBands desk_bands;
-  RegionEstimate desk_intensity;           ///< [DN]
   Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
   std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px
   bool spans_codes = false;                         ///< whether the desk lies in so many codes that these tell anything
@@ -69,33 +63,11 @@ struct FrameView {
 /// Desk: the plane by least squares in inverse depth, where a plane is linear and disparity's noise is even; from where
 /// the rig puts it, in steps down to the points within 5 mm, apart from the cup's surroundings. Nothing when fewer than
 /// a hundred pixels lie on it.
-std::optional<CupEstimates> estimate_cup(std::span<const SensedPoint> points, const LaboratoryRig& rig,
-                                         const FrameView& view);
-
-/// The same, and all that the desk's points say.
 std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points, const LaboratoryRig& rig,
                                              const FrameView& view);
 
-/// Where a point is seen, as shares of the image's width and height.
-struct ImageShare {
-  double column, row;
-};
-
-inline ImageShare share_of_image(const Eigen::Vector3f& point, double focal_px) {
-  const double focal_over_z = focal_px / point.z();
-  return {focal_over_z * point.x() / kImageWidth_px + 0.5, focal_over_z * point.y() / kImageHeight_px + 0.5};
-}
-
-/// Number of the part, of so many, that a share lies in; one outside counts for the nearest.
-inline std::size_t part_of(double share, std::size_t parts) {
-  return static_cast<std::size_t>(std::clamp(share * static_cast<double>(parts), 0.0, static_cast<double>(parts - 1)));
-}
-
 /// Number of the part that a point is seen in, row by row, of an image in so many `columns` and `rows`.
-inline std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, std::size_t columns, std::size_t rows) {
-  const ImageShare share = share_of_image(point, focal_px);
-  return columns * part_of(share.row, rows) + part_of(share.column, columns);
-}
+std::size_t part_of_image(const Eigen::Vector3f& point, double focal_px, int columns, int rows);
 
 /// [m] about a cup's axis: nothing nearer counts as desk.
 double clear_of_cup(const LaboratoryRig& rig);

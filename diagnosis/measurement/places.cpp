@@ -38,13 +38,13 @@ void apply(const PlaceReading& reading, const LaboratoryRig& rig, FrameRecord& f
 }
 
 /// Whether what is seen inside stands clear of the desk, as every cup's bottom does.
-bool shows_bottom(const std::optional<CupEstimates>& estimates) {
+bool shows_bottom(const std::optional<FrameEstimates>& estimates) {
   constexpr double kLeastBottom = 0.002, kFewestPixels = 10.0;
   return estimates && estimates->interior.weight >= kFewestPixels && estimates->interior.mean > kLeastBottom;
 }
 
 /// Whether walls stand around where the cup should, of whatever cup they are.
-bool shows_walls(const std::optional<CupEstimates>& estimates) {
+bool shows_walls(const std::optional<FrameEstimates>& estimates) {
   constexpr double kNear = 0.006;  // [m] a hand's error; the fit reaches 12 mm
   return estimates && estimates->outline && estimates->outline->off.norm() < kNear;
 }
@@ -72,7 +72,7 @@ bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRi
 
 /// Whether the rig's cup is where it should be.
 bool shows_cup_of(const LaboratoryRig& rig, std::span<const SensedPoint> points,
-                  const std::optional<CupEstimates>& estimates, const Eigen::Vector2d& cup) {
+                  const std::optional<FrameEstimates>& estimates, const Eigen::Vector2d& cup) {
   constexpr double kAsWide = 0.003;  // [m]
   return shows_walls(estimates) && std::abs(estimates->outline->wider) < kAsWide &&
          shows_desk_in_front(points, rig, estimates->desk, cup);
@@ -98,7 +98,7 @@ std::string sentence_of(const PlaceReading& reading, const std::map<int, Count>&
 }  // namespace
 
 StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const LaboratoryRig& rig,
-                                 const FrameRecord& frame, const std::optional<CupEstimates>& as_written) {
+                                 const FrameRecord& frame, const std::optional<FrameEstimates>& as_written) {
   StandsElsewhere stands{};
   if (frame.bare_desk() || shows_walls(as_written)) return stands;
   for (std::size_t i = 0; i < kPlaceReadings; ++i) {
@@ -106,7 +106,7 @@ StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const Labo
     FrameRecord other = frame;
     apply(kReadings[i], rig, other);
     const Eigen::Vector2d place(other.lateral_m, other.distance_m);
-    const std::optional<CupEstimates> there = estimate_cup(points, rig, {place, frame.fill_m});
+    const std::optional<FrameEstimates> there = estimate_frame(points, rig, {place, frame.fill_m});
     stands[i] = shows_cup_of(rig, points, there, place) || (shows_bottom(there) && !shows_bottom(as_written));
   }
   return stands;

@@ -15,7 +15,7 @@ inline constexpr std::size_t kPlaceReadings = 5;
 /// Of one frame: whether its cup is not where it should be by the written place, but is by each other reading of it.
 using StandsElsewhere = std::array<bool, kPlaceReadings>;
 StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const LaboratoryRig& rig,
-                                 const FrameRecord& frame, const std::optional<CupEstimates>& as_written);
+                                 const FrameRecord& frame, const std::optional<FrameEstimates>& as_written);
 
 /// Where at least four cups of a session, and half of those that a reading moves, stand as that reading says, the
 /// session's places are changed and a mistake is added. Returns whether any are. `frames`: one of each of the

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <functional>
 #include <iterator>
 #include <map>
 
@@ -26,17 +25,13 @@
 namespace fathom {
 namespace {
 
-/// What is looked for before a unit's bias is known.
-struct FrameSurvey {
-  StandsElsewhere stands_elsewhere{};
-  CloudPrint print;
-  DeskCells cells;
-};
-
 struct FrameReading {
   std::vector<NamedValue> values;
   bool is_bare = false;  ///< the desk is seen where the cup should stand
+  StandsElsewhere stands_elsewhere{};
+  CloudPrint print;
   std::optional<DeskBands> bands;
+  DeskCells cells;
 };
 
 /// Of the pixels whose lines of sight pass through the cup's opening; nothing when there are none.
@@ -64,21 +59,7 @@ std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& ri
   return static_cast<double>(valid) / looked;
 }
 
-FrameSurvey survey_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder) {
-  FrameSurvey survey;
-  if (frame.cloud.empty()) return survey;
-  std::vector<SensedPoint> points = sensed_points(read_frame_cloud(frame, folder), rig);
-  survey.print = print_of(points, rig.focal_px);
-  if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
-  const FrameView view = view_of(frame);
-  const std::optional<CupEstimates> estimates = estimate_cup(points, rig, view);
-  if (!estimates || !is_near(estimates->desk, rig)) return survey;
-  survey.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
-  survey.cells.add(points, estimates->desk, rig, view);
-  return survey;
-}
-
-/// With `bias` taken off, where there is one.
+/// With `bias` taken off; without one the desk's cells are read.
 FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder,
                         const BiasField* bias) {
   FrameReading reading;
@@ -89,14 +70,17 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   }
   const Cloud cloud = read_frame_cloud(frame, folder);
   std::vector<SensedPoint> points = sensed_points(cloud, rig);
+  if (!bias) reading.print = print_of(points, rig.focal_px);
   if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
   if (bias) take_off(as_bias(*bias), rig, points);
   const FrameView view = view_of(frame);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
+  if (!bias) reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
   reading.bands = estimates->desk_bands;
+  if (!bias) reading.cells.add(points, estimates->desk, rig, view);
   const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
     if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
   };
@@ -108,18 +92,16 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   return reading;
 }
 
-/// What `read` makes of each frame. Of two frames that cannot be read the first is told of, whichever thread came
-/// first.
-template <class Reading>
-std::vector<Reading> of_frames(const Measurement& measurement, const Table& table, bool quiet,
-                               const std::function<Reading(const FrameRecord&)>& read) {
-  std::vector<Reading> readings(measurement.frames.size());
+/// Of two frames that cannot be read the first is told of, whichever thread came first.
+std::vector<FrameReading> read_frames_of(const Measurement& measurement, const std::filesystem::path& folder,
+                                         const Table& table, const BiasField* bias, bool quiet) {
+  std::vector<FrameReading> readings(measurement.frames.size());
   std::vector<std::string> problems(readings.size());
   const QuietPcl quiet_pcl;  // its verbosity is global: threads that silence it must all find it silent
   Progress progress("frame", readings.size(), quiet);
   parallel_ranges(static_cast<int>(readings.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i, progress.step()) try {
-        readings[i] = read(measurement.frames[i]);
+        readings[i] = read_frame(measurement.frames[i], measurement.rig, folder, bias);
       } catch (const Error& problem) {
         problems[i] = problem.what();
       }
@@ -233,7 +215,7 @@ struct Survey::Content {
   bool quiet;
   Table table;
   Measurement measurement;
-  std::vector<FrameSurvey> frames;
+  std::vector<FrameReading> readings;
 };
 
 Survey::Survey(const std::filesystem::path& folder, bool quiet)
@@ -241,15 +223,11 @@ Survey::Survey(const std::filesystem::path& folder, bool quiet)
   Measurement& measurement = content_->measurement;
   measurement.rig = read_rig(folder / "rig.json");
   measurement.frames = read_frames(content_->table, measurement.rig, folder);
-  const auto survey = [&] {
-    content_->frames = of_frames<FrameSurvey>(measurement, content_->table, quiet, [&](const FrameRecord& frame) {
-      return survey_frame(frame, measurement.rig, folder);
-    });
-  };
-  survey();
+  const auto read = [&] { content_->readings = read_frames_of(measurement, folder, content_->table, nullptr, quiet); };
+  read();
   std::vector<StandsElsewhere> elsewhere;
-  for (const FrameSurvey& frame : content_->frames) elsewhere.push_back(frame.stands_elsewhere);
-  if (put_places_right(elsewhere, measurement)) survey();
+  for (const FrameReading& reading : content_->readings) elsewhere.push_back(reading.stands_elsewhere);
+  if (put_places_right(elsewhere, measurement)) read();
 }
 
 Survey::~Survey() = default;
@@ -265,20 +243,18 @@ int Survey::sessions() const {
 
 std::map<int, DeskCells> Survey::desks() const {
   std::map<int, DeskCells> desks;
-  for (std::size_t i = 0; i < content_->frames.size(); ++i)
-    desks[content_->measurement.frames[i].session].add(content_->frames[i].cells);
+  for (std::size_t i = 0; i < content_->readings.size(); ++i)
+    desks[content_->measurement.frames[i].session].add(content_->readings[i].cells);
   return desks;
 }
 
 Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
   Measurement measurement = std::move(content_->measurement);
+  std::vector<FrameReading> readings = std::move(content_->readings);
   const Table& table = content_->table;
   std::vector<CloudPrint> prints;
-  for (const FrameSurvey& frame : content_->frames) prints.push_back(frame.print);
-  const BiasField* bias = unit ? &unit->field() : nullptr;
-  std::vector<FrameReading> readings = of_frames<FrameReading>(
-      measurement, table, content_->quiet,
-      [&](const FrameRecord& frame) { return read_frame(frame, measurement.rig, content_->folder, bias); });
+  for (const FrameReading& reading : readings) prints.push_back(reading.print);
+  if (unit) readings = read_frames_of(measurement, content_->folder, table, &unit->field(), content_->quiet);
   measurement.unit = std::move(unit);
   leave_out_misplaced(table, readings, measurement);
   Copies copies = find_copies(measurement.frames, prints);

@@ -30,7 +30,7 @@ bool is_near(const Plane& desk, const LaboratoryRig& rig) {
          std::abs(desk.offset - expected.offset) < allowed.prior_height_max_m;
 }
 
-bool shows_desk(const CupEstimates& estimates, const LaboratoryRig& rig) {
+bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig) {
   constexpr double kFewestPixels = 10.0;
   const double clear = 0.3 * rig.cup.bottom();
   return clear > 0.001 && estimates.interior.weight >= kFewestPixels && estimates.interior.mean < clear;

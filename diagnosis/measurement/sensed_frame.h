@@ -21,7 +21,7 @@ FrameView view_of(const FrameRecord& frame);
 bool is_near(const Plane& desk, const LaboratoryRig& rig);
 
 /// Whether the desk is seen inside a cup whose bottom should stand clear of it.
-bool shows_desk(const CupEstimates& estimates, const LaboratoryRig& rig);
+bool shows_desk(const FrameEstimates& estimates, const LaboratoryRig& rig);
 
 /// What clouds show that is otherwise than the notes say.
 struct Misplaced {
