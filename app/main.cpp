@@ -27,8 +27,8 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-/// The words that should be a command and one of its own must be some: CLI11 would only say that it did not expect
-/// them.
+/// A first word that is no command is an error that names the commands, and so is the next one of a command that has
+/// commands of its own: CLI11 would only say that it did not expect the word.
 void check_command(const CLI::App& app, std::span<char* const> words) {
   std::vector<std::string> names;
   const CLI::App* chosen = nullptr;
@@ -43,7 +43,7 @@ void check_command(const CLI::App& app, std::span<char* const> words) {
   if (*words[0] != '-') throw fathom::UsageError(fathom::unknown_name("command", words[0], names));
 }
 
-std::string some_name(const std::string& text) { return text.empty() ? "must name a folder, got ''" : ""; }
+std::string folder_name(const std::string& text) { return text.empty() ? "must name a folder, got ''" : ""; }
 
 int bad_usage(const std::string& what) {
   fathom::print_error(what, "Run with --help for more information.\n");
@@ -51,7 +51,7 @@ int bad_usage(const std::string& what) {
 }
 
 void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
-  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR")->check(some_name);
+  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR")->check(folder_name);
   app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");

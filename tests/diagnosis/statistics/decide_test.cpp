@@ -1,7 +1,6 @@
 // What a diagnosis promises, on campaigns of which the truth is known. Rates over many sets:
 // bench/diagnosis_statistics.
 #include "diagnosis/statistics/decide.h"
-#include "diagnosis/statistics/sufficiency.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/options.h"
 #include "diagnosis/statistics/scan.h"
+#include "diagnosis/statistics/sufficiency.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {
