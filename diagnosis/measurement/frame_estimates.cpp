@@ -17,7 +17,6 @@ constexpr double kFewestPixels = 100.0;
 // A plane of few codes, or of pixels at distances that are whole steps apart, has teeth of its own.
 constexpr double kManyCodes = 8.0;      // deviation
 constexpr double kTeethOfPlane = 0.25;  // a desk seen by all pixels has up to 0.15
-constexpr std::size_t kCombEvery = 7;   ///< points of which combs are taken: ten thousands are enough, cosines are dear
 
 /// Sums for mean and standard deviation.
 struct Sums {
@@ -179,6 +178,8 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   std::array<std::complex<double>, 2> coarse, coarse_of_plane;
   double millimetres = 0.0;
   Sums codes;
+  // Combs are taken of some of the points: ten thousands are enough, cosines are dear.
+  const std::size_t comb_every = points.size() > 100'000 ? 7 : 3;
   for (std::size_t number = 0; number < points.size(); ++number) {
     const SensedPoint& sensed = points[number];
     const Eigen::Vector3f p = turn * sensed.point + shift;
@@ -200,7 +201,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     rows[part_of_image(sensed.point, rig.focal_px, 1, static_cast<int>(rows.size()))].add(off_px, w);
     columns[part_of_image(sensed.point, rig.focal_px, static_cast<int>(columns.size()), 1)].add(off_px, w);
     desk_intensity.add(sensed.intensity, w);
-    if (number % kCombEvery != 0) continue;
+    if (number % comb_every != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.device_z > 0.0f ? sensed.device_z : sensed.point.z();  // steps are the device's
     const double steps = steps_per_inverse * (1.0 / kReference - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;

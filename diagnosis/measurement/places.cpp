@@ -53,19 +53,18 @@ bool shows_walls(const std::optional<FrameEstimates>& estimates) {
 bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRig& rig, const Plane& desk,
                          const Eigen::Vector2d& cup) {
   constexpr double kFrom = 0.012, kTo = 0.024, kAside = 0.020;  // [m] clear of the matcher's windows at the wall
-  constexpr int kFewest = 3;
+  constexpr double kFewest = 3.0;                               // pixels
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
   const Eigen::Vector2d axis = axis_from_camera(rig, cup);
   const Eigen::Vector2d to_sensor = -axis.normalized();
-  double height = 0.0;
-  int seen = 0;
+  double height = 0.0, seen = 0.0;
   for (const SensedPoint& sensed : points) {
     const Eigen::Vector3d point = to_desk * sensed.point.cast<double>();
     const Eigen::Vector2d from_axis = point.head<2>() - axis;
     const double ahead = from_axis.dot(to_sensor) - rig.cup.widest();
     if (ahead < kFrom || ahead > kTo || (from_axis - from_axis.dot(to_sensor) * to_sensor).norm() > kAside) continue;
-    height += point.z();
-    ++seen;
+    height += sensed.weight * point.z();
+    seen += sensed.weight;
   }
   return seen >= kFewest && std::abs(height / seen) < 0.5 * rig.cup.bottom();
 }

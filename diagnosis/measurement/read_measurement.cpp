@@ -71,9 +71,10 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   const Cloud cloud = read_frame_cloud(frame, folder);
   std::vector<SensedPoint> points = sensed_points(cloud, rig);
   if (!bias) reading.print = print_of(points, rig.focal_px);
+  const FrameView view = view_of(frame);
+  points = with_desk_thinned(cloud, std::move(points), rig, view);
   if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
   if (bias) take_off(as_bias(*bias), rig, points);
-  const FrameView view = view_of(frame);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
   if (!bias) reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);

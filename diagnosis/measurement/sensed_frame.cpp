@@ -8,14 +8,45 @@
 
 namespace fathom {
 
+namespace {
+
+bool is_measured(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0.0f; }
+
+}  // namespace
+
 std::vector<SensedPoint> sensed_points(const Cloud& cloud, const LaboratoryRig& rig) {
   std::vector<SensedPoint> points;
   points.reserve(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (cloud.points[i].allFinite() && cloud.points[i].z() > 0.0f)
+    if (is_measured(cloud.points[i]))
       points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
   if (cloud.height <= 1) weigh_by_sampling(points, rig.focal_px);
   return points;
+}
+
+std::vector<SensedPoint> with_desk_thinned(const Cloud& cloud, std::vector<SensedPoint> points,
+                                           const LaboratoryRig& rig, const FrameView& view) {
+  constexpr std::size_t kWhole = 100'000;  // points: of fewer each counts
+  constexpr std::size_t kEvery = 7;        // neighbours share their noise, 8 px along rows; widths of images share no 7
+  constexpr double kPoseError = 0.04;      // [m] of the cup's place; where a rig is off by more its cup is thinned too
+  if (points.size() < kWhole) return points;
+  const Eigen::Isometry3f to_desk =
+      desk_from_camera(plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad})).cast<float>();
+  const Eigen::Vector2f axis = view.cup ? Eigen::Vector2f(axis_from_camera(rig, *view.cup).cast<float>())
+                                        : Eigen::Vector2f(Eigen::Vector2f::Zero());
+  const auto near = view.cup ? static_cast<float>(clear_of_cup(rig) + kPoseError) : 0.0f;
+  std::vector<SensedPoint> kept;
+  std::size_t number = 0;
+  for (std::size_t pixel = 0; pixel < cloud.points.size(); ++pixel) {
+    if (!is_measured(cloud.points[pixel])) continue;
+    SensedPoint sensed = points[number++];
+    if (((to_desk * sensed.point).head<2>() - axis).squaredNorm() >= near * near) {
+      if (pixel % kEvery != 0) continue;  // by the pixel, so that all trials show the same ones
+      sensed.weight *= static_cast<float>(kEvery);
+    }
+    kept.push_back(sensed);
+  }
+  return kept;
 }
 
 FrameView view_of(const FrameRecord& frame) {

@@ -14,6 +14,11 @@ namespace fathom {
 /// The measured points; of a cloud without rows each weighs as much of the image as it stands for.
 std::vector<SensedPoint> sensed_points(const Cloud& cloud, const LaboratoryRig& rig);
 
+/// Of a cloud's points those about the cup, and of the others, where there are many, every seventh pixel's with the
+/// weight of seven.
+std::vector<SensedPoint> with_desk_thinned(const Cloud& cloud, std::vector<SensedPoint> points,
+                                           const LaboratoryRig& rig, const FrameView& view);
+
 /// Where the notes say that the cup stands, and how full.
 FrameView view_of(const FrameRecord& frame);
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "core/units.h"
+#include "diagnosis/measurement/sensed_frame.h"
 
 namespace fathom {
 namespace {
@@ -31,6 +33,62 @@ TEST(FrameEstimates, TellNothingOfCodesWhereRowsAreWholeCodesApart) {
   EXPECT_TRUE(spans_codes(1));
   EXPECT_TRUE(spans_codes(7));
   EXPECT_FALSE(spans_codes(10));
+}
+
+/// Pixels that points stand for, of all and of those as near to a cup's axis as counts for the cup.
+struct Pixels {
+  double all = 0.0, near = 0.0;
+  std::size_t near_points = 0;
+};
+Pixels pixels_of(const std::vector<SensedPoint>& points, const LaboratoryRig& rig, const Eigen::Vector2d& cup) {
+  const Eigen::Isometry3d to_desk = desk_from_camera(plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}));
+  Pixels pixels;
+  for (const SensedPoint& sensed : points) {
+    const Eigen::Vector3d p = to_desk * sensed.point.cast<double>();
+    pixels.all += sensed.weight;
+    if ((p.head<2>() - axis_from_camera(rig, cup)).norm() > clear_of_cup(rig)) continue;
+    pixels.near += sensed.weight;
+    ++pixels.near_points;
+  }
+  return pixels;
+}
+
+/// The same as an organised cloud, in which some pixels saw nothing.
+Cloud cloud_of(const std::vector<SensedPoint>& points, std::size_t holes) {
+  Cloud cloud;
+  for (const SensedPoint& sensed : points) cloud.points.push_back(sensed.point);
+  for (std::size_t i = 0; i < holes; ++i) cloud.points[1000 * i].setConstant(NAN);
+  cloud.width = 640;
+  cloud.height = 480;
+  return cloud;
+}
+
+TEST(DeskThinned, KeepsTheCupWholeAndThePixelsThatTheDeskCovers) {
+  LaboratoryRig rig;
+  rig.height_m = 0.650;
+  rig.pitch_rad = radians_from_deg(58.0);
+  const FrameView view{Eigen::Vector2d(0.05, 0.4), 0.0};
+  const std::vector<SensedPoint> whole = desk_of_rows(rig, 1);
+  const auto thinned = [&](std::size_t holes) {
+    const Cloud cloud = cloud_of(whole, holes);
+    return with_desk_thinned(cloud, sensed_points(cloud, rig), rig, view);
+  };
+  const std::vector<SensedPoint> some = thinned(0);
+  const Pixels before = pixels_of(whole, rig, *view.cup), after = pixels_of(some, rig, *view.cup);
+  EXPECT_LT(some.size(), whole.size() / 4);
+  EXPECT_GT(after.near_points, 1000u);
+  EXPECT_EQ(after.near_points, before.near_points);
+  EXPECT_EQ(after.near, before.near);
+  EXPECT_NEAR(after.all, before.all, 0.01 * before.all);
+  // A desk without steps lies where it lay.
+  EXPECT_NEAR(estimate_frame(some, rig, view)->desk.offset, rig.height_m, 1e-5);
+  // Holes shift no other pixels: a trial with some shows the same ones.
+  std::set<float> known;
+  for (const SensedPoint& sensed : some) known.insert(sensed.point.x());
+  for (const SensedPoint& sensed : thinned(50)) EXPECT_TRUE(known.contains(sensed.point.x()));
+  // Clouds that were thinned before keep what they have.
+  const std::vector<SensedPoint> few = desk_of_rows(rig, 2);
+  EXPECT_EQ(with_desk_thinned({}, few, rig, view).size(), few.size());
 }
 
 }  // namespace
