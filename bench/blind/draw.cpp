@@ -68,14 +68,16 @@ double escape(const Strengths& strengths, const Shown& hidden) {
   return strengths.escape(hidden.signature, others);
 }
 
-/// What the registry's effects imitate, nobody can call unknown: something else is hidden instead.
+/// What the registry's effects imitate, nobody can call unknown: something else is hidden instead. Nor is hidden what
+/// passes for the unit's own bias. Coarser steps are not hidden either: heights stay right, and a diagnosis only notes
+/// them.
 std::vector<Shown> hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& truth) {
   constexpr double kLeastEscape = 4.0;
   constexpr int kTries = 8;
   const bool never_registered = rng.uniform() < 0.6;
   for (int i = 0; i < kTries; ++i) {
     const auto hidden = draw_effect(strengths, !never_registered, {}, 2.0 * draw_strength(rng), rng);
-    if (!hidden) continue;
+    if (!hidden || shows_in_steps(*hidden->active.effect) || passes_for_the_unit(*hidden->active.effect)) continue;
     truth.escape = escape(strengths, *hidden);
     if (truth.escape < kLeastEscape) continue;
     if (!never_registered) truth.left_out = hidden->active.effect->name;

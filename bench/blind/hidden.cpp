@@ -99,10 +99,18 @@ const std::array kHidden{
            [](World& w, P, double px) { w.sensor.window_px = 9 + 2 * static_cast<int>(std::lround(0.5 * px)); }},
     // Never registered.
     Hidden{"wall_caustic", "pull_px", 0, 0.4, -2, 2, false, [](World& w, P, double px) { w.cup.caustic = px; }},
+    // What stays at its place in all frames is the unit's own bias: in the first session the lens is clean and the stand
+    // still.
     Hidden{"dirty_lens", "disparity_px", 0, 0.3, -1.5, 1.5, false,
-           [](World& w, P, double px) { w.strange.lens_patch_px = px; }},
+           [](World& w, P p, double px) {
+             if (p.session > 0) w.strange.lens_patch_px = px;
+           }},
     Hidden{"rolling_exposure", "disparity_px", 0, 0.1, -0.6, 0.6, false,
-           [](World& w, P, double px) { w.strange.rolling_px = px; }},
+           [](World& w, P p, double px) {
+             if (p.session == 0) return;
+             w.strange.rolling_px = px;
+             w.strange.rolling_phase = 2.0 * std::numbers::pi * Rng(0x2011, p.session).uniform();
+           }},
     Hidden{"vibration", "disparity_px", 0, 0.05, 0.005, 0.5, false,
            [](World& w, P, double px) { w.strange.vibration_px = px; }},
 };
@@ -120,8 +128,12 @@ const Hidden& hidden_effect(std::string_view name) {
 bool shows_in_spread(const Hidden& effect) { return effect.name == "depth_wander" || effect.name == "vibration"; }
 bool shows_in_steps(const Hidden& effect) { return effect.name == "depth_quantization"; }
 bool shows_in_means(const Hidden& effect) { return !shows_in_spread(effect) && !shows_in_steps(effect); }
+bool passes_for_the_unit(const Hidden& effect) { return effect.name == "radial_distortion"; }
+bool shows_by_session(const Hidden& effect) { return effect.name == "dirty_lens" || effect.name == "rolling_exposure"; }
 bool shows_over_time(const Hidden& effect) { return effect.name == "thermal_drift" || effect.name == "evaporation"; }
-bool differs_by_placement(const Hidden& effect) { return shows_over_time(effect) || effect.name == "ripples"; }
+bool differs_by_placement(const Hidden& effect) {
+  return shows_over_time(effect) || shows_by_session(effect) || effect.name == "ripples";
+}
 
 void apply_all(World& world, const Placement& placement, std::span<const Active> effects) {
   for (const Active& active : effects) active.effect->apply(world, placement, active.departure);

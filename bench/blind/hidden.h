@@ -29,7 +29,10 @@ const Hidden& hidden_effect(std::string_view name);
 bool shows_in_spread(const Hidden& effect);
 bool shows_in_steps(const Hidden& effect);
 bool shows_in_means(const Hidden& effect);
-bool shows_over_time(const Hidden& effect);  ///< what it does goes by Placement's times
+bool shows_by_session(const Hidden& effect);  ///< sessions differ in what it does
+bool shows_over_time(const Hidden& effect);   ///< what it does goes by Placement's times
+/// A bend of the whole image, the same in all frames.
+bool passes_for_the_unit(const Hidden& effect);
 /// Whether placements of one liquid, fill and place differ in what it does.
 bool differs_by_placement(const Hidden& effect);
 

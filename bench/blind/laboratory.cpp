@@ -99,6 +99,7 @@ World true_world(const Placement& placement, std::uint64_t seed, double scale) {
   world.cup.centre.x() += scale * kPlacementSigma * place.normal();
   world.cup.centre.y() += scale * kPlacementSigma * place.normal();
   world.noise_scale = scale;
+  world.unit = draw_unit(seed);
   Rng specks(seed, Draw::dust);
   for (const Uncertain& value : kDust) value.add(world, value.sigma * specks.normal());
   return world;

@@ -38,7 +38,8 @@ std::span<const Uncertain> dust();
 inline constexpr double kFillSigma = 0.5e-3, kPlacementSigma = 0.5e-3;
 
 /// Moves the truth away from what is believed, by draws keyed by the set's seed: the rig's errors, a little more for
-/// each session's setting up, each pour's fill, each placement's place, and dust. `scale` multiplies all but the dust.
+/// each session's setting up, each pour's fill, each placement's place, the unit's bias, and dust. `scale` multiplies
+/// all but the unit's bias and the dust.
 World true_world(const Placement& placement, std::uint64_t seed, double scale);
 
 }  // namespace fathom::blind

@@ -59,20 +59,26 @@ Eigen::Vector3d believed_point(const Eyes& believed_eyes, const Eigen::Vector2d&
   return believed_eyes.camera + believed_eyes.world_from_camera * cloud_point(pixel, depth_of(disparity_px));
 }
 
-DeskPlane desk_as_seen(const World& world, const Eyes& believed_eyes) {
-  std::vector<SeenDot> seen;
+Look look(const World& world, const Placement& placement, std::uint64_t standing) {
+  Look seen;
   const Eyes eyes = eyes_of(world.sensor);
   for (int v = 120; v <= 420; v += 60)
-    for (int u = 40; u <= 520; u += 80) follow(world, eyes, {{u, v}, 0}, false, seen);
-  std::vector<Eigen::Vector3d> points;
-  const double common = world.warm_up_px * std::exp(-world.seconds / 600.0);
-  for (const SeenDot& dot : seen) points.push_back(believed_point(believed_eyes, dot.pixel, dot.disparity_px + common));
-  return fit_plane(points);
+    for (int u = 40; u <= 520; u += 80) follow(world, eyes, {{u, v}, 0}, false, seen.desk);
+  if (!placement.has_cup()) return seen;
+  const Raster raster = inside_raster(placement);
+  seen.inside = match(world, dots_for(world.sensor, raster, 0.5, 0.95), true, raster, standing);
+  return seen;
 }
 
-Readings observe(const World& world, const Placement& placement, int trials, std::uint64_t standing) {
+Readings readings_of(const Look& look, const World& world, const Placement& placement, int trials) {
   const Eyes eyes = eyes_of(believed(placement).sensor);
-  const DeskPlane desk = desk_as_seen(world, eyes);
+  const double common = world.warm_up_px * std::exp(-world.seconds / 600.0);
+  const auto point_at = [&](const Eigen::Vector2d& pixel, double disparity_px) {
+    return believed_point(eyes, pixel, disparity_px + field_px(world, pixel, disparity_px) + common);
+  };
+  std::vector<Eigen::Vector3d> of_desk;
+  for (const SeenDot& dot : look.desk) of_desk.push_back(point_at(dot.pixel, dot.disparity_px));
+  const DeskPlane desk = fit_plane(of_desk);
   Readings readings{};
   const double slope_sigma = kDeskSigma / 0.1;
   readings[kDesk] = {desk.height, kDeskSigma};
@@ -80,16 +86,13 @@ Readings observe(const World& world, const Placement& placement, int trials, std
   readings[kDesk + 2] = {desk.slope.y(), slope_sigma};
   if (!placement.has_cup()) return readings;
 
-  const Raster raster = inside_raster(placement);
-  const Matched matched = match(world, dots_for(world.sensor, raster, 0.5, 0.95), true, raster, standing);
-  const double common = world.warm_up_px * std::exp(-world.seconds / 600.0);
+  const Matched& matched = look.inside;
   std::array<int, kRegions> blocks{};
   std::array<std::vector<double>, kRegions> shares;  // of each dot in a region's mean [m per px]
   std::array<double, 2> light{};                     // of the inside, of the wall
   std::array<int, 2> lit{};
   for (const Block& block : matched.blocks) {
-    const Eigen::Vector3d p =
-        believed_point(eyes, block.pixel, block.disparity_px + field_px(world, block.pixel) + common);
+    const Eigen::Vector3d p = point_at(block.pixel, block.disparity_px);
     const int region = region_of(p.head<2>() - Eigen::Vector2d(placement.lateral, placement.distance));
     if (region >= 0 || block.lit == Lit::inner_wall) {
       light[region < 0] += block.brightness;
@@ -121,6 +124,10 @@ Readings observe(const World& world, const Placement& placement, int trials, std
     if (lit[i] >= kFewestBlocks)
       readings[kBrightness + i] = {std::log(light[i] / lit[i]), kGrainShare / std::sqrt(static_cast<double>(lit[i]))};
   return readings;
+}
+
+Readings observe(const World& world, const Placement& placement, int trials, std::uint64_t standing) {
+  return readings_of(look(world, placement, standing), world, placement, trials);
 }
 
 std::optional<MeanHeight> mean_height(std::span<const CloudPoint> cloud, const Placement& placement) {

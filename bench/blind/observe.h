@@ -25,9 +25,6 @@ DeskPlane fit_plane(std::span<const Eigen::Vector3d> points);
 /// A block's point in the world as the laboratory believes it, for a disparity without the device's steps.
 Eigen::Vector3d believed_point(const Eyes& believed_eyes, const Eigen::Vector2d& pixel, double disparity_px);
 
-/// Without noise: the desk's plane as the world's light shows it.
-DeskPlane desk_as_seen(const World& world, const Eyes& believed_eyes);
-
 /// One number, and what the device's noise makes it uncertain by, over all trials.
 struct Reading {
   double value, sigma;
@@ -38,7 +35,17 @@ struct Reading {
 inline constexpr int kRegions = 5, kBrightness = kRegions, kDesk = kRegions + 2, kReadings = kRegions + 5;
 using Readings = std::array<Reading, kReadings>;
 
+/// What light shows, before the device adds what it is off by: dots of the desk, and blocks of the cup's inside.
+struct Look {
+  std::vector<SeenDot> desk;
+  Matched inside;  ///< empty without a cup
+};
 /// Noise-free, dots and grains keyed by `standing`.
+Look look(const World& world, const Placement& placement, std::uint64_t standing);
+
+/// What a device reads of it. Of `world` only the device's own errors count.
+Readings readings_of(const Look& look, const World& world, const Placement& placement, int trials);
+
 Readings observe(const World& world, const Placement& placement, int trials, std::uint64_t standing);
 
 /// Mean, deviation and number of the points of a frame within the cup's nominal inside less 10 mm: what a laboratory

@@ -41,15 +41,17 @@ Raster near_cup(const Placement& placement) {
           high.array().ceil().matrix().cast<int>().cwiseMin(Eigen::Vector2i(640, 480) - border), 2};
 }
 
-double field_px(const World& world, const Eigen::Vector2d& pixel) {
+double field_px(const World& world, const Eigen::Vector2d& pixel, double disparity_px) {
   const Eigen::Vector2d off = pixel - Eigen::Vector2d(320, 240);
   const Eigen::Vector2d from_patch = pixel - world.strange.lens_patch_at;
-  double px = world.dust.pattern_bend_px * off.squaredNorm() / (400.0 * 400.0);
+  const double nearer_px = disparity_px - kDisparityMm / kReferenceMm;
+  double px = unit_px(world.unit, pixel - Eigen::Vector2d(nearer_px, 0.0));
+  px += world.dust.pattern_bend_px * off.squaredNorm() / (400.0 * 400.0);
   px += world.dust.band_px * (static_cast<int>(pixel.y()) / 16 % 2 == 0 ? 1.0 : -1.0);
   if (world.strange.lens_patch_px != 0.0)
     px += world.strange.lens_patch_px * std::exp(-0.5 * from_patch.squaredNorm() / (40.0 * 40.0));
   if (world.strange.rolling_px != 0.0)
-    px += world.strange.rolling_px * std::sin(2.0 * std::numbers::pi * pixel.y() / 260.0);
+    px += world.strange.rolling_px * std::sin(2.0 * std::numbers::pi * pixel.y() / 260.0 + world.strange.rolling_phase);
   return px;
 }
 
@@ -65,7 +67,7 @@ Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, cons
     errors[i] = world.noise_scale * kStaticDotPx * matched.dot_sigma[i] * error_of(rng, world.heavy_tails);
   }
   for (const Block& block : matched.blocks) {
-    double px = field_px(world, block.pixel);
+    double px = field_px(world, block.pixel, block.disparity_px);
     for (int k = block.first; k < block.first + block.count; ++k)
       px += matched.members[k].error_weight * errors[matched.members[k].dot];
     scene.standing_px.push_back(px);

@@ -22,8 +22,8 @@ struct Scene {
 Raster near_cup(const Placement& placement);  ///< every 2nd pixel of the cup and 12 mm around it
 Raster whole_image();                         ///< every 12th
 
-/// What a place in the image is off, whatever stands there.
-double field_px(const World& world, const Eigen::Vector2d& pixel);
+/// What a place in the image is off, whatever stands there; the unit's own bias goes with the place that it remembers.
+double field_px(const World& world, const Eigen::Vector2d& pixel, double disparity_px);
 
 Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, const Raster& raster,
             std::uint64_t standing);

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "bench/blind/match.h"
+#include "bench/blind/unit.h"
 #include "core/estimate.h"
 
 namespace fathom::blind {
@@ -73,11 +74,14 @@ Eigen::MatrixXd Strengths::difference(std::span<const Active> effects) const {
       !differs_by_placement(*effects[0].effect))
     return difference_of_views(
         [&](std::size_t i) -> const View& { return seen_from(i).typical.at(effects[0].effect->name); });
-  const bool over_time =
-      std::any_of(effects.begin(), effects.end(), [](const Active& active) { return shows_over_time(*active.effect); });
-  std::map<Condition, View> known;
+  const auto any = [&](bool (*shows)(const Hidden&)) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Active& active) { return shows(*active.effect); });
+  };
+  const bool over_time = any(shows_over_time), by_session = any(shows_by_session);
+  std::map<std::pair<Condition, int>, View> known;
   return difference_of_views([&](std::size_t i) -> const View& {
-    const auto [seen, is_new] = known.try_emplace(condition_of(placements_[i]));
+    const auto [seen, is_new] =
+        known.try_emplace({condition_of(placements_[i]), by_session ? placements_[i].session : 0});
     if (is_new || over_time)
       seen->second = view(placements_[i], [&](World& world, const Placement& p) { apply_all(world, p, effects); });
     return seen->second;
@@ -159,6 +163,12 @@ Strengths::Strengths(const Design& design, std::vector<Placement> placements, co
     changes[nuisances()[n].shared].push_back(
         difference_of_views([&](std::size_t i) -> const View& { return seen_from(i).nuisances[n]; }).rowwise().mean() /
         kNuisanceSigmas);
+  // A table of heights shows no desk from which the unit's bias could be learned.
+  const double left_of_unit = design_.clouds ? kLeftOfUnit : 1.0;
+  for (int wave = 0; wave < kUnitWaves; ++wave)
+    changes[Shared::by_all].push_back(
+        left_of_unit / kNuisanceSigmas *
+        difference_of_views([&](std::size_t i) -> const View& { return seen_from(i).unit[wave]; }).rowwise().mean());
   for (const bool of_milk : {false, true}) changes[Shared::by_all].push_back(brighter(of_milk));
   set_covariances(changes[Shared::by_placement]);
 

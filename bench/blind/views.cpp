@@ -29,8 +29,31 @@ std::vector<Nuisance> all_nuisances() {
   return all;
 }
 
+Placement place_of_look(Placement placement, int number) {
+  Rng rng(kStanding, number);
+  placement.lateral += kElsewhere * (rng.uniform() - 0.5);
+  placement.distance += kElsewhere * (rng.uniform() - 0.5);
+  return placement;
+}
+
+/// The unit's bias changes what is read, not what light does.
+std::array<View, kUnitWaves> views_of_unit(const Placement& placement) {
+  std::array<View, kUnitWaves> views{};
+  for (int number = 0; number < kLooks; ++number) {
+    const Placement there = place_of_look(placement, number);
+    World world = believed(there);
+    const Look seen = look(world, there, kStanding + number);
+    for (int wave = 0; wave < kUnitWaves; ++wave) {
+      world.unit = {};
+      world.unit[wave] = kNuisanceSigmas * unit_sigmas()[wave];
+      views[wave][number] = readings_of(seen, world, there, 1);
+    }
+  }
+  return views;
+}
+
 ConditionViews views_under(const Placement& placement, const std::set<int>& trials) {
-  ConditionViews views{.believed = view(placement, [](World&, const Placement&) {})};
+  ConditionViews views{.believed = view(placement, [](World&, const Placement&) {}), .unit = views_of_unit(placement)};
   for (const Nuisance& nuisance : nuisances())
     views.nuisances.push_back(view(
         placement, [&](World& world, const Placement&) { nuisance.add(world, kNuisanceSigmas * nuisance.sigma); }));
@@ -50,14 +73,11 @@ Condition condition_of(const Placement& placement) {
 
 View view(const Placement& placement, const Change& change) {
   View seen;
-  for (int look = 0; look < kLooks; ++look) {
-    Placement there = placement;
-    Rng rng(kStanding, look);
-    there.lateral += kElsewhere * (rng.uniform() - 0.5);
-    there.distance += kElsewhere * (rng.uniform() - 0.5);
+  for (int number = 0; number < kLooks; ++number) {
+    const Placement there = place_of_look(placement, number);
     World world = believed(there);
     change(world, there);
-    seen[look] = observe(world, there, 1, kStanding + look);
+    seen[number] = observe(world, there, 1, kStanding + number);
   }
   return seen;
 }

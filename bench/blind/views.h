@@ -14,6 +14,7 @@
 #include "bench/blind/hidden.h"
 #include "bench/blind/observe.h"
 #include "bench/blind/plan.h"
+#include "bench/blind/unit.h"
 
 namespace fathom::blind {
 
@@ -47,6 +48,7 @@ inline constexpr double kNuisanceSigmas = 4.0;
 
 struct ConditionViews {
   View believed{};
+  std::array<View, kUnitWaves> unit{};         ///< of each wave of a unit's bias, of kNuisanceSigmas
   std::vector<View> nuisances{};               ///< of kNuisanceSigmas each, in the order of nuisances()
   std::map<std::string_view, View> typical{};  ///< of effects at their typical departure, where all placements agree
   std::map<int, Readings> noise{};             ///< for the number of trials: sigmas

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "bench/blind/unit.h"
+
 namespace fathom::blind {
 
 /// The unit as it was built, not as its table of depths supposes (`device_law.h`).
@@ -58,8 +60,10 @@ struct Dust {
 struct Strange {
   double lens_patch_px = 0.0;  ///< disparity in the middle of a dirty spot of the lens
   Eigen::Vector2d lens_patch_at{320.0, 300.0};
-  double rolling_px = 0.0;  ///< disparity per 100 rows, from an exposure that runs down the image while the stand sways
-  double vibration_px = 0.0;  ///< amplitude of a sine along the rows, its phase new in every frame
+  double rolling_px =
+      0.0;  ///< disparity along the rows, from an exposure that runs down the image while the stand sways
+  double rolling_phase = 0.0;  ///< where in the sway the exposure starts
+  double vibration_px = 0.0;   ///< amplitude of a sine along the rows, its phase new in every frame
 };
 
 struct World {
@@ -75,6 +79,7 @@ struct World {
   bool heavy_tails = false;   ///< errors of dots as Student's t of 4 instead of normal
   double seconds = 0.0;       ///< since the session began
   double since_poured = 0.0;  ///< [s]
+  UnitBias unit{};
   Dust dust;
   Strange strange;
 };
