@@ -9,23 +9,18 @@ namespace fathom {
 
 namespace {
 
-/// Variance that a component leaves in the mean of some observations.
-double of_component(const VarianceComponent& component, const std::vector<Eigen::Index>& rows) {
-  std::map<int, double> sums;
-  for (const auto row : rows)
-    if (component.groups.of[row] >= 0) sums[component.groups.of[row]] += component.scale[row];
-  double squares = 0.0;
-  for (const auto& [group, sum] : sums) squares += sum * sum;
-  return component.variance * squares / std::pow(static_cast<double>(rows.size()), 2.0);
-}
-
-/// The same of the predictions' own error and of the errors of the model that observations share.
+/// Variance that errors of the model which observations share leave in the mean of some of them.
 double of_model(const Covariance& covariance, const std::vector<Eigen::Index>& rows) {
-  double variance = of_component(covariance.numerical, rows);
+  double variance = 0.0;
   for (const ObservableErrors& errors : covariance.errors.observables)
-    for (const VarianceComponent& component : errors.components)
-      if (component.level == ErrorLevel::model) variance += of_component(component, rows);
-  return variance;
+    for (const VarianceComponent& component : errors.components) {
+      if (component.level != ErrorLevel::model) continue;
+      std::map<int, double> counts;
+      for (const auto row : rows)
+        if (component.groups.of[row] >= 0) counts[component.groups.of[row]] += 1.0;
+      for (const auto& [group, count] : counts) variance += component.variance * count * count;
+    }
+  return variance / std::pow(static_cast<double>(rows.size()), 2.0);
 }
 
 std::vector<std::vector<Eigen::Index>> budget_lines(const std::vector<Observation>& observations) {
@@ -44,7 +39,7 @@ std::vector<ConditionBudget> uncertainty_budget(const Evidence& evidence, const 
     for (const auto row : rows) line.comparison_error += (observations[row].value - evidence.predicted[row]) / n;
     const double total = part(covariance, rows).sum() / (n * n);
     const double input = covariance.nuisance(rows, Eigen::all).colwise().sum().squaredNorm() / (n * n);
-    const double numerical = of_model(covariance, rows);
+    const double numerical = covariance.numerical_variance(rows).sum() / (n * n) + of_model(covariance, rows);
     line.u_validation = std::sqrt(total);
     line.u_input = std::sqrt(input);
     line.u_numerical = std::sqrt(numerical);

@@ -15,11 +15,8 @@ namespace {
 
 /// Nothing is predicted better than this share of the change that the candidates make in an observable.
 constexpr double kNumericalFloor = 1e-4;
-/// Of that error each observation has this share by itself, so that noiseless repeats leave a covariance that is
-/// definite.
-constexpr double kLeastOwn = 0.1;
 
-VarianceComponent numerical_errors(const Evidence& evidence) {
+Eigen::VectorXd numerical_variance(const Evidence& evidence) {
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
   Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
   for (const Candidate& candidate : evidence.candidates)
@@ -32,21 +29,13 @@ VarianceComponent numerical_errors(const Evidence& evidence) {
     const double typical = std::max(change(rows).norm() / std::sqrt(static_cast<double>(rows.size())), 1e-9);
     for (const auto row : rows) variance[row] += std::pow(kNumericalFloor * typical, 2.0);
   }
-  return {"", ErrorLevel::model, 1.0, group_by(evidence.observations, cell_key), variance.cwiseSqrt()};
+  return variance;
 }
 
 void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
   for (const auto& members : component.groups.members())
     for (const auto i : members)
       for (const auto j : members) covariance(i, j) += component.variance * component.scale[i] * component.scale[j];
-}
-
-/// One such error.
-void add_draw(const VarianceComponent& component, double variance, Rng& rng, Eigen::Ref<Eigen::VectorXd> residual) {
-  std::vector<double> shared(component.groups.count);
-  for (double& value : shared) value = std::sqrt(variance) * rng.normal();
-  for (Eigen::Index i = 0; i < residual.size(); ++i)
-    if (const int group = component.groups.of[i]; group >= 0) residual[i] += component.scale[i] * shared[group];
 }
 
 /// Variances that the data might as well have come from: lognormal, for those of few degrees of freedom are often much
@@ -82,7 +71,7 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
 Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& residual) {
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
   Covariance covariance;
-  covariance.numerical = numerical_errors(evidence);
+  covariance.numerical_variance = numerical_variance(evidence);
   covariance.nuisance.resize(n, static_cast<Eigen::Index>(evidence.nuisances.size()));
   for (std::size_t k = 0; k < evidence.nuisances.size(); ++k)
     covariance.nuisance.col(static_cast<Eigen::Index>(k)) =
@@ -90,8 +79,7 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
   const Eigen::VectorXd repeats = repeat_variances(evidence.observations);
   const Eigen::SparseMatrix<double> nuisance = sparse(covariance.nuisance);
   covariance.total = nuisance * nuisance.transpose();
-  covariance.total.diagonal() += repeats + kLeastOwn * kLeastOwn * covariance.numerical.scale.cwiseAbs2();
-  add(covariance.numerical, covariance.total);
+  covariance.total.diagonal() += repeats + covariance.numerical_variance;
   covariance.errors = estimate_errors(evidence, residual, covariance.total, repeats);
   const auto add_all = [&](const std::vector<ObservableErrors>& observables) {
     for (const ObservableErrors& errors : observables)
@@ -133,7 +121,7 @@ Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::Ma
 
 Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std::uint64_t seed) {
   const Eigen::Index n = covariance.total.rows();
-  const Eigen::VectorXd independent = covariance.errors.repeat_variance.cwiseSqrt();
+  const Eigen::VectorXd independent = (covariance.errors.repeat_variance + covariance.numerical_variance).cwiseSqrt();
   Eigen::MatrixXd nuisances(covariance.nuisance.cols(), draws);
   Eigen::MatrixXd residuals(n, draws);
   std::vector<Eigen::MatrixXd> roots;
@@ -143,12 +131,17 @@ Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std:
     const double prior_scale = std::sqrt(kStatedDof / rng.gamma(0.5 * kStatedDof, 2.0));
     for (Eigen::Index k = 0; k < nuisances.rows(); ++k) nuisances(k, draw) = prior_scale * rng.normal();
     for (Eigen::Index i = 0; i < n; ++i) residuals(i, draw) = independent[i] * rng.normal();
-    add_draw(covariance.numerical, covariance.numerical.variance, rng, residuals.col(draw));
     for (std::size_t o = 0; o < covariance.errors.observables.size(); ++o) {
       const ObservableErrors& errors = covariance.errors.observables[o];
       const Eigen::VectorXd variances = redrawn(errors, roots[o], rng);
       for (std::size_t k = 0; k < errors.components.size(); ++k) {
-        add_draw(errors.components[k], variances[static_cast<Eigen::Index>(k)], rng, residuals.col(draw));
+        const Groups& groups = errors.components[k].groups;
+        const double sd = std::sqrt(variances[static_cast<Eigen::Index>(k)]);
+        std::vector<double> shared(groups.count);
+        for (double& value : shared) value = sd * rng.normal();
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (const int group = groups.of[i]; group >= 0)
+            residuals(i, draw) += errors.components[k].scale[i] * shared[group];
       }
     }
   }

@@ -12,9 +12,8 @@ namespace fathom {
 
 struct Covariance {
   ErrorBudget errors;
-  VarianceComponent
-      numerical;  ///< the predictions' own error: one where the same is predicted, of variance 1 times scale²
-  Eigen::MatrixXd nuisance;  ///< n × nuisances: signatures times prior σ; its square is J P Jᵀ
+  Eigen::VectorXd numerical_variance;  ///< of the predictions
+  Eigen::MatrixXd nuisance;            ///< n × nuisances: signatures times prior σ; its square is J P Jᵀ
   Eigen::MatrixXd total;
   Eigen::LLT<Eigen::MatrixXd> factor;
 
@@ -22,8 +21,8 @@ struct Covariance {
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const { return factor.matrixL().solve(x); }
 };
 
-/// Of measured minus predicted: repeats, prior nuisances, the predictions' own error, and the variance components that
-/// the residual shows.
+/// Of measured minus predicted: repeats, prior nuisances, numerical error, and the variance components that the
+/// residual shows.
 Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& residual);
 
 /// The covariance among some of the observations.
