@@ -99,10 +99,12 @@ class Smoke(unittest.TestCase):
         self.assertIn("single effect first, s ≥ 8", scored(misses(2)))
 
     def test_who_names_something_always_fails(self):
-        self.assertLessEqual(set(smoke.SILENCE), scored(lambda truth: report("named", ["fill_offset"])))
+        failed = scored(lambda truth: report("named", ["fill_offset"]))
+        self.assertLessEqual(set(smoke.SILENCE) - {"calls a null set unknown"}, failed)
 
     def test_who_always_says_unknown_fails(self):
-        self.assertIn("single effect first, s ≥ 8", scored(lambda truth: report("unknown")))
+        self.assertLessEqual({"single effect first, s ≥ 8", "calls a null set unknown"},
+                             scored(lambda truth: report("unknown")))
 
     def test_who_leaves_one_set_without_an_answer_fails(self):
         self.assertEqual(scored(lambda truth: None if truth["set"] == 0 else oracle(truth)), {"answered"})
