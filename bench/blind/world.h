@@ -60,8 +60,7 @@ struct Dust {
 struct Strange {
   double lens_patch_px = 0.0;  ///< disparity in the middle of a dirty spot of the lens
   Eigen::Vector2d lens_patch_at{320.0, 300.0};
-  double rolling_px =
-      0.0;  ///< disparity along the rows, from an exposure that runs down the image while the stand sways
+  double rolling_px = 0.0;  ///< amplitude of a sine along the rows: they are exposed one by one while the stand sways
   double rolling_phase = 0.0;  ///< where in the sway the exposure starts
   double vibration_px = 0.0;   ///< amplitude of a sine along the rows, its phase new in every frame
 };

@@ -53,7 +53,7 @@ bool shows_walls(const std::optional<FrameEstimates>& estimates) {
 bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRig& rig, const Plane& desk,
                          const Eigen::Vector2d& cup) {
   constexpr double kFrom = 0.012, kTo = 0.024, kAside = 0.020;  // [m] clear of the matcher's windows at the wall
-  constexpr double kFewest = 3.0;                               // pixels
+  constexpr double kFewest_px = 3.0;
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
   const Eigen::Vector2d axis = axis_from_camera(rig, cup);
   const Eigen::Vector2d to_sensor = -axis.normalized();
@@ -66,7 +66,7 @@ bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRi
     height += sensed.weight * point.z();
     seen += sensed.weight;
   }
-  return seen >= kFewest && std::abs(height / seen) < 0.5 * rig.cup.bottom();
+  return seen >= kFewest_px && std::abs(height / seen) < 0.5 * rig.cup.bottom();
 }
 
 /// Whether the rig's cup is where it should be.
