@@ -8,27 +8,29 @@ namespace fathom {
 namespace {
 
 constexpr double kGate = 0.012, kNarrowGate = 0.007;  ///< [m]
+constexpr double kAboveFill = 0.006;                  ///< [m] a meniscus, the fill's error or half a matcher's window
+constexpr double kBehindWall = 0.004;                 ///< [m] half a window across the wall: further in is the inside
 constexpr double kCoarse = 0.008;                     ///< [m] between places that are looked at for a cup
-constexpr double kNearest = 0.010;                    ///< [m] nearer the fit from the written place says all there is
+constexpr double kNearest = 0.006;                    ///< [m] nearer the fit from the written place says all there is
 constexpr double kFarthest = 0.032;                   ///< [m] the bound of cup_placement, and what a desk's error adds
 
 }  // namespace
 
 double inner_wall_from(const LaboratoryRig& rig, double fill) {
-  constexpr double kBelowRim = 0.035;   // [m] however little is written: notes may be wrong
-  constexpr double kAboveFill = 0.006;  // [m] a meniscus, the fill's error or half a matcher's window
+  constexpr double kBelowRim = 0.035;  // [m] however little is written: notes may be wrong
   return std::max(rig.cup.height() - kBelowRim, rig.cup.bottom() + fill + kAboveFill);
 }
 
 OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis, double fill)
     : cup_(rig.cup),
       inner_from_(inner_wall_from(rig, fill)),
+      level_(rig.cup.bottom() + fill),
       to_sensor_(-axis.normalized()),
       steepness_(rig.height_m / axis.norm()) {}
 
 void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double weight) {
   constexpr double kReach = 0.010;  // [m] of a matcher's window across desk and rim
-  if (height < kReach || height > cup_.height() - kReach) return;
+  if (height < kReach || height > cup_.height() - kReach || std::abs(height - level_) < kAboveFill) return;
   const auto lean = [&](double (CupProfile::*radius)(double) const) {
     constexpr double kSpan = 0.5e-3;  // [m]
     return steepness_ * ((cup_.*radius)(height + kSpan) - (cup_.*radius)(height - kSpan)) / (2.0 * kSpan);
@@ -51,6 +53,8 @@ std::optional<OutlineFit::NearWall> OutlineFit::near_wall(const Sensed& sensed, 
   if (is_inside && sensed.height < inner_from_) return std::nullopt;
   const double excess = distance - outline.wider - (is_inside ? sensed.inner_radius : sensed.outer_radius);
   if (std::abs(excess) > gate) return std::nullopt;
+  // Where the sensor hardly sees the outer wall, the liquid behind it may be all there is.
+  if (!is_inside && distance < sensed.inner_radius - kBehindWall) return std::nullopt;
   return NearWall{outward, excess, is_inside};
 }
 

@@ -20,7 +20,8 @@ double inner_wall_from(const LaboratoryRig& rig, double fill);
 /// Takes points one by one, in the frame of the desk. Those count that lie near the wall that the sensor can see there:
 /// on its own side the outer one, clear of the desk, on the far side the inner one (of a wall that leans outward more
 /// of it), between the rim and what stands in the cup: there a surface's edge, or what is seen through it, lies near
-/// the wall and is none.
+/// the wall and is none. On neither side do points count that lie as high as the surface should, nor on the sensor's
+/// side those that lie inside the cup: of a steep view of a leaning wall the device sees nothing but the liquid.
 class OutlineFit {
  public:
   /// `axis` [m]: from the foot of the camera to where the cup should stand; `fill` [m]: of what should stand in it.
@@ -58,7 +59,7 @@ class OutlineFit {
   Eigen::Vector2d place_of_walls() const;
 
   CupProfile cup_;
-  double inner_from_;          // [m]
+  double inner_from_, level_;  // [m]
   Eigen::Vector2d to_sensor_;  // unit
   double steepness_;           // of the line of sight, height over distance
   std::vector<Sensed> sensed_;

@@ -106,7 +106,7 @@ TEST(Rig, APoseOfRowsIsATurnAndAPlaceAndStandsAlone) {
            {R"({"world_from_camera": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]})", "mirroring"},
            {R"({"world_from_camera": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]})",
             "/3: must be 0, 0, 0, 1"}})
-    expect_error([&] { rig_of(sensor.c_str()); }, {message});
+    expect_error([&, &sensor = sensor] { rig_of(sensor.c_str()); }, {message});
 }
 
 TEST(Optics, UndistortedIsTheInverseOfDistorted) {

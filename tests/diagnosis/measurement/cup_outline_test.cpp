@@ -121,5 +121,22 @@ TEST_F(Outline, IsNotThatOfALiquid) {
   EXPECT_FALSE(fit.solve());
 }
 
+/// Looked at steeply, a leaning outer wall is too narrow for a block to match, and the surface behind it is all there
+/// is.
+TEST_F(Outline, OfWhichTheOuterWallIsNotSeenIsNone) {
+  LaboratoryRig tapered;
+  tapered.height_m = 0.650;
+  tapered.cup = {{{0.0, 0.004}, {0.026, 0.004}, {0.038, 0.090}}, {{0.0, 0.0}, {0.027, 0.0}, {0.039, 0.090}}};
+  const double written = 0.042;
+  for (const double fill : {0.85 * written, written, 1.15 * written}) {
+    fit = OutlineFit(tapered, {0.0, 0.200}, written);
+    for (double low = 0.052; low < 0.080; low += 0.002)
+      add_wall(kFar, tapered.cup.inner_radius(low), {0.0, 0.0}, low, low + 0.001);
+    for (double radius = 0.002; radius < 0.028; radius += 0.001)
+      for (const double towards : {kNear, kFar}) add_wall(towards, radius, {0.0, 0.0}, 0.004 + fill, 0.005 + fill);
+    EXPECT_FALSE(fit.solve()) << fill;
+  }
+}
+
 }  // namespace
 }  // namespace fathom
