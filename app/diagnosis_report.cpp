@@ -49,10 +49,10 @@ std::string effects_html(const Diagnosis& diagnosis) {
     const Effect* effect = find_effect(effect_name(named.name).id);
     std::vector<std::string> lines;
     for (const NamedParameter& parameter : shown_parameters(named)) lines.push_back(parameter_words(parameter));
-    lines.push_back(
-        fmt::format("p = {:.1g} among all candidates; {:.1g} in conditions that had no part in choosing it; "
-                    "it improves {} of {} groups of conditions",
-                    named.p_discovery, named.p_confirmation, named.folds_improved, named.folds));
+    lines.push_back(fmt::format(
+        "it is there with a probability of {:.1f} %; p = {:.1g} that errors alone make as much for any of all "
+        "candidates; {:.1g} in conditions that had no part in finding its size",
+        100 * named.probability, named.p_discovery, named.p_confirmation));
     if (effect && !effect->citation.empty()) lines.emplace_back(effect->citation);
     html += fmt::format("<h3>{}</h3>\n", html_escaped(effect_words(named.name)));
     if (effect) html += paragraph(std::string(effect->sentence));

@@ -161,25 +161,12 @@ std::string rival_words(const Explanation& explanation) {
                      100 * explanation.probability);
 }
 
-std::string_view anew_words(Anew lacks) {
-  switch (lacks) {
-    case Anew::nothing:
-      return "";
-    case Anew::pours:
-      return ": too little was measured anew. Measure the same fillings again, each poured anew (3 pours of each, say)";
-    case Anew::sessions:
-      return ": what shows it is seen but once or twice a session. Measure all of it again in two more sessions";
-  }
-  return {};
-}
-
 std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   constexpr double kWorthNaming = 0.02;
   constexpr std::size_t kMost = 4;
   const std::vector<Explanation>& set = diagnosis.ambiguity_set;
   if (set.size() == 1 && set.front().alternatives.empty())
-    return fmt::format("It may well be {}, but the tests do not confirm it{}. ", effects_words(set.front().effects),
-                       anew_words(diagnosis.lacks_anew)) +
+    return fmt::format("It may well be {}, but that is not sure. ", effects_words(set.front().effects)) +
            next_sentences(diagnosis.next);
   std::vector<std::string> rivals;
   std::size_t others = 0;
@@ -197,15 +184,6 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
     text += fmt::format("{} more {} {:.{}f} % together. ", others, others == 1 ? "has" : "have",
                         100 * probability_of_others, probability_of_others < 0.01 ? 1 : 0);
   return text + next_sentences(diagnosis.next);
-}
-
-/// Several effects of the list that would leave nothing unexplained, if there are such.
-const Explanation* crowd_that_explains(const Diagnosis& diagnosis) {
-  constexpr std::size_t kCrowd = 3;
-  if (diagnosis.unknown.p < DecisionSettings{}.p_gap) return nullptr;
-  for (const Explanation& explanation : diagnosis.ambiguity_set)
-    if (explanation.effects.size() >= kCrowd && explanation.effects.back() != "unknown") return &explanation;
-  return nullptr;
 }
 
 /// "In session 1 the height in the cup is 1.9 mm higher than in the others (16 σ). ": of each session the clearest.
@@ -237,14 +215,9 @@ std::string excess_sentences(const Diagnosis& diagnosis) {
 
 std::string unknown_sentence(const Diagnosis& diagnosis) {
   const UnknownShape& unknown = diagnosis.unknown;
-  const Explanation* crowd = crowd_that_explains(diagnosis);
-  std::string text =
-      crowd ? fmt::format(
-                  "Only {} together would explain it, and so many are likelier to imitate something that the "
-                  "list lacks",
-                  effects_words(crowd->effects))
-            : fmt::format("{} is there that no effect in the list explains (p = {:.1g})",
-                          diagnosis.effects.empty() ? "Something" : "Something else", unknown.p);
+  std::string text = fmt::format("{} is there that no effect in the list explains",
+                                 diagnosis.effects.empty() ? "Something" : "Something else");
+  if (diagnosis.excess.empty()) text += fmt::format(" (probability {:.3g})", diagnosis.probability_of_unknown);
   if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
   if (!unknown.most_similar.empty())
     text +=
@@ -253,14 +226,12 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
 }
 
 std::string agreement(const Diagnosis& diagnosis) {
-  constexpr double kHardly = 0.05;
-  const std::string agree =
-      diagnosis.p_gap < kHardly
-          ? fmt::format(
-                "Model and measurement differ a little more than their errors let expect (p = {:.2g}), but "
-                "nothing is sure enough to be named",
-                diagnosis.p_gap)
-          : fmt::format("Model and measurement agree within their errors (p = {:.2g})", diagnosis.p_gap);
+  constexpr double kLikely = 0.5;
+  const std::string agree = diagnosis.probability_of_none < kLikely
+                                ? "Model and measurement differ a little more than their errors let expect, but "
+                                  "nothing is sure enough to be named"
+                                : fmt::format("Model and measurement agree within their errors ({:.0f} % sure)",
+                                              100 * diagnosis.probability_of_none);
   return fmt::format("{}: the {} differ by {:.2f} mm, {:.2f} mm are to be expected.", agree, heights_words(diagnosis),
                      diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
 }
@@ -343,9 +314,7 @@ std::string beside_words(const Diagnosis& diagnosis) {
                                         : names.front() + " departs";
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   text += " from the model. That alone is no gap: heights and shapes decide.";
-  if (!diagnosis.beside_effects.empty())
-    text +=
-        fmt::format(" It may be {}{}.", effects_words(diagnosis.beside_effects), anew_words(diagnosis.beside_lacks));
+  if (!diagnosis.beside_effects.empty()) text += fmt::format(" It may be {}.", effects_words(diagnosis.beside_effects));
   return text;
 }
 

@@ -23,28 +23,28 @@ enum class SharedBy {
   condition_region
 };
 
-/// What few rays and direct light leave out of an observable (see surrogate.h and its test), in its unit.
+/// What few rays and direct light leave out of an observable, in its unit. Of heights, walls and the desk's plane these
+/// are the standard deviations that bench/model_errors.py finds over photometric campaigns of twelve simulated devices
+/// (geometric ones have less), with patterns, blocks, cups and fills of their own; where a reason stands beside it, it
+/// is the reason that counts.
 struct ModelError {
   std::string_view observable;
   double sigma;
   SharedBy shared_by;
 };
 constexpr std::array kModelErrors{
-    ModelError{"height_mm", 0.03, SharedBy::liquid_region},     // against whole frames
-    ModelError{"height_mm", 0.04, SharedBy::place},             // a matcher's bias by place: it bends the desk as well
-    ModelError{"height_mm", 0.05, SharedBy::place_region},      // how it goes on inside the cup
-    ModelError{"height_mm", 0.05, SharedBy::condition},         // matching: the same dots fall the same way each time
-    ModelError{"height_mm", 0.05, SharedBy::condition_region},  // the same
-    ModelError{"cup_x_mm", 0.10, SharedBy::all},                // against whole frames, as the next two
-    ModelError{"cup_x_mm", 0.40, SharedBy::place},              // walls are steep, and seen as the device's dots fall
-    ModelError{"cup_x_mm", 0.15, SharedBy::condition},          // from above a window spans half a wall and the liquid
-    ModelError{"cup_y_mm", 0.10, SharedBy::all}, ModelError{"cup_y_mm", 0.40, SharedBy::place},
-    ModelError{"cup_y_mm", 0.15, SharedBy::condition},
+    ModelError{"height_mm", 0.055, SharedBy::liquid_region}, ModelError{"height_mm", 0.03, SharedBy::place},
+    ModelError{"height_mm", 0.08, SharedBy::place_region}, ModelError{"height_mm", 0.085, SharedBy::condition},
+    ModelError{"height_mm", 0.04, SharedBy::condition_region}, ModelError{"cup_x_mm", 0.13, SharedBy::all},
+    ModelError{"cup_x_mm", 0.33, SharedBy::place}, ModelError{"cup_x_mm", 0.04, SharedBy::condition},
+    ModelError{"cup_y_mm", 0.42, SharedBy::all}, ModelError{"cup_y_mm", 0.08, SharedBy::place},
+    ModelError{"cup_y_mm", 0.04, SharedBy::condition},
     ModelError{"cup_radius_mm", 0.30, SharedBy::all},  // cups are round and straight to some tenths of a millimetre
-    ModelError{"cup_radius_mm", 0.20, SharedBy::place}, ModelError{"cup_radius_mm", 0.10, SharedBy::condition},
-    ModelError{"desk_height_mm", 0.05, SharedBy::all},    // against whole frames, as the next two
-    ModelError{"desk_height_mm", 0.05, SharedBy::place},  // a cup hides what the plane was fitted to
-    ModelError{"desk_pitch_deg", 0.02, SharedBy::all}, ModelError{"desk_roll_deg", 0.02, SharedBy::all},
+    ModelError{"cup_radius_mm", 0.08, SharedBy::place}, ModelError{"cup_radius_mm", 0.025, SharedBy::condition},
+    ModelError{"desk_height_mm", 0.05, SharedBy::all},  // beside a plane of bias, which is a nuisance
+    ModelError{"desk_height_mm", 0.003, SharedBy::condition}, ModelError{"desk_pitch_deg", 0.02, SharedBy::all},
+    ModelError{"desk_pitch_deg", 0.002, SharedBy::condition}, ModelError{"desk_roll_deg", 0.005, SharedBy::all},
+    ModelError{"desk_roll_deg", 0.003, SharedBy::condition},
     ModelError{"desk_residual_mm", 0.10, SharedBy::region},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
     ModelError{"log_brightness", 0.30, SharedBy::all},       // nobody wrote down albedos; walls light the bottom
     ModelError{"log_brightness", 0.50, SharedBy::liquid},    // what scatters has an albedo of its own
@@ -159,7 +159,8 @@ OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& obs
 }
 
 Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations) {
-  constexpr double kLength_mm = 0.05, kAngle_deg = 0.003, kShare = 0.02;
+  // Of few rays against as many as make no difference (tests/diagnosis/predict/surrogate_test.cpp).
+  constexpr double kLength_mm = 0.007, kAngle_deg = 0.0005, kShare = 0.02;
   Eigen::VectorXd errors(static_cast<Eigen::Index>(observations.size()));
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const std::string& name = observations[i].observable;

@@ -14,8 +14,7 @@ std::vector<SharedError> model_errors(const std::vector<Observation>& observatio
 OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& observations,
                         const std::vector<bool>& sees_through);
 
-/// 1 σ of every prediction: what some hundred rays and the law's mean are off against a whole frame whose noise dithers
-/// the law.
+/// 1 σ of every prediction by itself, beside the errors that observations share.
 Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations);
 
 }  // namespace fathom

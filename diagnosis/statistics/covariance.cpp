@@ -1,11 +1,9 @@
 #include "diagnosis/statistics/covariance.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
-#include "core/rng.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/shared_errors.h"
 
@@ -38,33 +36,8 @@ void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
       for (const auto j : members) covariance(i, j) += component.variance * component.scale[i] * component.scale[j];
 }
 
-/// Variances that the data might as well have come from: lognormal, for those of few degrees of freedom are often much
-/// larger than estimated, seldom much smaller; half a normal where the estimate is 0.
-Eigen::VectorXd redrawn(const ObservableErrors& errors, const Eigen::MatrixXd& root, Rng& rng) {
-  Eigen::VectorXd normals(root.cols());
-  for (double& normal : normals) normal = rng.normal();
-  Eigen::VectorXd variances = root * normals;
-  for (Eigen::Index k = 0; k < variances.size(); ++k) {
-    const double estimate = errors.components[k].variance;
-    const double relative = estimate > 0.0 ? std::sqrt(errors.covariance(k, k)) / estimate : 1.0;
-    // Of the same relative spread; from 1 on it would say more about the lognormal than about the data.
-    variances[k] =
-        relative > 0.0 && relative < 1.0
-            ? estimate * std::exp(variances[k] / estimate * std::sqrt(std::log1p(relative * relative)) / relative)
-            : std::max(0.0, estimate + variances[k]);
-  }
-  return variances;
-}
-
 /// Most nuisances are of one pour or placement, and move few observations.
 Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& nuisances) { return nuisances.sparseView(); }
-
-/// R with R Rᵀ = a covariance that may be singular.
-Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
-  if (covariance.size() == 0) return covariance;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
 
 }  // namespace
 
@@ -117,36 +90,6 @@ Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::Ma
       relative += shares.cwiseProduct(errors.covariance * shares).colwise().sum().transpose().array();
   }
   return (2.0 / relative.max(2.0 / kMost)).max(3.0).matrix();
-}
-
-Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std::uint64_t seed) {
-  const Eigen::Index n = covariance.total.rows();
-  const Eigen::VectorXd independent = (covariance.errors.repeat_variance + covariance.numerical_variance).cwiseSqrt();
-  Eigen::MatrixXd nuisances(covariance.nuisance.cols(), draws);
-  Eigen::MatrixXd residuals(n, draws);
-  std::vector<Eigen::MatrixXd> roots;
-  for (const ObservableErrors& errors : covariance.errors.observables) roots.push_back(root_of(errors.covariance));
-  for (int draw = 0; draw < draws; ++draw) {
-    Rng rng(seed, draw);
-    const double prior_scale = std::sqrt(kStatedDof / rng.gamma(0.5 * kStatedDof, 2.0));
-    for (Eigen::Index k = 0; k < nuisances.rows(); ++k) nuisances(k, draw) = prior_scale * rng.normal();
-    for (Eigen::Index i = 0; i < n; ++i) residuals(i, draw) = independent[i] * rng.normal();
-    for (std::size_t o = 0; o < covariance.errors.observables.size(); ++o) {
-      const ObservableErrors& errors = covariance.errors.observables[o];
-      const Eigen::VectorXd variances = redrawn(errors, roots[o], rng);
-      for (std::size_t k = 0; k < errors.components.size(); ++k) {
-        const Groups& groups = errors.components[k].groups;
-        const double sd = std::sqrt(variances[static_cast<Eigen::Index>(k)]);
-        std::vector<double> shared(groups.count);
-        for (double& value : shared) value = sd * rng.normal();
-        for (Eigen::Index i = 0; i < n; ++i)
-          if (const int group = groups.of[i]; group >= 0)
-            residuals(i, draw) += errors.components[k].scale[i] * shared[group];
-      }
-    }
-  }
-  residuals += sparse(covariance.nuisance) * nuisances;
-  return covariance.whiten(residuals);
 }
 
 }  // namespace fathom

@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <cstdint>
 
 #include "diagnosis/statistics/evidence.h"
 #include "diagnosis/statistics/variance_components.h"
@@ -31,10 +30,5 @@ Eigen::MatrixXd part(const Covariance& covariance, const std::vector<Eigen::Inde
 /// How well the variance along each whitened column is known, as degrees of freedom (Satterthwaite 1946): that of the
 /// variance components and of the priors, each by its share in it.
 Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::MatrixXd& columns);
-
-/// Residuals (n × draws, whitened) of campaigns in which the model is right. The covariance is not known exactly: each
-/// draw has its own variance components, within what the data allow, and its own scale of the priors, within what
-/// laboratories know of their σ.
-Eigen::MatrixXd pseudo_experiments(const Covariance& covariance, int draws, std::uint64_t seed);
 
 }  // namespace fathom

@@ -1,70 +1,24 @@
 #include "diagnosis/statistics/decide.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
+#include <optional>
 
 #include "diagnosis/statistics/budget.h"
 #include "diagnosis/statistics/case.h"
+#include "diagnosis/statistics/excess.h"
 #include "diagnosis/statistics/explanations.h"
 #include "diagnosis/statistics/gap_size.h"
 #include "diagnosis/statistics/hygiene.h"
 #include "diagnosis/statistics/intervals.h"
 #include "diagnosis/statistics/limits.h"
-#include "diagnosis/statistics/once.h"
-#include "diagnosis/statistics/options.h"
+#include "diagnosis/statistics/posterior.h"
 #include "diagnosis/statistics/sufficiency.h"
 #include "diagnosis/statistics/tiers.h"
 #include "diagnosis/statistics/unknown.h"
-#include "diagnosis/statistics/weigh.h"
 
 namespace fathom {
 
 namespace {
-
-constexpr double kLikelyUnknown = 0.25;
-
-/// Of the likeliest option that has these effects, with something unknown or without.
-double log_posterior_with(const std::vector<Option>& options, const std::vector<int>& effects) {
-  double best = -INFINITY;
-  for (const Option& o : options)
-    if (std::includes(o.effects.begin(), o.effects.end(), effects.begin(), effects.end()))
-      best = std::max(best, o.log_posterior);
-  return best;
-}
-
-double log_posterior_of_unknown_alone(const std::vector<Option>& options) {
-  for (const Option& o : options)
-    if (o.is_unknown_alone()) return o.log_posterior;
-  return -INFINITY;
-}
-
-/// Whether the likeliest explanation is what passed all tests, with nothing unknown beside it.
-bool is_tested(const Weighed& weighed) {
-  const Option& best = likeliest(weighed.options);
-  return weighed.choice && !best.has_unknown && best.effects == weighed.choice->fit.hypothesis.effects;
-}
-
-/// Of what passed all tests. `set` holds, beside the options, what they may imitate.
-Verdict verdict_of_named(const Case& c, const Weighed& weighed, const AmbiguitySet& set) {
-  const std::vector<int>& effects = weighed.choice->fit.hypothesis.effects;
-  if (weighed.is_rest) {
-    const bool is_sure = log_posterior_with(weighed.options, effects) >
-                         log_posterior_of_unknown_alone(weighed.options) + std::log(kSureOdds);
-    return is_sure ? Verdict::named_and_unknown : Verdict::unknown;
-  }
-  const AmbiguitySet listed = ambiguity_set(weighed.options, kinds_of_candidates(c.evidence), c.settings.delta);
-  const bool is_imitation = probability_of_unknown(set) > kLikelyUnknown;
-  return all_name(c.evidence, effects, listed) && !is_imitation ? Verdict::named : Verdict::ambiguous;
-}
-
-/// Where no test singles out a set of effects.
-Verdict verdict_of_unnamed(const Case& c, bool is_rest, const AmbiguitySet& set) {
-  if (is_rest || set.classes.front().options.front().has_unknown) return Verdict::unknown;
-  if (!c.evidence.mistakes.empty()) return Verdict::named;
-  // Some effect may still be needed: then nothing at all is no explanation any more.
-  return kSureOdds * probability_of_nothing(set) > 1.0 ? Verdict::none : Verdict::ambiguous;
-}
 
 /// What the evidence says before any effect is weighed.
 void describe_evidence(const Case& c, Diagnosis& diagnosis) {
@@ -76,20 +30,48 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
   diagnosis.confusable = confusable_pairs(c.evidence, c.problem);
   diagnosis.near_null = near_null_directions(c.evidence, c.problem);
-  diagnosis.p_gap = c.gap.p;
-  diagnosis.where = locate(c.shapes.strata, c.shapes.stratum_columns, c.shapes.stratum_dof, c.problem.residual,
-                           c.gap.scan_tail, c.settings.p_confirmation);
+  const Eigen::MatrixXd columns = stratum_columns(c.strata, c.covariance);
+  diagnosis.where =
+      locate(c.strata, columns, degrees_of_freedom(c.covariance, columns), c.problem.residual, c.settings.p_where);
 }
 
-/// What the weighing left, and what it may still hide.
-void describe_rest(const Case& c, const Weighed& weighed, Diagnosis& diagnosis) {
-  const Rest& rest = weighed.rest;
-  if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
-    diagnosis.unknown = describe_unknown(c.evidence, c.covariance, c.problem, c.shapes, rest.residual, rest.explained);
-  diagnosis.unknown.p = weighed.p_rest;
-  measure_gaps(c, weighed.fit, diagnosis);
-  diagnosis.upper_limits = upper_limits(c.evidence, c.problem, weighed.fit.hypothesis.effects, rest.residual,
-                                        rest.explained, c.discovery.quantile(c.settings.p_discovery));
+/// The likeliest option's effects that are surely there, fitted by themselves; nothing where there are none.
+std::optional<Refit> sure_fit(const Case& c, const Posterior& posterior) {
+  const Option& best = likeliest(posterior.options);
+  const std::vector<int> kinds = kinds_of_candidates(c.evidence);
+  std::vector<std::size_t> sure;
+  for (std::size_t e = 0; e < best.effects.size(); ++e)
+    if (probability_of(best.effects[e], posterior.options, kinds) > kSure) sure.push_back(e);
+  if (sure.empty()) return std::nullopt;
+  const Hypothesis part = part_of(c.problem, {best.effects, best.parameters}, sure);
+  const auto known = std::find_if(posterior.fits.begin(), posterior.fits.end(),
+                                  [&](const Refit& fit) { return fit.hypothesis.effects == part.effects; });
+  const Refit fit =
+      known != posterior.fits.end() ? *known : refit(c.evidence, c.predict, c.covariance, c.problem, part);
+  return with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
+}
+
+/// What effects leave of the residual, with whatever changes of their parameters would make taken out.
+struct Rest {
+  Eigen::VectorXd residual;   ///< whitened
+  Eigen::MatrixXd explained;  ///< orthonormal
+};
+
+Rest rest_of(const Case& c, const Refit& fit) {
+  Rest rest{c.problem.residual - fit.prediction, orthonormal(fit.jacobian)};
+  if (rest.explained.cols() > 0) rest.residual -= rest.explained * (rest.explained.transpose() * rest.residual);
+  return rest;
+}
+
+Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool names_all,
+                   bool names_any) {
+  const Verdict with_unknown = names_any ? Verdict::named_and_unknown : Verdict::unknown;
+  if (is_excess) return with_unknown;
+  if (kAlarmOdds * shares.nothing > 1.0) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
+  if (shares.unknown > 0.5) return with_unknown;
+  const AmbiguityClass& first = set.classes.front();
+  const bool is_one = first.probability > kSure && first.options.size() == 1;
+  return names_all && is_one ? Verdict::named : Verdict::ambiguous;
 }
 
 Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Designs& designs,
@@ -97,22 +79,32 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   Diagnosis diagnosis;
   diagnosis.missing = missing_for_diagnosis(evidence);
   if (!diagnosis.missing.empty()) return diagnosis;
-  const Case c = case_of(evidence, predict, settings);
+  const Case c(evidence, predict, settings);
   describe_evidence(c, diagnosis);
-  Weighed weighed = weigh(c);
-  AmbiguitySet set =
-      ambiguity_set(with_imitated(weighed.options, is_tested(weighed)), kinds_of_candidates(evidence), settings.delta);
-  if (weighed.is_rest) set.put_unknown_first();
+  const Posterior posterior = posterior_of(c);
+  const std::vector<int> kinds = kinds_of_candidates(evidence);
+  const Shares shares = shares_of(posterior.options);
+  AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta);
+  const std::optional<Refit> sure = sure_fit(c, posterior);
+  const Refit& fit = sure ? *sure : posterior.fit_of({});
+  const Rest rest = rest_of(c, fit);
+  diagnosis.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);
+  const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
+  diagnosis.verdict = verdict_of(c, set, shares, !diagnosis.excess.empty(), names_all, sure.has_value());
+  if (!diagnosis.excess.empty()) set.put_unknown_first();
   diagnosis.ambiguity_set = explanations(evidence, set);
-  diagnosis.verdict = weighed.choice ? verdict_of_named(c, weighed, set) : verdict_of_unnamed(c, weighed.is_rest, set);
-  diagnosis.excess = weighed.rest.excess;
-  if (diagnosis.verdict == Verdict::ambiguous)
-    diagnosis.lacks_anew = lacks_anew(evidence, c.covariance, set.classes.front().options.front());
-  describe_rest(c, weighed, diagnosis);
-  if (weighed.choice && diagnosis.verdict != Verdict::unknown) {
-    add_parameters(c, *weighed.choice);
-    diagnosis.effects = weighed.choice->effects;
-    diagnosis.parameter_covariance = covariance_in_units(c, *weighed.choice);
+  diagnosis.probability_of_none = shares.nothing;
+  diagnosis.probability_of_unknown = shares.unknown;
+  if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
+    diagnosis.unknown =
+        describe_unknown(evidence, c.covariance, c.problem, c.discrepancy, rest.residual, rest.explained);
+  measure_gaps(c, fit, diagnosis);
+  diagnosis.upper_limits = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
+  if (sure) {
+    diagnosis.effects = named_effects(c, *sure);
+    for (std::size_t e = 0; e < diagnosis.effects.size(); ++e)
+      diagnosis.effects[e].probability = probability_of(sure->hypothesis.effects[e], posterior.options, kinds);
+    diagnosis.parameter_covariance = covariance_in_units(c, *sure);
   }
   if (designs && (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none))
     diagnosis.next = next_measurements(evidence, c.covariance, designs, set);

@@ -14,9 +14,6 @@ enum class Verdict { none, named, ambiguous, unknown, named_and_unknown, insuffi
 /// As in report.json: "none", "named", …, "named+unknown".
 std::string_view name_of(Verdict verdict);
 
-/// What has to be measured again for a test to be possible.
-enum class Anew { nothing, pours, sessions };
-
 /// A part of the observations that departs from the prediction.
 struct GapLocation {
   std::string observable, stratum;  ///< "height_mm", "liquid=milk_tea, distance_mm=400"
@@ -43,10 +40,9 @@ struct NamedParameter {
 struct NamedEffect {
   std::string name;
   std::vector<NamedParameter> parameters;
-  double p_discovery = 1.0;     ///< of the largest among all candidates
-  double p_confirmation = 1.0;  ///< in condition groups that had no part in choosing it
-  double p_sign_flip = 1.0;     ///< over pours, without any assumption on the errors but symmetry
-  int folds_improved = 0, folds = 0;
+  double probability = 0.0;     ///< that it is there, in whatever liquid
+  double p_discovery = 1.0;     ///< that errors alone make as much beside the others, for any of all candidates
+  double p_confirmation = 1.0;  ///< that they do in groups of conditions that had no part in finding its size
 };
 
 /// Effects that explain the data about as well as the best ones do.
@@ -107,7 +103,6 @@ struct ConditionBudget {
 
 /// What no model can explain: the shape of the rest.
 struct UnknownShape {
-  double p = 1.0;
   std::string formula;       ///< sparse, in distance, fill and lateral
   std::string most_similar;  ///< candidate
   double similarity = 0.0;   ///< cosine of the whitened signatures
@@ -116,18 +111,17 @@ struct UnknownShape {
 
 struct Diagnosis {
   Verdict verdict = Verdict::insufficient;
-  std::vector<std::string> missing;   ///< if insufficient: what it lacks
-  std::vector<std::string> warnings;  ///< book-keeping that looks wrong; tests that could not be made
-  std::vector<Mistake> mistakes;      ///< of the laboratory, put right before all else
-  double p_gap = 1.0;                 ///< that there is none
+  std::vector<std::string> missing;     ///< if insufficient: what it lacks
+  std::vector<std::string> warnings;    ///< book-keeping that looks wrong; tests that could not be made
+  std::vector<Mistake> mistakes;        ///< of the laboratory, put right before all else
+  double probability_of_none = 1.0;     ///< that nothing is missing
+  double probability_of_unknown = 0.0;  ///< that something is there which no candidate explains, beside effects or not
   std::vector<GapLocation> where;
   std::vector<GapLocation> beside;          ///< departures of what only names; they are no gap by themselves
   std::vector<std::string> beside_effects;  ///< that would explain these, if any would
-  Anew beside_lacks = Anew::nothing;        ///< for tests of that
   std::vector<Excess> excess;               ///< largest first, in errors
   std::vector<NamedEffect> effects;
   std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
-  Anew lacks_anew = Anew::nothing;         ///< if ambiguous: for tests of the first explanation
   /// Of all effects' parameters, in their order, in their units: rows of the matrix.
   std::vector<std::vector<double>> parameter_covariance;
   GapSize train, held_out;
@@ -137,7 +131,7 @@ struct Diagnosis {
   std::vector<NearNullDirection> near_null;
   std::vector<NextMeasurement> next;
   std::vector<ConditionBudget> budget;
-  UnknownShape unknown;  ///< p alone says whether there is something
+  UnknownShape unknown;  ///< where the verdict says that there is something
   /// Of every observation, in its unit: measured minus predicted; the same with the effects, nuisances at their best
   /// values; 1 σ of that.
   std::vector<double> before, after, error;

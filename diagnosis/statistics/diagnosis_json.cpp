@@ -43,11 +43,9 @@ Json json_from(const NamedEffect& effect) {
   json["parameters"] = Json::object();
   for (const NamedParameter& parameter : effect.parameters)
     json["parameters"][parameter.name] = {{"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
+  json["probability"] = effect.probability;
   json["p_discovery"] = effect.p_discovery;
   json["p_confirmation"] = effect.p_confirmation;
-  json["p_sign_flip"] = effect.p_sign_flip;
-  json["folds_improved"] = effect.folds_improved;
-  json["folds"] = effect.folds;
   return json;
 }
 
@@ -157,7 +155,8 @@ Json json_from(const Diagnosis& diagnosis) {
   json["verdict"] = name_of(diagnosis.verdict);
   json["missing"] = diagnosis.missing;
   json["warnings"] = diagnosis.warnings;
-  json["p_gap"] = diagnosis.p_gap;
+  json["probability_of_none"] = diagnosis.probability_of_none;
+  json["probability_of_unknown"] = diagnosis.probability_of_unknown;
   json["where"] = array_of(diagnosis.where);
   json["beside"] = array_of(diagnosis.beside);
   json["excess"] = array_of(diagnosis.excess);
@@ -169,8 +168,7 @@ Json json_from(const Diagnosis& diagnosis) {
   json["gap"] = {{"train", json_from(diagnosis.train)},
                  {"held_out", json_from(diagnosis.held_out)},
                  {"strata", array_of(diagnosis.strata)}};
-  json["unknown"] = {{"p", diagnosis.unknown.p},
-                     {"formula", diagnosis.unknown.formula},
+  json["unknown"] = {{"formula", diagnosis.unknown.formula},
                      {"most_similar", diagnosis.unknown.most_similar},
                      {"similarity", diagnosis.unknown.similarity}};
   json["upper_limits"] = array_of(diagnosis.upper_limits);

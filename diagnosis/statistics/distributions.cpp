@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <cmath>
 #include <limits>
 
 namespace fathom {
@@ -40,8 +40,8 @@ double chi_squared_tail(double x, double dof) {
   return x <= 0.0 ? 1.0 : bm::cdf(bm::complement(bm::chi_squared_distribution<double, Quiet>(dof), x));
 }
 
-double f_tail(double x, double dof, double dof_below) {
-  return x <= 0.0 ? 1.0 : bm::cdf(bm::complement(bm::fisher_f_distribution<double, Quiet>(dof, dof_below), x));
+double normal_score(double t, double dof) {
+  return (8.0 * dof + 1.0) / (8.0 * dof + 3.0) * std::sqrt(dof * std::log1p(t * t / dof));
 }
 
 }  // namespace fathom

@@ -11,7 +11,8 @@ double normal_quantile(double p);
 double student_tail(double t, double dof);
 double student_quantile(double p, double dof);
 double chi_squared_tail(double x, double dof);
-/// Probability that F of (`dof`, `dof_below`) degrees of freedom exceeds `x`.
-double f_tail(double x, double dof, double dof_below);
+/// The standard normal |z| with the tail that Student's |t| of `dof` degrees of freedom has (Wallace 1959; within 0.03
+/// from 5 degrees of freedom and up to |t| = 6).
+double normal_score(double t, double dof);
 
 }  // namespace fathom

@@ -6,7 +6,6 @@
 
 #include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/groups.h"
-#include "diagnosis/statistics/null_calibration.h"
 
 namespace fathom {
 

@@ -18,21 +18,6 @@ std::vector<std::string> words(const Evidence& evidence, const Option& option) {
   return result;
 }
 
-std::set<std::string> ids(const Evidence& evidence, const Option& option) {
-  std::set<std::string> result;
-  for (const std::string& word : words(evidence, option)) result.insert(effect_name(word).id);
-  return result;
-}
-
-/// Of the first class in which some option is such.
-template <class Is>
-double probability_where(const AmbiguitySet& set, const Is& is) {
-  const auto found = std::find_if(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {
-    return std::any_of(one.options.begin(), one.options.end(), is);
-  });
-  return found != set.classes.end() ? found->probability : 0.0;
-}
-
 }  // namespace
 
 std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
@@ -52,28 +37,12 @@ std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguityS
   return result;
 }
 
-bool all_name(const Evidence& evidence, const std::vector<int>& effects, const AmbiguitySet& set) {
-  const std::set<std::string> named = ids(evidence, {effects, {}, false, 0.0, {}});
-  return std::all_of(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {
-    return std::all_of(one.options.begin(), one.options.end(),
-                       [&](const Option& o) { return ids(evidence, o) == named; });
-  });
-}
-
 std::vector<int> kinds_of_candidates(const Evidence& evidence) {
   std::map<std::string, int> known;
   std::vector<int> kinds;
   for (const Candidate& candidate : evidence.candidates)
     kinds.push_back(known.try_emplace(effect_name(candidate.effect).id, static_cast<int>(known.size())).first->second);
   return kinds;
-}
-
-double probability_of_nothing(const AmbiguitySet& set) {
-  return probability_where(set, std::mem_fn(&Option::is_nothing));
-}
-
-double probability_of_unknown(const AmbiguitySet& set) {
-  return probability_where(set, std::mem_fn(&Option::is_unknown_alone));
 }
 
 }  // namespace fathom

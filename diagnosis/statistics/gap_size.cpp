@@ -4,9 +4,8 @@
 #include <map>
 #include <string>
 
-#include "diagnosis/statistics/confirm.h"
-#include "diagnosis/statistics/folds.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/held_out.h"
 
 namespace fathom {
 

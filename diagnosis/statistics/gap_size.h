@@ -3,6 +3,7 @@
 
 #include "diagnosis/statistics/case.h"
 #include "diagnosis/statistics/diagnosis.h"
+#include "diagnosis/statistics/refit.h"
 
 namespace fathom {
 

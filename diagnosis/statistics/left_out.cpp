@@ -1,8 +1,8 @@
 #include "diagnosis/statistics/left_out.h"
 
-#include "diagnosis/statistics/confirm.h"
 #include "diagnosis/statistics/gap_size.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/held_out.h"
 #include "diagnosis/statistics/problem.h"
 
 namespace fathom {

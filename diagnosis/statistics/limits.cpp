@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/statistics/decision_settings.h"
+
 namespace fathom {
 
 namespace {
@@ -17,8 +19,7 @@ constexpr double kLeastStrength = 0.5;  // a typical departure below this is not
 }  // namespace
 
 std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& problem, const std::vector<int>& named,
-                                     const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained,
-                                     double threshold) {
+                                     const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained) {
   std::vector<UpperLimit> result;
   for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {
     if (std::find(named.begin(), named.end(), static_cast<int>(effect)) != named.end()) continue;
@@ -33,6 +34,8 @@ std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& pr
       const double sigma = information > 1e-12 ? parameter.prior_scale / std::sqrt(information) : HUGE_VAL;
       const double estimate = information > 1e-12 ? parameter.prior_scale * signature.dot(residual) / information : 0.0;
       const double limit = std::abs(estimate) + 1.96 * sigma;
+      const double threshold = std::sqrt(
+          std::max(0.0, 2.0 * (std::log(kAlarmOdds) - problem.log_odds[effect]) + parameter_cost(information)));
       if (!std::isfinite(limit)) continue;  // the observations do not see it at all
       result.push_back(
           {candidate.effect, parameter.name, widest > 0.0 ? std::min(limit, widest) : limit, threshold * sigma});

@@ -10,11 +10,10 @@
 namespace fathom {
 
 /// For every parameter of every candidate outside `named`, fitted beside the named ones (`residual` is what they leave,
-/// `explained` their orthonormal span): |estimate| + 1.96 standard errors, and the departure that reaches `threshold`
-/// standard errors.
+/// `explained` their orthonormal span): |estimate| + 1.96 standard errors, and the departure whose posterior odds are
+/// sure half of the time.
 std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& problem, const std::vector<int>& named,
-                                     const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained,
-                                     double threshold);
+                                     const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained);
 
 /// Pairs of candidates whose signatures differ by less than 15°, closest first.
 std::vector<ConfusablePair> confusable_pairs(const Evidence& evidence, const Problem& problem);

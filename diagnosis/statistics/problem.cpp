@@ -14,6 +14,8 @@ namespace fathom {
 namespace {
 constexpr double kExpectedEffects = 1.0;
 constexpr double kPriorWidth = 3.0;  // typical departures
+// The squared width of the normal that is as high as the Cauchy at the peak.
+constexpr double kPeakWidth2 = 0.5 * std::numbers::pi * kPriorWidth * kPriorWidth;
 
 std::vector<std::vector<int>> same_elsewhere(const std::vector<Candidate>& candidates) {
   std::vector<std::vector<int>> result(candidates.size());
@@ -122,14 +124,14 @@ Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::v
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram) {
   if (effects.empty()) return 0.0;
-  // The squared width of the normal that is as high as the Cauchy at the peak.
-  const double width2 = 0.5 * std::numbers::pi * kPriorWidth * kPriorWidth;
-  const Eigen::MatrixXd widened = Eigen::MatrixXd::Identity(gram.rows(), gram.cols()) + width2 * gram;
+  const Eigen::MatrixXd widened = Eigen::MatrixXd::Identity(gram.rows(), gram.cols()) + kPeakWidth2 * gram;
   const double log_det = 2.0 * widened.llt().matrixLLT().diagonal().array().log().sum();
   double log_odds = 0.0;
   for (const int effect : effects) log_odds += problem.log_odds[effect];
   return 0.5 * (gain - prior_penalty(parameters) - log_det) + log_odds;
 }
+
+double parameter_cost(double information) { return std::log1p(kPeakWidth2 * information); }
 
 double prior_penalty(const Eigen::VectorXd& parameters) {
   return 2.0 * (parameters.array() / kPriorWidth).square().log1p().sum();

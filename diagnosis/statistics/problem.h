@@ -59,6 +59,10 @@ Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::v
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram);
 
+/// What one parameter costs there, −2 log: the wider its prior beside what the data tell, of `information` in squared
+/// prior scales, the more.
+double parameter_cost(double information);
+
 /// −2 log of the prior density, from its peak: Cauchy, three typical departures wide, for each parameter. What is
 /// typical is a guess; under a normal prior an effect would count against itself the more, the larger it clearly is
 /// (Jeffreys 1961, Theory of Probability, section 5.2).

@@ -69,18 +69,6 @@ class Model {
     return slopes;
   }
 
-  /// Of each parameter the chord from where it is absent: what a test asks of an effect is whether it is there, and
-  /// some, such as foam, change more by being there than by how much there is of them.
-  Eigen::MatrixXd chords(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at, const Eigen::VectorXd& upper) {
-    Eigen::MatrixXd jacobian(change_at.size(), at.size());
-    for (Eigen::Index k = 0; k < at.size(); ++k) {
-      Eigen::VectorXd moved = at;
-      moved[k] = at[k] == 0.0 ? (kDifference <= upper[k] ? kDifference : -kDifference) : 0.0;
-      jacobian.col(k) = (change_at - change(moved)) / (at[k] - moved[k]);
-    }
-    return jacobian;
-  }
-
   int predictions() const { return predictions_; }
 
  private:
@@ -159,15 +147,6 @@ Refit with_differences(const Evidence& evidence, const Predict& predict, const C
   const std::vector<Eigen::Index> columns = columns_of(problem, fit.hypothesis.effects);
   fit.jacobian = model.differences(fit.hypothesis.parameters, fit.change, fit.jacobian, problem.lower(columns),
                                    problem.upper(columns));
-  fit.predictions += model.predictions();
-  return fit;
-}
-
-Refit with_chords(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
-                  const Problem& problem, Refit fit) {
-  Model model(evidence, predict, covariance, fit.hypothesis.effects);
-  const Eigen::VectorXd upper = problem.upper(columns_of(problem, fit.hypothesis.effects));
-  fit.jacobian = model.chords(fit.hypothesis.parameters, fit.change, upper);
   fit.predictions += model.predictions();
   return fit;
 }

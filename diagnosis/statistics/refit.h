@@ -25,8 +25,4 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
 Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
                        const Problem& problem, Refit fit);
 
-/// The same, with the Jacobian's columns from where each parameter is absent to the solution: for tests.
-Refit with_chords(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
-                  const Problem& problem, Refit fit);
-
 }  // namespace fathom

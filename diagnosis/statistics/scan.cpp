@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {
@@ -64,6 +65,34 @@ std::vector<Stratum> strata_by_time(const std::vector<Observation>& observations
   return result;
 }
 
+struct SignificantStratum {
+  Eigen::Index number = 0;
+  double z = 0.0, p = 1.0;  ///< of what those before it leave
+};
+
+std::vector<SignificantStratum> significant_strata(const Eigen::MatrixXd& columns, const Eigen::VectorXd& dof,
+                                                   Eigen::VectorXd residual, double level) {
+  std::vector<SignificantStratum> result;
+  Eigen::MatrixXd left = columns;
+  const Eigen::VectorXd full = columns.colwise().squaredNorm();
+  while (static_cast<int>(result.size()) < kMostLocations) {
+    const Eigen::VectorXd squares = left.colwise().squaredNorm();
+    Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
+    z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
+    const Eigen::ArrayXd scores = z.cwiseAbs().binaryExpr(dof, &normal_score).array();
+    const Eigen::ArrayXd p = scores.unaryExpr(
+        [&](double score) { return std::min(1.0, 2.0 * static_cast<double>(columns.cols()) * normal_tail(score)); });
+    // Of what chance does not explain the largest, though it may be known by fewer degrees of freedom.
+    Eigen::Index best = 0;
+    if ((p < level).select(z.array().abs(), 0.0).maxCoeff(&best) == 0.0) break;
+    result.push_back({best, z[best], p[best]});
+    const Eigen::VectorXd direction = left.col(best).normalized();
+    residual -= direction * direction.dot(residual);
+    left -= direction * (direction.transpose() * left);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
@@ -96,32 +125,9 @@ Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covari
   return covariance.whiten(columns);
 }
 
-std::vector<SignificantStratum> significant_strata(const Eigen::MatrixXd& columns, const Eigen::VectorXd& dof,
-                                                   Eigen::VectorXd residual, const MaximumTail& tail, double level) {
-  std::vector<SignificantStratum> result;
-  Eigen::MatrixXd left = columns;
-  const Eigen::VectorXd full = columns.colwise().squaredNorm();
-  while (static_cast<int>(result.size()) < kMostLocations) {
-    const Eigen::VectorXd squares = left.colwise().squaredNorm();
-    Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
-    z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
-    const Eigen::ArrayXd scores = z.binaryExpr(dof, &normal_score).array();
-    const Eigen::ArrayXd p = scores.unaryExpr([&](double score) { return tail.p(score); });
-    // Of what chance does not explain the largest, though it may be known by fewer degrees of freedom.
-    Eigen::Index best = 0;
-    if ((p < level).select(z.array().abs(), 0.0).maxCoeff(&best) == 0.0) break;
-    result.push_back({best, z[best], p[best]});
-    const Eigen::VectorXd direction = left.col(best).normalized();
-    residual -= direction * direction.dot(residual);
-    left -= direction * (direction.transpose() * left);
-  }
-  return result;
-}
-
 std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
-                                double level) {
-  const std::vector<SignificantStratum> found = significant_strata(columns, dof, residual, tail, level);
+                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, double level) {
+  const std::vector<SignificantStratum> found = significant_strata(columns, dof, residual, level);
   if (found.empty()) return {};
   const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
   std::vector<Eigen::Index> numbers;

@@ -8,7 +8,6 @@
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/diagnosis.h"
 #include "diagnosis/statistics/evidence.h"
-#include "diagnosis/statistics/null_calibration.h"
 
 namespace fathom {
 
@@ -26,20 +25,11 @@ std::vector<Stratum> list_strata(const std::vector<Observation>& observations);
 /// Whitened indicators, n × strata: |column|⁻¹ is the standard error of a stratum's mean by generalised least squares.
 Eigen::MatrixXd stratum_columns(const std::vector<Stratum>& strata, const Covariance& covariance);
 
-struct SignificantStratum {
-  Eigen::Index number = 0;
-  double z = 0.0, p = 1.0;  ///< of what those before it leave
-};
-
 /// Strata with a significant mean, one after the other: the most significant is taken out before the next is sought
-/// (so a main effect does not return as ten interactions), until none has p < `level` by `tail`. `dof` is that of the
-/// columns' variances.
-std::vector<SignificantStratum> significant_strata(const Eigen::MatrixXd& columns, const Eigen::VectorXd& dof,
-                                                   Eigen::VectorXd residual, const MaximumTail& tail, double level);
-
-/// These in the order of their shares of the gap, with the means that all of them have together.
+/// (so a main effect does not return as ten interactions), until none has p < `level`, all strata that were looked at
+/// counted (Bonferroni). `dof` is that of the columns' variances. In the order of their shares of the gap, with the
+/// means that all of them have together.
 std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
-                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, const MaximumTail& tail,
-                                double level);
+                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, double level);
 
 }  // namespace fathom

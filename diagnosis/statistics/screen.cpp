@@ -28,7 +28,7 @@ struct Products {
 
 class Screening {
  public:
-  Screening(const Problem& problem, int keep) : problem_(problem), keep_(keep), best_(kLargestSet) {
+  Screening(const Problem& problem, int keep, std::size_t largest) : problem_(problem), keep_(keep), best_(largest) {
     products_.emplace_back(problem, Leeway{});
     for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {
       is_seen_.push_back(!problem.signatures(Eigen::all, problem.columns[effect]).isZero(0.0));
@@ -45,7 +45,7 @@ class Screening {
       if (is_said(problem_, effects, effect)) continue;
       effects.push_back(effect);
       consider(effects);
-      if (effects.size() < kLargestSet) extend(effects);
+      if (effects.size() < best_.size()) extend(effects);
       effects.pop_back();
     }
   }
@@ -97,8 +97,8 @@ class Screening {
 
 }  // namespace
 
-std::vector<Hypothesis> screen(const Problem& problem, int keep) {
-  Screening screening(problem, keep);
+std::vector<Hypothesis> screen(const Problem& problem, int keep, std::size_t largest) {
+  Screening screening(problem, keep, largest);
   std::vector<int> effects;
   screening.extend(effects);
   return screening.result();

@@ -9,10 +9,6 @@ namespace fathom {
 
 namespace {
 
-/// As if the size of a model's error had been found with so many degrees of freedom: it may well be twice as large, …
-constexpr double kThoughtDof = 10.0;
-constexpr double kMost = 2.0;  // … and no more: what is larger is no error of the model but something that it lacks
-
 /// Means of the cells (equal conditions, observable and region): nothing that follows tells a cell's members apart.
 struct Cells {
   Eigen::MatrixXd means;  ///< cells × observations
@@ -67,7 +63,7 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
                                    0.0,
                                    {shared.group_of, count},
                                    Eigen::VectorXd::Ones(static_cast<Eigen::Index>(evidence.observations.size()))});
-      priors.push_back({shared.sigma * shared.sigma, kThoughtDof});
+      priors.push_back({shared.sigma * shared.sigma, kModelDof});
     }
     if (errors.components.empty()) continue;
     const Cells cells(evidence, rows);
@@ -82,7 +78,7 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     Eigen::VectorXd shares(fit.variances.size());
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
       const double found = fit.variances[static_cast<Eigen::Index>(k)];
-      errors.components[k].variance = std::min(found, kMost * kMost * priors[k].variance);
+      errors.components[k].variance = std::min(found, kMostOfModel * priors[k].variance);
       shares[static_cast<Eigen::Index>(k)] = found > 0.0 ? errors.components[k].variance / found : 1.0;
     }
     errors.covariance = shares.asDiagonal() * fit.covariance * shares.asDiagonal();

@@ -6,6 +6,11 @@
 
 namespace fathom {
 
+/// How well the sizes of a model's errors are known beforehand: as if each had been found with so many degrees of
+/// freedom (bench/model_errors.py: from one simulated device to another they differ by a factor of two), and no error
+/// of the model is more than twice as large: what is larger is something that the model lacks.
+inline constexpr double kModelDof = 5.0, kMostOfModel = 4.0;  ///< the second of the variance
+
 /// The components of the evidence's shared errors, those of one observable together, by restricted maximum likelihood
 /// of what no candidate's signature and no constant can change. `known` (n × n) is the covariance from all else. Where
 /// few such contrasts are left, a component stays as large as it was thought to be.

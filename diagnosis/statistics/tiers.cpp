@@ -58,10 +58,8 @@ Diagnosis joined_tiers(Diagnosis by_all, Diagnosis by_deciding, const Evidence& 
                        [&](const Observation& o) { return o.only_names && o.observable == where.observable; });
   };
   if (!by_all.ambiguity_set.empty() && !by_all.ambiguity_set.front().effects.empty() &&
-      by_all.ambiguity_set.front().effects.back() != "unknown") {
+      by_all.ambiguity_set.front().effects.back() != "unknown")
     by_deciding.beside_effects = by_all.ambiguity_set.front().effects;
-    by_deciding.beside_lacks = by_all.lacks_anew;
-  }
   std::copy_if(by_all.where.begin(), by_all.where.end(), std::back_inserter(by_deciding.beside), only_names);
   return by_deciding;
 }

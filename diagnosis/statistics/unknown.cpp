@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "diagnosis/statistics/groups.h"
-#include "diagnosis/statistics/smooth_score.h"
 
 namespace fathom {
 
@@ -90,16 +89,13 @@ std::string sparse_formula(const Evidence& evidence, const Covariance& covarianc
 }  // namespace
 
 UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covariance, const Problem& problem,
-                              const GapShapes& shapes, const Eigen::VectorXd& residual,
+                              const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& explained) {
   UnknownShape shape;
   shape.formula = sparse_formula(evidence, covariance, residual, explained);
-  Eigen::MatrixXd smooth = shapes.smooth, signatures = problem.signatures;
-  if (explained.cols() > 0) {
-    smooth -= explained * (explained.transpose() * smooth);
-    signatures -= explained * (explained.transpose() * signatures);
-  }
-  const Eigen::VectorXd map = smooth_map(shapes.smooth_factor, smooth, residual);
+  Eigen::MatrixXd signatures = problem.signatures;
+  if (explained.cols() > 0) signatures -= explained * (explained.transpose() * signatures);
+  const Eigen::VectorXd map = smooth_map(discrepancy, residual, explained);
   shape.map.assign(map.data(), map.data() + map.size());
   const Eigen::VectorXd smoothed = covariance.whiten(map);
   for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {

@@ -5,15 +5,15 @@
 
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/diagnosis.h"
+#include "diagnosis/statistics/discrepancy.h"
 #include "diagnosis/statistics/evidence.h"
-#include "diagnosis/statistics/gap_test.h"
 #include "diagnosis/statistics/problem.h"
 
 namespace fathom {
 
 /// `residual` whitened, with what was named (the span of `explained`, orthonormal) projected out.
 UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covariance, const Problem& problem,
-                              const GapShapes& shapes, const Eigen::VectorXd& residual,
+                              const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& explained);
 
 }  // namespace fathom

@@ -10,18 +10,18 @@ bool says(const Diagnosis& diagnosis, std::string_view words) {
   return answer(diagnosis).find(words) != std::string::npos;
 }
 
-Diagnosis agreement(double p) {
+Diagnosis agreement(double probability) {
   Diagnosis diagnosis;
   diagnosis.verdict = Verdict::none;
-  diagnosis.p_gap = p;
+  diagnosis.probability_of_none = probability;
   diagnosis.budget.push_back({"water, 20 mm, at (0, 300) mm", "height_mm"});
   return diagnosis;
 }
 
 TEST(DiagnosisWords, AgreementThatHardlyHoldsIsSaidLessRoundly) {
-  EXPECT_TRUE(says(agreement(0.2), "agree within their errors"));
-  EXPECT_FALSE(says(agreement(0.005), "agree within their errors"));
-  EXPECT_TRUE(says(agreement(0.005), "nothing is sure enough to be named"));
+  EXPECT_TRUE(says(agreement(0.9), "agree within their errors"));
+  EXPECT_FALSE(says(agreement(0.2), "agree within their errors"));
+  EXPECT_TRUE(says(agreement(0.2), "nothing is sure enough to be named"));
 }
 
 TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {

@@ -28,7 +28,8 @@ TEST_P(RealDesks, NameWhatTheModelLacks) {
            std::any_of(e.supersets.begin(), e.supersets.end(), holds_it);
   };
   const Diagnosis& diagnosis = found->diagnosis;
-  EXPECT_TRUE(std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), is_it));
+  EXPECT_TRUE(std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), is_it))
+      << json_from(diagnosis)["ambiguity_set"].dump();
   EXPECT_TRUE(std::any_of(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), leaves_it_open))
       << json_from(diagnosis)["ambiguity_set"].dump();
   EXPECT_LT(found->after, 1.0);  // in errors: the gap is closed

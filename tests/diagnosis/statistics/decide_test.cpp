@@ -10,7 +10,6 @@
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/diagnosis_json.h"
 #include "diagnosis/statistics/groups.h"
-#include "diagnosis/statistics/options.h"
 #include "diagnosis/statistics/scan.h"
 #include "diagnosis/statistics/sufficiency.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
@@ -146,18 +145,6 @@ TEST(Decide, AnEffectFarFromTypicalIsMeasuredAsWell) {
   EXPECT_GE(covered, 3);  // of four 95 % intervals two or more miss once in 70 times
 }
 
-TEST(Decide, WhatAnEffectExplainsIsNotUnknownEvenWhereNoTestConfirmsIt) {
-  const World world(small_design());
-  const EffectValue truth = world.at_strength("radial_distortion", 15.0, 1.0);
-  DecisionSettings settings;
-  settings.p_confirmation = 0.0;
-  const Diagnosis diagnosis = decide(world.measure({truth}, {}, 11), world.predict(), {}, settings);
-  EXPECT_EQ(diagnosis.verdict, Verdict::ambiguous);
-  ASSERT_FALSE(diagnosis.ambiguity_set.empty());
-  EXPECT_EQ(diagnosis.ambiguity_set[0].effects, std::vector<std::string>{"radial_distortion"});
-  EXPECT_TRUE(diagnosis.effects.empty());
-}
-
 TEST(Decide, LeavesTwinsOpen) {
   const World world(small_design());
   const EffectValue truth = world.at_strength("cup_bottom_height", 12.0, 1.0);
@@ -207,7 +194,7 @@ TEST(Decide, TakesADriftForNoScatterOfPours) {
   EXPECT_EQ(diagnosis.effects[0].name, "thermal_drift");
   // Nor where nobody knows of it.
   std::erase_if(evidence.candidates, [](const Candidate& c) { return c.effect == "thermal_drift"; });
-  EXPECT_LT(decide(evidence, world.predict()).p_gap, 1e-4);
+  EXPECT_LT(decide(evidence, world.predict()).probability_of_none, 1e-4);
 }
 
 TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
@@ -251,8 +238,7 @@ TEST(Locate, PutsFirstWhereMostOfTheGapIsThoughItShowsOnlyWithoutTheRest) {
   // Whitened: errors that both share hide the second.
   const Eigen::MatrixXd columns{{1.0, 0.8}, {0.0, -0.6}};
   const Eigen::Vector2d residual(6.0, 7.0);
-  const std::vector<GapLocation> where =
-      locate(strata, columns, Eigen::Vector2d(50, 50), residual, MaximumTail{}, 0.01);
+  const std::vector<GapLocation> where = locate(strata, columns, Eigen::Vector2d(50, 50), residual, 0.01);
   ASSERT_EQ(where.size(), 2U);
   EXPECT_EQ(where[0].stratum, "fill_mm=40");
   EXPECT_NEAR(where[0].share_of_gap, 49.0 / (85 - 2), 1e-12);
@@ -273,13 +259,13 @@ TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
   }
 }
 
-TEST(Decide, DoesNotNameWhatIsSmallBesideSomethingUnknown) {
+TEST(Decide, NamesNothingThatIsNotThereBesideSomethingLargeAndUnknown) {
   const World world(small_design());
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const EffectValue truth = world.at_strength("radial_distortion", 12.0, 1.0);
     const Diagnosis diagnosis = decide(world.measure({truth}, {}, seed, world.escaping(60.0, seed)), world.predict());
-    EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
-    EXPECT_TRUE(diagnosis.effects.empty());
+    EXPECT_TRUE(diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown);
+    for (const NamedEffect& effect : diagnosis.effects) EXPECT_EQ(effect.name, "radial_distortion") << seed;
   }
 }
 
@@ -315,23 +301,6 @@ TEST(AmbiguitySet, WhatAddsToAnExplanationIsNoTwinOfIt) {
   ASSERT_EQ(set.classes.size(), 1U);
   EXPECT_EQ(set.classes[0].options.size(), 2U);
   EXPECT_EQ(set.classes[0].supersets.size(), 1U);
-}
-
-/// Several effects may together look like something that the list lacks, the better the more they are.
-TEST(AmbiguitySet, HoldsWhatACrowdMayImitate) {
-  const auto unknown_of = [](const std::vector<int>& effects, bool has_unknown, bool is_tested = false) {
-    const Eigen::VectorXd parameters = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(effects.size()));
-    const Option option{effects, parameters, has_unknown, 30.0, Eigen::VectorXd::Constant(1, 9.0)};
-    for (const AmbiguityClass& one : ambiguity_set(with_imitated({option}, is_tested), {0, 1, 2, 3}, 7.0).classes)
-      if (one.options.front().has_unknown && one.options.front().effects.empty()) return one.probability;
-    return 0.0;
-  };
-  EXPECT_EQ(unknown_of({}, false), 0.0);
-  EXPECT_EQ(unknown_of({1}, false), 0.0);
-  EXPECT_NEAR(unknown_of({1, 2}, false), 1.0 / 7.0, 1e-9);
-  EXPECT_NEAR(unknown_of({1, 2, 3}, false), 4.0 / 7.0, 1e-9);
-  EXPECT_NEAR(unknown_of({1, 2, 3}, false, true), 3.0 / 7.0, 1e-9) << "what passed all tests stays before it";
-  EXPECT_EQ(unknown_of({1, 2}, true), 1.0) << "of which these may be a part";
 }
 
 TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationGoesWithIt) {

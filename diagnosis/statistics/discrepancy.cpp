@@ -1,0 +1,214 @@
+#include "diagnosis/statistics/discrepancy.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "diagnosis/statistics/box_least_squares.h"
+#include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/problem.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr Eigen::Index kRank = 120;
+constexpr double kEnough = 1e-3;  // of the process's variance may be left out
+constexpr std::array<double, 8> kSizes{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};  // times the errors
+
+struct Place {
+  int observable, liquid, region;
+  Eigen::Vector3d position;  ///< fill, distance, lateral over their ranges
+  double size;
+};
+
+/// 1 σ of a single observation beyond what nuisances make: mean of its observable.
+Eigen::VectorXd typical_errors(const Evidence& evidence, const Covariance& covariance) {
+  Eigen::VectorXd result(covariance.total.rows());
+  const Eigen::VectorXd variances = covariance.total.diagonal() - covariance.nuisance.rowwise().squaredNorm();
+  const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
+  for (const auto& rows : observables.members()) result(rows).setConstant(std::sqrt(variances(rows).mean()));
+  return result;
+}
+
+std::vector<Place> places(const Evidence& evidence, const Eigen::VectorXd& errors) {
+  const auto& observations = evidence.observations;
+  const Eigen::MatrixXd x = places_in_ranges(observations);
+  const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
+  const Groups liquids = group_by(observations, [](const Observation& o) { return "=" + o.factors.liquid; });
+  const Groups regions = group_by(observations, [](const Observation& o) { return "=" + o.factors.region; });
+  std::vector<Place> result;
+  for (Eigen::Index i = 0; i < errors.size(); ++i)
+    result.push_back({observables.of[i], liquids.of[i], regions.of[i], x.row(i).transpose(), errors[i]});
+  return result;
+}
+
+double kernel(const Place& a, const Place& b, double shared) {
+  if (a.observable != b.observable) return 0.0;
+  const double same = (a.liquid == b.liquid ? 1.0 : shared) * (a.region == b.region ? 1.0 : shared);
+  return a.size * b.size * same * std::exp(-0.5 * (a.position - b.position).squaredNorm());
+}
+
+Eigen::MatrixXd smooth_factor(const std::vector<Place>& at, double shared) {
+  const auto n = static_cast<Eigen::Index>(at.size());
+  Eigen::VectorXd left(n), relative(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    left[i] = kernel(at[i], at[i], shared);
+    relative[i] = 1.0 / left[i];
+  }
+  Eigen::MatrixXd factor(n, std::min(n, kRank));
+  Eigen::Index rank = 0;
+  while (rank < factor.cols()) {
+    Eigen::Index pivot = 0;
+    if (left.cwiseProduct(relative).maxCoeff(&pivot) < kEnough) break;
+    for (Eigen::Index i = 0; i < n; ++i) factor(i, rank) = kernel(at[i], at[pivot], shared);
+    factor.col(rank) -= factor.leftCols(rank) * factor.row(pivot).head(rank).transpose();
+    factor.col(rank) /= std::sqrt(left[pivot]);
+    left -= factor.col(rank).cwiseAbs2();
+    ++rank;
+  }
+  return factor.leftCols(rank);
+}
+
+/// The directions of some whitened columns, orthonormal, and the process's variance along each at size 1.
+class Spectrum {
+ public:
+  explicit Spectrum(const Eigen::MatrixXd& columns) {
+    constexpr double kNothing = 1e-9;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
+    const Eigen::Index count = (eigen.eigenvalues().array() > kNothing).count();
+    values_ = eigen.eigenvalues().tail(count);
+    to_weights_ = eigen.eigenvectors().rightCols(count) * values_.rsqrt().matrix().asDiagonal();
+    along_ = columns * to_weights_;
+  }
+
+  double half_log_det(double size) const { return 0.5 * (1.0 + size * size * values_).log().sum(); }
+
+  /// x in units of errors and process together.
+  Eigen::MatrixXd whiten(double size, const Eigen::MatrixXd& x) const {
+    const Eigen::VectorXd less = 1.0 - (1.0 + size * size * values_).rsqrt();
+    return x - along_ * (less.asDiagonal() * (along_.transpose() * x));
+  }
+
+  /// What the process's mean leaves of a residual.
+  Eigen::VectorXd errors(double size, const Eigen::VectorXd& residual) const {
+    return residual - along_ * (share(size) * (along_.transpose() * residual).array()).matrix();
+  }
+
+  /// Of the columns, in the process's mean.
+  Eigen::VectorXd weights(double size, const Eigen::VectorXd& residual) const {
+    return to_weights_ * (share(size) * (along_.transpose() * residual).array()).matrix();
+  }
+
+  double log_evidence(double size, const Eigen::VectorXd& residual) const {
+    return 0.5 * (share(size) * (along_.transpose() * residual).array().square()).sum() - half_log_det(size);
+  }
+
+ private:
+  Eigen::ArrayXd share(double size) const { return 1.0 - 1.0 / (1.0 + size * size * values_); }
+
+  Eigen::ArrayXd values_;
+  Eigen::MatrixXd along_, to_weights_;
+};
+
+/// A process of some columns at one size beside effects.
+Beside beside(const Spectrum& columns, double size, const VarianceProfile& variances, const LinearEffects& effects) {
+  const Eigen::VectorXd y = columns.whiten(size, effects.response);
+  const Eigen::MatrixXd J = columns.whiten(size, effects.jacobian);
+  Beside result;
+  result.gram = J.transpose() * J;
+  result.parameters = effects.parameters;
+  Eigen::VectorXd rest = y;
+  if (J.cols() > 0) {
+    Eigen::MatrixXd with_prior = result.gram;
+    with_prior.diagonal() += prior_precisions(effects.parameters);
+    result.parameters = box_least_squares(with_prior, J.transpose() * y, effects.lower, effects.upper);
+    rest -= J * result.parameters;
+  }
+  result.gain = y.squaredNorm() - rest.squaredNorm();
+  const Eigen::VectorXd errors = columns.errors(size, effects.response - effects.jacobian * result.parameters);
+  result.log_likelihood = 0.5 * (effects.response.squaredNorm() - y.squaredNorm()) - columns.half_log_det(size) +
+                          variances.log_factor(errors);
+  return result;
+}
+
+Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& explained) {
+  return explained.cols() == 0 ? columns : columns - explained * (explained.transpose() * columns);
+}
+
+}  // namespace
+
+Discrepancy discrepancy_of(const Evidence& evidence, const std::vector<Stratum>& strata, const Covariance& covariance) {
+  const Eigen::VectorXd errors = typical_errors(evidence, covariance);
+  Discrepancy result;
+  const std::vector<Place> at = places(evidence, errors);
+  result.smooth_factor = smooth_factor(at, 0.5);
+  result.smooth = covariance.whiten(result.smooth_factor);
+  result.apart = covariance.whiten(smooth_factor(at, 0.0));
+  std::vector<const Stratum*> main;
+  for (const Stratum& stratum : strata)
+    if (stratum.is_main) main.push_back(&stratum);
+  result.strata = Eigen::MatrixXd::Zero(errors.size(), static_cast<Eigen::Index>(main.size()));
+  for (std::size_t k = 0; k < main.size(); ++k)
+    for (const Eigen::Index row : main[k]->rows) result.strata(row, static_cast<Eigen::Index>(k)) = errors[row];
+  result.strata = covariance.whiten(result.strata);
+  return result;
+}
+
+std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, const VarianceProfile& variances,
+                                              const LinearEffects& effects) {
+  constexpr std::size_t kLikeliest = 6;  // strata: these stand for all
+  std::vector<std::pair<double, Beside>> result;
+  const auto add = [&](const Eigen::MatrixXd& columns, double weight) {
+    const Spectrum spectrum(columns);
+    for (const double size : kSizes)
+      result.emplace_back(std::log(weight / static_cast<double>(kSizes.size())),
+                          beside(spectrum, size, variances, effects));
+  };
+  add(discrepancy.smooth, 0.25);
+  add(discrepancy.apart, 0.25);
+  const Eigen::MatrixXd explained = orthonormal(effects.jacobian);
+  const Eigen::MatrixXd strata = without(discrepancy.strata, explained);
+  const Eigen::ArrayXd squares = strata.colwise().squaredNorm().transpose();
+  const Eigen::ArrayXd z2 = (strata.transpose() * effects.response).array().square() / squares.max(1e-12);
+  std::vector<Eigen::Index> order(strata.cols());
+  std::iota(order.begin(), order.end(), 0);
+  const auto few = order.begin() + static_cast<std::ptrdiff_t>(std::min(kLikeliest, order.size()));
+  std::partial_sort(order.begin(), few, order.end(), [&](auto a, auto b) { return z2[a] > z2[b]; });
+  for (auto k = order.begin(); k != few; ++k) add(discrepancy.strata.col(*k), 0.5 / static_cast<double>(order.size()));
+  return result;
+}
+
+Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
+                              const Eigen::MatrixXd& x) {
+  const Eigen::ArrayXd z2 = (discrepancy.strata.transpose() * residual).array().square() /
+                            discrepancy.strata.colwise().squaredNorm().transpose().array().max(1e-12);
+  std::vector<Spectrum> spectra{Spectrum(discrepancy.smooth), Spectrum(discrepancy.apart)};
+  if (Eigen::Index clearest = 0; z2.size() > 0) {
+    z2.maxCoeff(&clearest);
+    spectra.emplace_back(discrepancy.strata.col(clearest));
+  }
+  double best = -INFINITY;
+  Eigen::MatrixXd result;
+  for (const Spectrum& spectrum : spectra)
+    for (const double size : kSizes)
+      if (const double evidence = spectrum.log_evidence(size, residual); evidence > best) {
+        best = evidence;
+        result = spectrum.whiten(size, x);
+      }
+  return result;
+}
+
+Eigen::VectorXd smooth_map(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
+                           const Eigen::MatrixXd& explained) {
+  const Spectrum spectrum(without(discrepancy.smooth, explained));
+  const Eigen::VectorXd left = without(residual, explained);
+  const double best = *std::max_element(kSizes.begin(), kSizes.end(), [&](double a, double b) {
+    return spectrum.log_evidence(a, left) < spectrum.log_evidence(b, left);
+  });
+  return discrepancy.smooth_factor * spectrum.weights(best, left);
+}
+
+}  // namespace fathom

@@ -1,0 +1,221 @@
+#include "diagnosis/statistics/posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/statistics/log_sum.h"
+#include "diagnosis/statistics/screen.h"
+
+namespace fathom {
+
+namespace {
+
+const double kLogPriorUnknown = std::log(0.1);  // that something is there which no list holds
+constexpr int kKept = 60;                       // sets of each size that are considered, …
+constexpr double kHopeless = 12.0;              // … unless that far below the best in linear log evidence, …
+constexpr std::size_t kRefitted = 8;            // … and refitted, likeliest first
+constexpr std::size_t kWithUnknown = 5;         // likeliest sets that are also considered beside a discrepancy
+
+/// Sets of effects by their signatures alone, likeliest first.
+std::vector<Hypothesis> screened(const Case& c) {
+  std::vector<Hypothesis> hypotheses = screen(c.problem, kKept);
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence > b.log_evidence; });
+  return hypotheses;
+}
+
+/// Effects with leeway of which a refit left nothing: by their signatures alone they pass for what their leeway is.
+std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits) {
+  std::vector<int> result;
+  for (const Refit& fit : fits)
+    for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e)
+      if (const int effect = fit.hypothesis.effects[e]; problem.leeways[effect].log_det > 0.0 &&
+                                                        part_of(problem, fit.hypothesis, {e}).parameters.isZero(0.0) &&
+                                                        !holds_any({effect}, result))
+        result.push_back(effect);
+  return result;
+}
+
+/// With the variances' uncertainty, which belongs to what a set leaves.
+Refit fitted(const Case& c, const Hypothesis& hypothesis) {
+  Refit fit = refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis);
+  fit.hypothesis.log_evidence += c.variances.log_factor(c.problem.residual - fit.prediction);
+  return fit;
+}
+
+void sort_by_evidence(std::vector<Refit>& fits) {
+  std::stable_sort(fits.begin(), fits.end(), [](const Refit& a, const Refit& b) {
+    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
+  });
+}
+
+/// Where signatures are no straight lines, others come in that only bend them: each of the likeliest fit's effects is
+/// left out in turn, as long as that makes a likelier one.
+void add_without_one(const Case& c, std::vector<Refit>& fits) {
+  for (bool is_better = true; is_better;) {
+    const Hypothesis likeliest = fits.front().hypothesis;
+    if (likeliest.effects.size() < 2) return;
+    for (std::size_t left_out = 0; left_out < likeliest.effects.size(); ++left_out) {
+      std::vector<std::size_t> others;
+      for (std::size_t e = 0; e < likeliest.effects.size(); ++e)
+        if (e != left_out) others.push_back(e);
+      const Hypothesis less = part_of(c.problem, likeliest, others);
+      const bool is_known =
+          std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == less.effects; });
+      if (!is_known) fits.push_back(fitted(c, less));
+    }
+    sort_by_evidence(fits);
+    is_better = fits.front().hypothesis.effects != likeliest.effects;
+  }
+}
+
+/// The likeliest sets, the empty one among them.
+std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& hypotheses) {
+  Refit nothing;
+  nothing.prediction = nothing.change = Eigen::VectorXd::Zero(c.problem.residual.size());
+  nothing.jacobian.resize(c.problem.residual.size(), 0);
+  nothing.hypothesis.log_evidence = c.variances.log_factor(c.problem.residual);
+  std::vector<Refit> result{std::move(nothing)};
+  for (const Hypothesis& hypothesis : hypotheses) {
+    const std::vector<int> gone = vanished(c.problem, result);
+    if (holds_any(hypothesis.effects, gone)) continue;
+    const auto best = std::find_if(hypotheses.begin(), hypotheses.end(),
+                                   [&](const Hypothesis& h) { return !holds_any(h.effects, gone); });
+    if (hypothesis.log_evidence > std::max(0.0, best->log_evidence) - kHopeless &&
+        result.size() <= kRefitted + gone.size())
+      result.push_back(fitted(c, hypothesis));
+  }
+  sort_by_evidence(result);
+  add_without_one(c, result);
+  return result;
+}
+
+Option option_of(const Refit& fit) {
+  return {fit.hypothesis.effects, fit.hypothesis.parameters, false, fit.hypothesis.log_evidence, fit.prediction};
+}
+
+Option beside_unknown(const Case& c, const Refit& fit) {
+  Option option = option_of(fit);
+  option.has_unknown = true;
+  const Eigen::VectorXd& at = fit.hypothesis.parameters;
+  const std::vector<Eigen::Index> columns = columns_of(c.problem, option.effects);
+  const Leeway leeway = leeway_beside(c.problem, option.effects, at);
+  const LinearEffects effects{leeway.whiten(c.problem.residual - fit.change + fit.jacobian * at),
+                              leeway.whiten(fit.jacobian), at, c.problem.lower(columns), c.problem.upper(columns)};
+  std::vector<double> logs;
+  for (const auto& [log_weight, one] : beside(c.discrepancy, c.variances, effects))
+    logs.push_back(log_weight + one.log_likelihood +
+                   log_evidence(c.problem, one.gain, option.effects, one.parameters, one.gram));
+  // Where signatures bend, the linear response is not what was measured.
+  option.log_posterior = kLogPriorUnknown + log_sum(logs) +
+                         0.5 * (c.problem.residual.squaredNorm() - effects.response.squaredNorm() - leeway.log_det);
+  return option;
+}
+
+/// Sets that are likely beside a discrepancy, though alone they leave too much: where a discrepancy may be had, fewer
+/// effects do.
+std::vector<Hypothesis> screened_beside_unknown(const Case& c) {
+  constexpr int kOfEachSize = 2;
+  constexpr std::size_t kLargest = 2;
+  Problem beside = c.problem;
+  beside.residual = whiten_beside(c.discrepancy, c.problem.residual, c.problem.residual);
+  beside.signatures = whiten_beside(c.discrepancy, c.problem.residual, c.problem.signatures);
+  std::vector<Hypothesis> sets = screen(beside, kOfEachSize, kLargest);
+  std::erase_if(sets, [](const Hypothesis& h) { return h.log_evidence < 0.0; });
+  return sets;
+}
+
+/// A fit beside an effect of which there is next to nothing.
+Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
+  const auto columns = c.problem.signatures(Eigen::all, c.problem.columns[effect]);
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(columns.cols());
+  Option option = option_of(fit);
+  option.log_posterior += log_evidence(c.problem, 0.0, {effect}, nothing, columns.transpose() * columns);
+  const auto place = std::upper_bound(option.effects.begin(), option.effects.end(), effect);
+  const auto before = static_cast<Eigen::Index>(columns_of(c.problem, {option.effects.begin(), place}).size());
+  option.effects.insert(place, effect);
+  const Eigen::VectorXd& there = fit.hypothesis.parameters;
+  option.parameters.resize(there.size() + nothing.size());
+  option.parameters << there.head(before), nothing, there.tail(there.size() - before);
+  return option;
+}
+
+/// What was not worth a refit may still not be excluded: sets by their signatures; then effects that do not show in
+/// these observations, or of which the likeliest amount is none, beside each fit.
+void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
+                  std::vector<Option>& options) {
+  const double least = likeliest(options).log_posterior - c.settings.delta;
+  std::set<std::vector<int>> known;
+  for (const Refit& fit : fits) known.insert(fit.hypothesis.effects);
+  const std::vector<int> gone = vanished(c.problem, fits);
+  for (const Hypothesis& h : hypotheses) {
+    if (holds_any(h.effects, gone) || !known.insert(h.effects).second) continue;
+    Option option{h.effects, h.parameters, false, h.log_evidence,
+                  c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters};
+    const Eigen::VectorXd rest = c.problem.residual - option.prediction;
+    option.log_posterior +=
+        c.variances.log_factor(rest - leeway_beside(c.problem, h.effects, h.parameters).share_in(rest));
+    if (option.log_posterior > least) options.push_back(std::move(option));
+  }
+  for (const Refit& fit : fits)
+    for (int effect = 0; effect < static_cast<int>(c.problem.columns.size()); ++effect) {
+      if (fit.hypothesis.log_evidence < least || is_said(c.problem, fit.hypothesis.effects, effect)) continue;
+      if (Option more = with_nothing_of(c, effect, fit);
+          more.log_posterior > least && known.insert(more.effects).second)
+        options.push_back(std::move(more));
+    }
+}
+
+}  // namespace
+
+const Refit& Posterior::fit_of(const std::vector<int>& effects) const {
+  return *std::find_if(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == effects; });
+}
+
+Posterior posterior_of(const Case& c) {
+  const std::vector<Hypothesis> hypotheses = screened(c);
+  Posterior posterior{{}, likeliest_fits(c, hypotheses)};
+  std::set<std::vector<int>> beside{{}};
+  for (std::size_t k = 0; k < std::min(kWithUnknown, posterior.fits.size()); ++k)
+    beside.insert(posterior.fits[k].hypothesis.effects);
+  for (const Hypothesis& h : screened_beside_unknown(c)) {
+    beside.insert(h.effects);
+    if (std::none_of(posterior.fits.begin(), posterior.fits.end(),
+                     [&](const Refit& f) { return f.hypothesis.effects == h.effects; }))
+      posterior.fits.push_back(fitted(c, h));
+  }
+  sort_by_evidence(posterior.fits);
+  for (const Refit& fit : posterior.fits) {
+    posterior.options.push_back(option_of(fit));
+    if (beside.contains(fit.hypothesis.effects)) posterior.options.push_back(beside_unknown(c, fit));
+  }
+  add_unfitted(c, hypotheses, posterior.fits, posterior.options);
+  return posterior;
+}
+
+Shares shares_of(const std::vector<Option>& options) {
+  const double best = likeliest(options).log_posterior;
+  Shares shares;
+  double sum = 0.0;
+  for (const Option& o : options) {
+    const double weight = std::exp(o.log_posterior - best);
+    sum += weight;
+    if (o.has_unknown) shares.unknown += weight;
+    if (o.is_nothing()) shares.nothing += weight;
+  }
+  return {shares.nothing / sum, shares.unknown / sum};
+}
+
+double probability_of(int effect, const std::vector<Option>& options, const std::vector<int>& kinds) {
+  const double best = likeliest(options).log_posterior;
+  double with = 0.0, sum = 0.0;
+  for (const Option& o : options) {
+    const double weight = std::exp(o.log_posterior - best);
+    sum += weight;
+    if (kinds_of(o, kinds).contains(kinds[effect])) with += weight;
+  }
+  return with / sum;
+}
+
+}  // namespace fathom
