@@ -44,7 +44,7 @@ def main():
     for cloud in args.clouds:
         report = diagnosed(args, cloud)
         silent += report["verdict"] == "none"
-        print(f"{cloud.stem}  {report['verdict']}  p = {report['p_gap']:.2g}", flush=True)
+        print(f"{cloud.stem}  {report['verdict']}  p of none = {report['probability_of_none']:.2g}", flush=True)
     print(f"none: {silent}/{len(args.clouds)}")
 
 
