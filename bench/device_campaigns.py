@@ -102,8 +102,8 @@ def main():
         truth = effect[0]["name"] if effect else "nothing"
         likeliest = report["ambiguity_set"][0] if report["ambiguity_set"] else {"effects": []}
         sets = [likeliest["effects"], *likeliest.get("indistinguishable", [])]
-        print(f"{number} {design} {sensor} {truth}: {report['verdict']} {effects} p of none {report['probability_of_none']:.2g}; first {sets}",
-              flush=True)
+        print(f"{number} {design} {sensor} {truth}: {report['verdict']} {effects} "
+              f"p of none {report['probability_of_none']:.2g}; first {sets}", flush=True)
         silent += is_null and report["verdict"] == "none"
         named += is_null and bool(effects)
         if not is_null:

@@ -10,12 +10,13 @@ photometric, odd ones geometric. Variances are found by restricted maximum likel
 what one placement has for itself: noise, and no error of the model. Needs NumPy (Debian: python3-numpy).
 Members whose residuals are in the folder already are not run again.
 """
-import argparse, csv, json, pathlib, random, shutil, subprocess, sys
+import argparse, csv, json, pathlib, random, shutil, sys
 import numpy as np
+
+from device_campaigns import PAINT, run
 
 SENSORS = ("xtion_pro_live_device", "kinect_v1_device", "xtion_pro_live")
 CUPS = {"paper_cup": 30, "mug": 25, "tapered_cup": 30}  # and a middle fill of each, in mm
-PAINT = {"index": 1.336, "absorption_per_mm": 0.003, "scattering_per_mm": 1000}
 BLOCKS = (7, 9, 11)  # columns or rows; the shipped devices have 9
 
 PLACE = ("lateral_mm", "distance_mm")
@@ -44,12 +45,6 @@ def member(number):
             "fillings": [{"liquid": "empty"}, *fillings], "distance_mm": [200, 300, 400],
             "lateral_mm": [-draw.choice((60, 80)), draw.choice((0, 40))], "pours": 2, "trials": 1, "bare_desk_views": 3,
             "fill_sigma_mm": 0, "mode": "geometric" if number % 2 else "photometric"}
-
-
-def run(command):
-    result = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit(f"error: {' '.join(map(str, command))}: {result.stderr.strip()}")
 
 
 def residuals(args, number):
@@ -109,7 +104,7 @@ def main():
     by_mode = {"geometric": [], "photometric": []}
     for number in range(args.first, args.first + args.members):
         by_mode[member(number)["mode"]].append(residuals(args, number))
-        print(f"member {number} of {args.members}", file=sys.stderr)
+        print(f"member {number}, the last is {args.first + args.members - 1}", file=sys.stderr)
     for observable, levels in LEVELS.items():
         for mode, members in by_mode.items():
             parts = [[row for row in rows if row["observable"] == observable] for rows in members]

@@ -15,8 +15,6 @@ struct Option {
   double log_posterior = 0.0;
   Eigen::VectorXd prediction;  ///< change against the nominal model, whitened; of the effects
 
-  double gain = 0.0;
-
   bool is_nothing() const { return effects.empty() && !has_unknown; }
   bool is_unknown_alone() const { return effects.empty() && has_unknown; }
   bool is_too_small() const;  ///< for all the data together to show

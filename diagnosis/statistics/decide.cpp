@@ -36,9 +36,8 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
 }
 
 /// The likeliest option's effects that are surely there, fitted by themselves; nothing where there are none.
-std::optional<Refit> sure_fit(const Case& c, const Posterior& posterior) {
+std::optional<Refit> sure_fit(const Case& c, const Posterior& posterior, const std::vector<int>& kinds) {
   const Option& best = likeliest(posterior.options);
-  const std::vector<int> kinds = kinds_of_candidates(c.evidence);
   std::vector<std::size_t> sure;
   for (std::size_t e = 0; e < best.effects.size(); ++e)
     if (probability_of(best.effects[e], posterior.options, kinds) > kSure) sure.push_back(e);
@@ -85,7 +84,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const std::vector<int> kinds = kinds_of_candidates(evidence);
   const Shares shares = shares_of(posterior.options);
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta);
-  const std::optional<Refit> sure = sure_fit(c, posterior);
+  const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);
   diagnosis.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);

@@ -134,6 +134,12 @@ Beside beside(const Spectrum& columns, double size, const VarianceProfile& varia
   return result;
 }
 
+/// z² of a residual along each column.
+Eigen::ArrayXd squared_scores(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual) {
+  const Eigen::ArrayXd squares = columns.colwise().squaredNorm().transpose();
+  return (columns.transpose() * residual).array().square() / squares.max(1e-12);
+}
+
 Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& explained) {
   return explained.cols() == 0 ? columns : columns - explained * (explained.transpose() * columns);
 }
@@ -171,8 +177,7 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
   add(discrepancy.apart, 0.25);
   const Eigen::MatrixXd explained = orthonormal(effects.jacobian);
   const Eigen::MatrixXd strata = without(discrepancy.strata, explained);
-  const Eigen::ArrayXd squares = strata.colwise().squaredNorm().transpose();
-  const Eigen::ArrayXd z2 = (strata.transpose() * effects.response).array().square() / squares.max(1e-12);
+  const Eigen::ArrayXd z2 = squared_scores(strata, effects.response);
   std::vector<Eigen::Index> order(strata.cols());
   std::iota(order.begin(), order.end(), 0);
   const auto few = order.begin() + static_cast<std::ptrdiff_t>(std::min(kLikeliest, order.size()));
@@ -183,8 +188,7 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
 
 Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& x) {
-  const Eigen::ArrayXd z2 = (discrepancy.strata.transpose() * residual).array().square() /
-                            discrepancy.strata.colwise().squaredNorm().transpose().array().max(1e-12);
+  const Eigen::ArrayXd z2 = squared_scores(discrepancy.strata, residual);
   std::vector<Spectrum> spectra{Spectrum(discrepancy.smooth), Spectrum(discrepancy.apart)};
   if (Eigen::Index clearest = 0; z2.size() > 0) {
     z2.maxCoeff(&clearest);

@@ -10,8 +10,8 @@
 namespace fathom {
 
 /// For every parameter of every candidate outside `named`, fitted beside the named ones (`residual` is what they leave,
-/// `explained` their orthonormal span): |estimate| + 1.96 standard errors, and the departure whose posterior odds are
-/// sure half of the time.
+/// `explained` their orthonormal span): |estimate| + 1.96 standard errors, and the departure that raises an alarm half
+/// of the time.
 std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& problem, const std::vector<int>& named,
                                      const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained);
 

@@ -119,8 +119,12 @@ std::vector<Hypothesis> screened_beside_unknown(const Case& c) {
   constexpr int kOfEachSize = 2;
   constexpr std::size_t kLargest = 2;
   Problem beside = c.problem;
-  beside.residual = whiten_beside(c.discrepancy, c.problem.residual, c.problem.residual);
-  beside.signatures = whiten_beside(c.discrepancy, c.problem.residual, c.problem.signatures);
+  const Eigen::Index signatures = beside.signatures.cols();
+  Eigen::MatrixXd both(beside.residual.size(), 1 + signatures);
+  both << beside.residual, beside.signatures;
+  both = whiten_beside(c.discrepancy, c.problem.residual, both);
+  beside.residual = both.col(0);
+  beside.signatures = both.rightCols(signatures);
   std::vector<Hypothesis> sets = screen(beside, kOfEachSize, kLargest);
   std::erase_if(sets, [](const Hypothesis& h) { return h.log_evidence < 0.0; });
   return sets;

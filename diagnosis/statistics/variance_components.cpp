@@ -182,7 +182,6 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     const MeanSpace means = mean_space(evidence, rows);
     const Eigen::MatrixXd& contrasts = means.contrasts;
     if (contrasts.cols() == 0) continue;
-    budget.residual_dof += static_cast<double>(contrasts.cols());
     if (evidence.observations[rows[0]].observable == "height_mm") budget.from_replicates = means.from_replicates;
     std::vector<VarianceComponent> components =
         candidates_of(evidence.observations[rows[0]].observable, evidence.observations);

@@ -34,7 +34,6 @@ struct ObservableErrors {
 struct ErrorBudget {
   Eigen::VectorXd repeat_variance;  ///< of each mean of repeats
   std::vector<ObservableErrors> observables;
-  double residual_dof = 0.0;    ///< contrasts from which the components were estimated
   bool from_replicates = true;  ///< of equal conditions; false: from what a smooth model leaves
 };
 
