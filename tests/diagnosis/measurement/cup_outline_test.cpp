@@ -14,7 +14,7 @@ constexpr double kNear = -0.5 * std::numbers::pi, kFar = 0.5 * std::numbers::pi;
 
 /// The paper's cup, 200 mm in front of a sensor.
 struct Outline : testing::Test {
-  const LaboratoryRig rig;
+  const LaboratoryRig rig{};
   OutlineFit fit{rig, {0.0, 0.200}, 0.0};
 
   /// Points 3° apart, 70° to either side of `towards`, on a circle of `radius` about `axis`, from `low` to `high`.
