@@ -17,19 +17,6 @@
 namespace fathom {
 namespace {
 
-/// Heights by liquid, fill, distance and lateral: neighbours in the picture are neighbours in the campaign.
-std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations) {
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    if (observations[i].observable == "height_mm") rows.push_back(i);
-  const auto key = [&](std::size_t row) {
-    const Factors& f = observations[row].factors;
-    return std::tie(f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm, f.region, f.session, f.placement);
-  };
-  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  return rows;
-}
-
 /// A label in the middle of each liquid's stretch, and a line between two.
 struct LiquidMarks {
   std::string commands, before_svg;  ///< as draw() takes them
@@ -89,6 +76,18 @@ std::map<std::string, Mean> means_by_region(const DiagnosedCampaign& campaign, s
 
 }  // namespace
 
+std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (observations[i].observable == "height_mm") rows.push_back(i);
+  const auto key = [&](std::size_t row) {
+    const Factors& f = observations[row].factors;
+    return std::tie(f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm, f.region, f.session, f.placement);
+  };
+  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return rows;
+}
+
 void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   Table table({"observable", "region", "session", "pour", "placement", "liquid", "fill_mm", "distance_mm", "lateral_mm",
                "measured", "before", "after", "sigma"});
@@ -131,11 +130,11 @@ plot 0 lc rgb ink notitle, \
 
 bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   const auto desk = means_by_region(campaign, "desk_residual_mm"), cup = means_by_region(campaign, "height_mm");
-  constexpr double kAfter = 8.0, kDesk = 3.5;  // where the right pair begins, and the second of each pair
-  double most = 1e-3;                          // [mm] of the colours' range
-  Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"});
+  constexpr double kBefore = 4.6, kDesk = 4.2;  // where the upper row begins, and the right column
+  double most = 1e-3;                           // [mm] of the colours' range
+  Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"}), unseen = sectors;
   for (const bool after : {false, true}) {
-    const double left = after ? kAfter : 0.0;
+    const double bottom = after ? 0.0 : kBefore;
     const auto value = [after, &most](const Mean& mean) {
       const double shown = (after ? mean.after : mean.before) / mean.count;
       most = std::max(most, std::abs(shown));
@@ -143,31 +142,43 @@ bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& camp
     };
     for (std::size_t i = 0; i < kDeskRegionNames.size(); ++i)
       if (const auto found = desk.find(std::string(kDeskRegionNames[i])); found != desk.end())
-        tiles.add({fmt::format("{}", left + kDesk + 0.5 + static_cast<double>(i % 3)),
-                   fmt::format("{}", 2.5 - static_cast<double>(i / 3)), value(found->second)});
+        tiles.add({fmt::format("{}", kDesk + 0.5 + static_cast<double>(i % 3)),
+                   fmt::format("{}", bottom + 2.5 - static_cast<double>(i / 3)), value(found->second)});
     // The centre last: it lies on the ring's sectors.
-    for (const std::size_t i : {1U, 2U, 3U, 4U, 0U})
-      if (const auto found = cup.find(std::string(kCupRegionNames[i])); found != cup.end()) {
-        const Tile& t = kCupTiles[i];
-        sectors.add({fmt::format("{}", left + t.x), fmt::format("{}", t.y), fmt::format("{}", t.radius),
-                     fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg), value(found->second)});
-      }
+    for (const std::size_t i : {1U, 2U, 3U, 4U, 0U}) {
+      const Tile& t = kCupTiles[i];
+      const auto found = cup.find(std::string(kCupRegionNames[i]));
+      (found != cup.end() ? sectors : unseen)
+          .add({fmt::format("{}", t.x), fmt::format("{}", bottom + t.y), fmt::format("{}", t.radius),
+                fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg),
+                found != cup.end() ? value(found->second) : "0"});
+    }
   }
   if (tiles.rows() == 0 || sectors.rows() == 0) return false;
   write_table(folder / "map_desk.csv", tiles);
   write_table(folder / "map_cup.csv", sectors);
+  if (unseen.rows() > 0) write_table(folder / "map_unseen.csv", unseen);
+  const std::string sector = "using 'x':'y':'radius':'from_deg':'to_deg'";
   draw(folder, "map",
        fmt::format(R"(
-set title 'Mean of measured minus model, by part of the cup and third of the image of the desk'
+set title 'Mean of measured minus model'
 unset border; unset xtics; unset ytics; unset grid; unset key
-set size ratio -1; set xrange [-0.3:14.8]; set yrange [-0.6:4]
+set size ratio -1; set xrange [-1.6:8]; set yrange [-0.8:8.6]
 set cblabel 'measured − model [mm]'; set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00')
 set cbrange [-{0}:{0}]
-set label 'before: cup' at 1.5, 3.4 center; set label 'desk' at 5, 3.4 center
-set label 'after: cup' at 9.5, 3.4 center; set label 'desk' at 13, 3.4 center
+set label 'inside the cup, from above' at 1.5, 8.2 center; set label 'desk, by third of the image' at 5.7, 8.2 center
+set label 'before' at -1.3, 6.1 center rotate by 90; set label 'after' at -1.3, 1.5 center rotate by 90
+set label '↓ the sensor is on this side' at 1.5, 4.2 center; set label '↓ the sensor is on this side' at 1.5, -0.4 center
+set label 'near the sensor' at 5.7, 4.2 center; set label 'near the sensor' at 5.7, -0.4 center
 plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb ink fillcolor palette, \
-     'map_cup.csv' using 'x':'y':'radius':'from_deg':'to_deg':'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)",
-                   most));
+     {1}'map_cup.csv' {2}:'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)",
+                   most,
+                   unseen.rows() > 0
+                       ? fmt::format("'map_unseen.csv' {} with circles fillstyle solid border lc rgb ink fillcolor rgb "
+                                     "'#D0D0D0', ",
+                                     sector)
+                       : "",
+                   sector));
   return true;
 }
 

@@ -4,9 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <set>
+#include <tuple>
 
 #include "app/diagnosis_pictures.h"
 #include "app/diagnosis_words.h"
+#include "app/heights_chart.h"
 #include "app/html.h"
 #include "app/observable_words.h"
 #include "core/files.h"
@@ -33,30 +37,52 @@ std::string mistakes_html(const Diagnosis& diagnosis) {
   return html_table({"mistake", "what was found, and put right for all that follows"}, rows);
 }
 
+/// The first rows stand; what follows them waits behind a click.
+std::string folded_table(const std::vector<std::string>& head, const Rows& rows) {
+  constexpr std::size_t kShown = 8;
+  const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, rows.size()));
+  std::string html = html_table(head, {rows.begin(), middle});
+  if (middle != rows.end())
+    html += fmt::format("<details><summary>{} more</summary>{}</details>\n", rows.end() - middle,
+                        html_table(head, {middle, rows.end()}));
+  return html;
+}
+
+std::string folded(const char* summary, const std::string& html) {
+  return fmt::format("<details><summary>{}</summary>\n{}</details>\n", summary, html);
+}
+
 std::string where_html(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) return paragraph("No part of the measurements departs from the model for sure.");
   Rows rows;
-  for (const GapLocation& where : diagnosis.where)
+  double left = 1.0;
+  for (const GapLocation& where : diagnosis.where) {
     rows.push_back({stratum_words(where),
-                    fmt::format("{:+.3g} ± {:.2g}{}", where.mean, where.sigma, observable_words(where.observable).unit),
+                    fmt::format("{:+.2g} ± {:.1g}{}", where.mean, where.sigma, observable_words(where.observable).unit),
                     fmt::format("{:.0f} %", 100 * where.share_of_gap), fmt::format("{:.1g}", where.p)});
-  return html_table({"where", "measured − model", "share of the gap", "p"}, rows);
+    left -= where.share_of_gap;
+  }
+  if (left >= 0.005)
+    rows.push_back({"elsewhere, too thinly spread to be placed", "", fmt::format("{:.0f} %", 100 * left), ""});
+  return paragraph("Each line is what the lines above it leave. The shares are of the whole gap, in squared errors.") +
+         html_table({"where", "measured − model", "share of the gap", "p that errors alone make it"}, rows);
 }
 
 std::string effects_html(const Diagnosis& diagnosis) {
   std::string html;
   for (const NamedEffect& named : diagnosis.effects) {
     const Effect* effect = find_effect(effect_name(named.name).id);
+    std::string sentence = effect_clause(named) + ".";
+    sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
     std::vector<std::string> lines;
     for (const NamedParameter& parameter : shown_parameters(named)) lines.push_back(parameter_words(parameter));
-    lines.push_back(fmt::format(
-        "it is there with a probability of {:.1f} %; p = {:.1g} that errors alone make as much for any of all "
-        "candidates; {:.1g} in conditions that had no part in finding its size",
-        100 * named.probability, named.p_discovery, named.p_confirmation));
-    if (effect && !effect->citation.empty()) lines.emplace_back(effect->citation);
-    html += fmt::format("<h3>{}</h3>\n", html_escaped(effect_words(named.name)));
-    if (effect) html += paragraph(std::string(effect->sentence));
-    html += list(lines);
+    lines.push_back(fmt::format("It is there with a probability of {:.1f} %.", 100 * named.probability));
+    lines.push_back(
+        fmt::format("Errors alone make as much, for any effect in the list, with p = {:.1g}.", named.p_discovery));
+    lines.push_back(fmt::format("In conditions that had no part in finding its size they do with p = {:.1g}.",
+                                named.p_confirmation));
+    if (effect && !effect->citation.empty()) lines.push_back(fmt::format("Source: {}.", effect->citation));
+    html += fmt::format("<h3>{}</h3>\n", html_escaped(effect_words(named.name))) + paragraph(sentence) + list(lines);
   }
   return html;
 }
@@ -72,11 +98,13 @@ std::string gap_html(const Diagnosis& diagnosis) {
       true);
   Rows rows;
   for (const StratumGap& stratum : diagnosis.strata)
-    rows.push_back({stratum.stratum, fmt::format("{:.3f}", stratum.train.before_rms_mm),
+    rows.push_back({place_words(stratum.stratum), fmt::format("{:.3f}", stratum.train.before_rms_mm),
                     fmt::format("{:.3f}", stratum.train.after_rms_mm),
                     fmt::format("{:.3f}", stratum.held_out.after_rms_mm),
                     fmt::format("{:.3f}", stratum.train.noise_floor_mm)});
-  return html + html_table({heights_words(diagnosis) + " where", "before", "after", "held out", "errors"}, rows, true);
+  return html +
+         html_table({heights_words(diagnosis) + ", root mean square [mm]", "before", "after", "held out", "errors"},
+                    rows, true);
 }
 
 /// "a; b; 5 more"
@@ -98,16 +126,37 @@ std::string beside_words(const Explanation& explanation) {
   return some_of(std::move(added));
 }
 
+/// Which measurement would tell an explanation from the likeliest one.
+std::string what_would_settle(const Explanation& explanation, const Diagnosis& diagnosis) {
+  const std::vector<std::string>& first = diagnosis.ambiguity_set.front().effects;
+  for (const NextMeasurement& next : diagnosis.next) {
+    const auto& [one, other] = std::tie(next.separates[0], next.separates[1]);
+    if ((one != first || other != explanation.effects) && (other != first || one != explanation.effects)) continue;
+    return next.settles() ? fmt::format("{} ({:.0f} min): {:.1f} σ", next.measurement, next.cost, next.sigma)
+                          : fmt::format("nothing that was considered: {:.1f} σ at most", next.sigma);
+  }
+  return "";
+}
+
 std::string rivals_html(const Diagnosis& diagnosis) {
-  Rows rows;
+  Rows rows, details;
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
     std::vector<std::string> twins;
     for (const auto& twin : explanation.alternatives) twins.push_back(effects_words(twin));
-    rows.push_back({effects_words(explanation.effects) + (explanation.is_too_small ? ", too small to show" : ""),
-                    some_of(std::move(twins)), beside_words(explanation),
-                    fmt::format("{:.3f}", explanation.probability), fmt::format("{:.3f}", explanation.alone)});
+    const std::string words =
+        effects_words(explanation.effects) + (explanation.is_too_small ? ", too small to show" : "");
+    const bool is_first = &explanation == &diagnosis.ambiguity_set.front();
+    rows.push_back({words, fmt::format("{:.1f} %", 100 * explanation.probability), some_of(std::move(twins)),
+                    is_first ? "" : what_would_settle(explanation, diagnosis)});
+    if (std::string beside = beside_words(explanation); !beside.empty())
+      details.push_back({words, fmt::format("{:.1f} %", 100 * explanation.alone), std::move(beside)});
   }
-  return html_table({"explanation", "cannot be told from", "may be there as well", "probability", "alone"}, rows);
+  std::string html = folded_table(
+      {"explanation", "probability", "looks the same in these measurements", "what would tell it from the first"},
+      rows);
+  if (!details.empty())
+    html += folded("What may be there besides", html_table({"explanation", "alone", "may be there as well"}, details));
+  return html;
 }
 
 /// Whether a parameter cannot depart from its nominal value any farther than this.
@@ -131,14 +180,28 @@ std::string limits_html(const Diagnosis& diagnosis) {
   return html_table({"effect", "parameter", "departs by less than (95 %)", "would be named half the time at"}, rows);
 }
 
+/// The effects' ids, each once: in which liquid they are makes no other effect of them.
+std::set<std::string> ids_of(const std::vector<std::string>& effects) {
+  std::set<std::string> ids;
+  for (const std::string& effect : effects) ids.insert(effect_name(effect).id);
+  return ids;
+}
+
 std::string confusable_html(const Diagnosis& diagnosis) {
+  std::set<std::set<std::string>> known;
+  const auto is_new = [&](const std::set<std::string>& ids) { return ids.size() > 1 && known.insert(ids).second; };
   Rows rows;
   for (const ConfusablePair& pair : diagnosis.confusable)
-    rows.push_back({effect_words(pair.first), effect_words(pair.second), fmt::format("{:.1f}°", pair.angle_deg)});
-  std::string html = html_table({"effect", "looks like", "angle"}, rows);
+    if (is_new(ids_of({pair.first, pair.second})))
+      rows.push_back({effect_words(pair.first), effect_words(pair.second), fmt::format("{:.1f}°", pair.angle_deg)});
+  std::string html;
+  if (!rows.empty()) html += html_table({"effect", "changes these measurements almost as", "angle"}, rows);
+  std::vector<std::string> hidden;
   for (const NearNullDirection& direction : diagnosis.near_null)
-    html += paragraph(fmt::format("Together nearly invisible: {}.", effects_words(direction.effects)));
-  return html;
+    if (const std::set<std::string> ids = ids_of(direction.effects); is_new(ids))
+      hidden.push_back(effects_words({ids.begin(), ids.end()}));
+  if (!hidden.empty()) html += paragraph("Where these act together, their changes nearly cancel:") + list(hidden);
+  return html.empty() ? "" : folded("Effects that these measurements hardly tell apart", html);
 }
 
 std::string next_html(const Diagnosis& diagnosis) {
@@ -147,7 +210,7 @@ std::string next_html(const Diagnosis& diagnosis) {
     rows.push_back({effects_words(next.separates[0]), effects_words(next.separates[1]),
                     next.settles() ? next.measurement : "none of these will settle it; the best is " + next.measurement,
                     fmt::format("{:.1f} σ", next.sigma), fmt::format("{:.0f} min", next.cost)});
-  return html_table({"to tell", "from", "measure", "by", "for"}, rows);
+  return folded_table({"to tell", "from", "measure", "by", "for"}, rows);
 }
 
 std::string budget_html(const Diagnosis& diagnosis) {
@@ -178,15 +241,17 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
     return;
   }
   html += heading("Where") + where_html(diagnosis);
-  if (draw_map(folder, campaign)) html += html_picture(folder / "map.png", "Mean difference by region");
+  if (draw_map(folder, campaign))
+    html += html_picture(folder / "map.png", "Mean difference by region") +
+            paragraph("A grey part has no height: the cup's wall hides it from the camera or from the projector.");
   if (!diagnosis.effects.empty()) html += heading("What the model lacked") + effects_html(diagnosis);
   html += heading("Before and after");
-  if (draw_heights(folder, campaign)) html += html_picture(folder / "heights.png", "Heights: measured minus model");
+  if (draw_heights(folder, campaign)) html += heights_chart(campaign);
   html += gap_html(diagnosis);
   if (!campaign.ray_traced_html.empty()) html += heading("Few rays and ray tracing") + campaign.ray_traced_html;
   html += heading("What else it could be") + rivals_html(diagnosis) + confusable_html(diagnosis);
-  html += heading("What could still hide") + limits_html(diagnosis);
   if (!diagnosis.next.empty()) html += heading("What to measure next") + next_html(diagnosis);
+  html += heading("What could still hide") + folded("Limits of every effect", limits_html(diagnosis));
   html += heading("Uncertainty budget") + budget_html(diagnosis);
   write_residuals(folder, campaign);
   html += "<p>Every observation: <code>residuals.csv</code>.</p>\n";

@@ -30,8 +30,9 @@ std::string spaced(std::string_view words) {
 struct Unit {
   std::string_view ending, words;
 };
-constexpr Unit kUnits[] = {{"_per_mm", " per mm"}, {"_per_min", " per min"}, {"_mm", " mm"}, {"_deg", "°"},
-                           {"_px", " px"},         {"_degC", " °C"},         {"_s", " s"},   {"_min", " min"}};
+constexpr Unit kUnits[] = {{"_per_mm", " per mm"}, {"_per_min", " per min"}, {"_mm", " mm"},
+                           {"_deg", "°"},          {"_px", " px"},           {"_degC", " °C"},
+                           {"_s", " s"},           {"_min", " min"},         {"_mm_per_h", " mm per hour"}};
 
 /// "tilt_x_deg" → "tilt x" and "°".
 std::pair<std::string, std::string_view> without_unit(std::string_view name) {
@@ -61,55 +62,39 @@ std::string third_words(std::string_view stratum) {
   return {};
 }
 
-/// "where liquid is milk tea and distance is 400 mm"; nothing where it is everywhere.
-std::string place_words(std::string_view stratum) {
-  if (std::string third = third_words(stratum); !third.empty()) return third;
-  std::vector<std::string> factors;
-  while (!stratum.empty() && stratum != "all") {
-    const std::size_t comma = stratum.find(", ");
-    const std::string_view factor = stratum.substr(0, comma);
-    stratum = comma == std::string_view::npos ? "" : stratum.substr(comma + 2);
-    const std::size_t equals = factor.find('=');
-    if (equals == std::string_view::npos) {
-      factors.emplace_back(factor);
-      continue;
-    }
-    const auto [name, unit] = without_unit(factor.substr(0, equals));
-    factors.push_back(fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit));
-  }
-  return factors.empty() ? "" : fmt::format("where {}", fmt::join(factors, " and "));
-}
-
-/// "The height in the cup, where liquid is milk tea, is 1.40 mm lower than the model has it.": where the gap is
-/// largest.
+/// "Where liquid is milk tea, the height in the cup is 1.4 mm lower than the model has it.": where the gap is largest.
 std::string where_sentence(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) return {};
   const GapLocation& where = diagnosis.where.front();
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
-  return fmt::format("The {}{} is {:.3g}{} {} than the model has it. ", words.name,
-                     place.empty() ? "" : fmt::format(", {},", place), std::abs(where.mean), words.unit,
-                     where.mean < 0 ? words.less : words.more);
+  std::string text =
+      fmt::format("{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ", words.name,
+                  std::abs(where.mean), words.unit, where.mean < 0 ? words.less : words.more);
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
 }
 
-std::string gap_words(const GapSize& gap) {
-  return fmt::format("{:.2f} mm instead of {:.2f} mm (errors of the measurement: {:.2f} mm)", gap.after_rms_mm,
-                     gap.before_rms_mm, gap.noise_floor_mm);
+/// "15 % (13 to 17 %)": the size of a parameter's departure from nominal, whichever way it goes, with its 95 %
+/// interval.
+std::string size_words(const NamedParameter& found, const EffectParameter& parameter, bool in_percent) {
+  const double factor = (in_percent ? 100.0 : 1.0) * (found.value < parameter.nominal ? -1.0 : 1.0);
+  const std::string_view unit = in_percent ? " %" : without_unit(found.name).second;
+  const auto [low, high] =
+      std::minmax({factor * (found.low95 - parameter.nominal), factor * (found.high95 - parameter.nominal)});
+  return fmt::format("{:.3g}{} ({:.3g} to {:.3g}{})", factor * (found.value - parameter.nominal), unit, low, high,
+                     unit);
 }
 
 std::string named_sentence(const Diagnosis& diagnosis) {
-  std::string text;
-  for (const NamedEffect& effect : diagnosis.effects) {
-    const Effect* known = find_effect(effect_name(effect.name).id);
-    std::vector<std::string> values;
-    for (const NamedParameter& parameter : shown_parameters(effect)) values.push_back(parameter_words(parameter));
-    text += fmt::format("{} Adding {} with {} ", known ? known->sentence : "", effect_words(effect.name),
-                        joined(values, "and"));
-    text += &effect == &diagnosis.effects.back() ? "" : "helps. ";
-  }
-  return text + fmt::format("leaves {} of the {}. ", gap_words(diagnosis.train),
-                            compares(diagnosis, "height_mm") ? "heights' differences"
-                                                             : "differences of the sensor's heights above the desk");
+  std::vector<std::string> clauses;
+  for (const NamedEffect& effect : diagnosis.effects) clauses.push_back(effect_clause(effect));
+  const GapSize& gap = diagnosis.train;
+  return fmt::format(
+      "Best explanation: {}. With that in the model the {} differ by {:.2f} mm instead of {:.2f} mm; errors of the "
+      "measurement make {:.2f} mm. ",
+      fmt::join(clauses, "; besides, "), heights_words(diagnosis), gap.after_rms_mm, gap.before_rms_mm,
+      gap.noise_floor_mm);
 }
 
 /// "foam from surface tilt"
@@ -265,6 +250,23 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string effect_clause(const NamedEffect& named) {
+  const EffectName name = effect_name(named.name);
+  const Effect* effect = find_effect(name.id);
+  if (!effect) return effect_words(named.name);
+  const std::string of = name.liquid.empty() ? "" : fmt::format("of {} alone, ", spaced(name.liquid));
+  const bool is_less = named.parameters.front().value < effect->parameters.front().nominal;
+  if (std::string text(is_less ? effect->less : effect->more); !text.empty()) {
+    const std::string size = size_words(named.parameters.front(), effect->parameters.front(), effect->in_percent);
+    return of + text.replace(text.find("{}"), 2, size);
+  }
+  std::string text(effect->sentence.substr(0, effect->sentence.size() - 1));
+  text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
+  std::vector<std::string> values;
+  for (const NamedParameter& parameter : shown_parameters(named)) values.push_back(parameter_words(parameter));
+  return fmt::format("{}{}: {}", of, text, joined(values, "and"));
+}
+
 std::string heights_words(const Diagnosis& diagnosis) {
   return compares(diagnosis, "height_mm") ? "heights" : "heights of the sensor above the desk";
 }
@@ -280,6 +282,24 @@ std::string effects_words(const std::vector<std::string>& effects) {
   std::vector<std::string> words;
   for (const std::string& effect : effects) words.push_back(effect_words(effect));
   return joined(words, "and");
+}
+
+std::string place_words(std::string_view stratum) {
+  if (std::string third = third_words(stratum); !third.empty()) return third;
+  std::vector<std::string> factors;
+  while (!stratum.empty() && stratum != "all") {
+    const std::size_t comma = stratum.find(", ");
+    const std::string_view factor = stratum.substr(0, comma);
+    stratum = comma == std::string_view::npos ? "" : stratum.substr(comma + 2);
+    const std::size_t equals = factor.find('=');
+    if (equals == std::string_view::npos) {
+      factors.emplace_back(factor);
+      continue;
+    }
+    const auto [name, unit] = without_unit(factor.substr(0, equals));
+    factors.push_back(fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit));
+  }
+  return factors.empty() ? "" : fmt::format("where {}", fmt::join(factors, " and "));
 }
 
 std::string stratum_words(const GapLocation& where) {

@@ -20,6 +20,7 @@ struct TableFile {
   std::string_view columns;
 };
 constexpr std::array kTables{TableFile{"map_desk.csv", "x,y,mean_mm"}, TableFile{"map_cup.csv", "x,y,radius,from_deg"},
+                             TableFile{"map_unseen.csv", "x,y,radius,from_deg"},
                              TableFile{"heights.csv", "number,before_mm"},
                              TableFile{"residuals.csv", "observable,region"}};
 

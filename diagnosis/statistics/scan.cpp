@@ -129,7 +129,9 @@ std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen:
                                 const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, double level) {
   const std::vector<SignificantStratum> found = significant_strata(columns, dof, residual, level);
   if (found.empty()) return {};
-  const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), 1.0);
+  double found_squares = 0.0;
+  for (const SignificantStratum& one : found) found_squares += one.z * one.z;
+  const double gap = std::max(residual.squaredNorm() - static_cast<double>(residual.size()), found_squares);
   std::vector<Eigen::Index> numbers;
   for (const SignificantStratum& one : found) numbers.push_back(one.number);
   const Eigen::MatrixXd together = columns(Eigen::all, numbers);
@@ -140,7 +142,7 @@ std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen:
     const Stratum& stratum = strata[found[k].number];
     const auto column = static_cast<Eigen::Index>(k);
     result.push_back({stratum.observable, stratum.name, means[column], std::sqrt(covariance(column, column)),
-                      std::min(1.0, found[k].z * found[k].z / gap), found[k].p});
+                      found[k].z * found[k].z / gap, found[k].p});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const GapLocation& a, const GapLocation& b) { return a.share_of_gap > b.share_of_gap; });

@@ -19,6 +19,8 @@ Effect absorption() {
   return {.id = "absorption",
           .family = "liquid",
           .sentence = "The liquid swallows more infrared light than its table says, or less.",
+          .more = "the liquid's absorption coefficient is {} higher than its table says",
+          .less = "the liquid's absorption coefficient is {} lower than its table says",
           .parameters = {{"absorption_per_mm", "added to the absorption coefficient, which stays at 0 or above", 0.0,
                           0.005, -0.05, 1.0}},
           .citation = "Kou, Labrie & Chylek 1993, Applied Optics 32, 3531: water's absorption in the near infrared",

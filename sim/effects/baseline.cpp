@@ -18,6 +18,8 @@ Effect baseline() {
   return {.id = "baseline",
           .family = "sensor",
           .sentence = "Camera and projector stand farther apart than the device takes for granted.",
+          .more = "camera and projector stand {} farther apart than the device takes for granted",
+          .less = "camera and projector stand {} nearer together than the device takes for granted",
           .parameters = {{"baseline_mm", "added to the baseline", 0.0, 0.1, -5.0, 5.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: baseline among the calibration parameters",
           .twins = {"focal_length", "disparity_offset"},

@@ -36,6 +36,8 @@ Effect concave_bottom() {
   return {.id = "concave_bottom",
           .family = "cup",
           .sentence = "The inside of the cup's bottom is a bowl.",
+          .more = "the middle of the cup's bottom lies {} below its edge",
+          .less = "the middle of the cup's bottom lies {} above its edge",
           .parameters = {{"depth_mm", "by which the bottom's middle lies below its edge", 0.0, 0.5, -5.0, 5.0}},
           .citation = "Hara et al. 2014 take the bottom as flat; pressed cups are not",
           .twins = {"meniscus"},

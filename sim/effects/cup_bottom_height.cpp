@@ -22,6 +22,8 @@ Effect cup_bottom_height() {
       .id = "cup_bottom_height",
       .family = "cup",
       .sentence = "The inside of the cup's bottom lies higher above the desk than was measured.",
+      .more = "the inside of the cup's bottom lies {} higher than was measured",
+      .less = "the inside of the cup's bottom lies {} lower than was measured",
       .parameters = {{"height_mm", "added to the bottom's height; the liquid keeps its depth", 0.0, 0.5, -7.0, 30.0}},
       .citation = "Hara et al. 2014 do not give the cup's bottom; 7 mm is assumed",
       .twins = {"fill_offset", "sensor_height"},

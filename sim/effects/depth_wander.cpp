@@ -19,6 +19,7 @@ Effect depth_wander() {
       .id = "depth_wander",
       .family = "sensor",
       .sentence = "All disparities of a frame share an error that is another one in the next frame.",
+      .more = "all disparities of a frame share an error of {}, another one in the next frame",
       .parameters = {{"sd_px", "standard deviation of the error", 0.0, 0.05, 0.0, 1.0}},
       .citation = "an empty pot's floor over three Kinect scenes: 0.6 mm where independent points would give 0.04 mm",
       .twins = {"thermal_drift"},

@@ -15,6 +15,8 @@ Effect disparity_offset() {
       .id = "disparity_offset",
       .family = "sensor",
       .sentence = "The device reads all disparities too large by the same amount.",
+      .more = "the device reads all disparities {} too large",
+      .less = "the device reads all disparities {} too small",
       .parameters = {{"offset_px", "added to every disparity", 0.0, 0.1, -3.0, 3.0}},
       .citation =
           "Khoshelham & Elberink 2012, Sensors 12, 1437: the linear normalisation of the raw disparity has an offset",

@@ -20,6 +20,7 @@ Effect evaporation() {
   return {.id = "evaporation",
           .family = "book-keeping",
           .sentence = "The liquid's level falls from the moment it is poured.",
+          .more = "the liquid's level falls by {} from the moment it is poured",
           .parameters = {{"rate_mm_per_h", "by which the level falls", 0.0, 1.0, 0.0, 50.0}},
           .citation = "Sartori 2000, Solar Energy 68, 77: tenths of a millimetre an hour from water at rest",
           .twins = {"thermal_drift", "fill_offset"},

@@ -20,6 +20,8 @@ Effect fill_offset() {
   return {.id = "fill_offset",
           .family = "book-keeping",
           .sentence = "Every pour holds more than was written down, by as much each time.",
+          .more = "every pour holds {} more than was written down",
+          .less = "every pour holds {} less than was written down",
           .parameters = {{"fill_mm", "added to every fill", 0.0, 0.5, -50.0, 50.0}},
           .citation = "Hara et al. 2014 pour to marks of 10, 20 and 30 mm",
           .twins = {"cup_bottom_height", "foam", "subsurface_scattering"},

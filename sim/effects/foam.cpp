@@ -25,6 +25,7 @@ Effect foam() {
       .id = "foam",
       .family = "surface",
       .sentence = "Foam lies on the liquid and is what the sensor sees.",
+      .more = "foam of {} lies on the liquid and is what the sensor sees",
       .parameters = {{"thickness_mm", "of the foam", 0.0, 1.0, 0.0, 20.0}},
       .citation = "Vera & Durian 1996, Physical Review E 53, 3215: foam scatters within a few bubbles, so it is opaque",
       .twins = {"fill_offset", "evaporation"},

@@ -26,6 +26,8 @@ Effect refractive_index() {
       .id = "refractive_index",
       .family = "liquid",
       .sentence = "The liquid bends light more than its table says.",
+      .more = "the liquid's refractive index is {} higher than its table says",
+      .less = "the liquid's refractive index is {} lower than its table says",
       .parameters = {{"index_change",
                       "added to the refractive index at the sensor's wavelength, down to an index of 1.28", 0.0, 0.005,
                       -0.3, 0.3}},

@@ -15,6 +15,8 @@ Effect sensor_height() {
   return {.id = "sensor_height",
           .family = "sensor",
           .sentence = "The sensor stands higher above the desk than was measured.",
+          .more = "the sensor stands {} higher above the desk than was measured",
+          .less = "the sensor stands {} lower above the desk than was measured",
           .parameters = {{"height_mm", "added to the sensor's height", 0.0, 1.0, -50.0, 50.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
           .twins = {"cup_bottom_height", "sensor_pitch"},

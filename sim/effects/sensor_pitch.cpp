@@ -16,6 +16,8 @@ Effect sensor_pitch() {
   return {.id = "sensor_pitch",
           .family = "sensor",
           .sentence = "The sensor looks further down than was measured.",
+          .more = "the sensor looks {} further down than was measured",
+          .less = "the sensor looks {} less far down than was measured",
           .parameters = {{"pitch_deg", "added to the angle below the horizontal", 0.0, 0.1, -5.0, 5.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
           .twins = {"sensor_height", "principal_point"},

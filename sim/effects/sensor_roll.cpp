@@ -16,6 +16,8 @@ Effect sensor_roll() {
   return {.id = "sensor_roll",
           .family = "sensor",
           .sentence = "The sensor is turned about its line of sight.",
+          .more = "the sensor is turned clockwise by {} about its line of sight",
+          .less = "the sensor is turned anticlockwise by {} about its line of sight",
           .parameters = {{"roll_deg", "added to the roll, clockwise", 0.0, 0.1, -5.0, 5.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
           .twins = {"surface_tilt"},

@@ -24,6 +24,7 @@ Effect stratification() {
   return {.id = "stratification",
           .family = "liquid",
           .sentence = "The lower half of the liquid is denser, so it bends light more.",
+          .more = "the refractive index of the liquid's lower half is {} higher than that of the upper",
           .parameters = {{"index_step", "added to the refractive index of the lower half, on which the other floats",
                           0.0, 0.01, 0.0, 0.3}},
           .citation = "Born & Wolf, Principles of Optics, section 3.2: rays in stratified media",

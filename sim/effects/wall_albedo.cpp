@@ -17,6 +17,8 @@ Effect wall_albedo() {
   return {.id = "wall_albedo",
           .family = "cup",
           .sentence = "The cup reflects more infrared light than its model.",
+          .more = "the cup's albedo is {} higher than the model's",
+          .less = "the cup's albedo is {} lower than the model's",
           .parameters = {{"albedo", "added to the cup's albedo", 0.0, 0.1, -0.7, 0.3}},
           .citation = "Hara et al. 2014 do not give the cup's colour; 0.70 is assumed",
           .twins = {"absorption", "wall_multipath"},

@@ -241,8 +241,8 @@ TEST(Locate, PutsFirstWhereMostOfTheGapIsThoughItShowsOnlyWithoutTheRest) {
   const std::vector<GapLocation> where = locate(strata, columns, Eigen::Vector2d(50, 50), residual, 0.01);
   ASSERT_EQ(where.size(), 2U);
   EXPECT_EQ(where[0].stratum, "fill_mm=40");
-  EXPECT_NEAR(where[0].share_of_gap, 49.0 / (85 - 2), 1e-12);
-  EXPECT_NEAR(where[1].share_of_gap, 36.0 / (85 - 2), 1e-12);
+  EXPECT_NEAR(where[0].share_of_gap, 49.0 / 85.0, 1e-12);
+  EXPECT_NEAR(where[1].share_of_gap, 36.0 / 85.0, 1e-12);
   // Together they are all of the difference.
   const Eigen::VectorXd both = columns.col(0) * where[1].mean + columns.col(1) * where[0].mean;
   EXPECT_LT((both - residual).norm(), 1e-12);

@@ -1,0 +1,127 @@
+#include "app/heights_chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "app/diagnosis_pictures.h"
+#include "app/html.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kWidth = 960.0, kHeight = 400.0, kLeft = 60.0, kTop = 28.0, kBottom = 370.0;  // px
+
+/// Where a difference stands in the chart.
+class Scale {
+ public:
+  Scale(const Diagnosis& diagnosis, const std::vector<std::size_t>& rows) {
+    for (const std::size_t row : rows) {
+      const double after = std::abs(diagnosis.after[row]) + diagnosis.error[row];
+      most_ = std::max({most_, std::abs(diagnosis.before[row]), after});
+    }
+    most_ *= 1.05;
+  }
+
+  double y(double difference_mm) const {
+    return 0.5 * (kTop + kBottom) - difference_mm * 0.5 * (kBottom - kTop) / most_;
+  }
+
+  /// Differences for lines across the chart: 1, 2 or 5 times a power of ten apart.
+  std::vector<double> ticks() const {
+    const double power = std::pow(10.0, std::floor(std::log10(most_)));
+    const double step = most_ / power < 2.0 ? 0.5 * power : most_ / power < 5.0 ? power : 2.0 * power;
+    std::vector<double> result;
+    for (double tick = -std::floor(most_ / step) * step; tick <= most_; tick += step) result.push_back(tick);
+    return result;
+  }
+
+ private:
+  double most_ = 1e-3;
+};
+
+/// A path as a link: no character of it can be read as anything but a file's name.
+std::string link_to(std::string_view path) {
+  std::string link;
+  for (const char c : path) {
+    const bool is_plain =
+        std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-._~/").find(c) != std::string_view::npos;
+    link += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return link;
+}
+
+std::string words_of(const DiagnosedCampaign& campaign, std::size_t row) {
+  const Observation& o = campaign.observations[row];
+  const Factors& f = o.factors;
+  return fmt::format(
+      "{}{}, cup at ({:g}, {:g}) mm, {} of the cup\nsession {}, pour {}, placement {}\nmeasured {:.2f} mm; less the "
+      "model "
+      "{:+.2f} mm before, {:+.2f} mm after, ± {:.2f} mm (1 σ)",
+      f.liquid, f.fill_mm > 0.0 ? fmt::format(", {:g} mm", f.fill_mm) : "", f.lateral_mm, f.distance_mm, f.region,
+      f.session, f.pour, f.placement, o.value, campaign.diagnosis.before[row], campaign.diagnosis.after[row],
+      campaign.diagnosis.error[row]);
+}
+
+/// A name over each liquid's stretch, and a line between two.
+std::string liquids_svg(const std::vector<Observation>& observations, const std::vector<std::size_t>& rows,
+                        double step) {
+  std::string svg;
+  for (std::size_t first = 0; first < rows.size();) {
+    const std::string& liquid = observations[rows[first]].factors.liquid;
+    std::size_t end = first;
+    while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
+    const double left = kLeft + step * static_cast<double>(first), right = kLeft + step * static_cast<double>(end);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + right),
+                       kTop - 10.0, html_escaped(liquid));
+    if (first > 0)
+      svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#ccc\"/>\n", left, kTop,
+                         kBottom);
+    first = end;
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string heights_chart(const DiagnosedCampaign& campaign) {
+  const std::vector<std::size_t> rows = heights_in_order(campaign.observations);
+  if (rows.empty()) return {};
+  const Scale scale(campaign.diagnosis, rows);
+  const double step = (kWidth - kLeft) / static_cast<double>(rows.size());
+  std::string svg = fmt::format(
+      "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Heights: measured minus model\" font-size=\"13\">\n",
+      kWidth, kHeight);
+  for (const double tick : scale.ticks())
+    svg += fmt::format(
+        "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\"/><text x=\"{4}\" y=\"{5:.1f}\" "
+        "text-anchor=\"end\">{6:.3g}</text>\n",
+        kLeft, kWidth, scale.y(tick), std::abs(tick) < 1e-9 ? "#222" : "#eee", kLeft - 6.0, scale.y(tick) + 4.0,
+        std::abs(tick) < 1e-9 ? 0.0 : tick);
+  svg += liquids_svg(campaign.observations, rows, step);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t row = rows[i];
+    const double x = kLeft + step * (static_cast<double>(i) + 0.5), after = campaign.diagnosis.after[row],
+                 error = campaign.diagnosis.error[row];
+    const bool has_cloud = row < campaign.clouds.size() && !campaign.clouds[row].empty();
+    if (has_cloud) svg += fmt::format("<a href=\"{}\">", link_to(campaign.clouds[row]));
+    svg += fmt::format(
+        "<g><title>{0}</title><line x1=\"{1:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{3:.1f}\" stroke=\"#0072B2\"/>"
+        "<circle cx=\"{1:.1f}\" cy=\"{4:.1f}\" r=\"4\" fill=\"#D55E00\"/><circle cx=\"{1:.1f}\" cy=\"{5:.1f}\" r=\"4\" "
+        "fill=\"#0072B2\"/></g>",
+        html_escaped(words_of(campaign, row)), x, scale.y(after + error), scale.y(after - error),
+        scale.y(campaign.diagnosis.before[row]), scale.y(after));
+    svg += has_cloud ? "</a>\n" : "\n";
+  }
+  const bool has_clouds = std::any_of(campaign.clouds.begin(), campaign.clouds.end(),
+                                      [](const std::string& cloud) { return !cloud.empty(); });
+  return svg + fmt::format(
+                   "<text x=\"{}\" y=\"{}\">measured − model [mm], by liquid, fill and place: "
+                   "<tspan fill=\"#D55E00\">● before</tspan> <tspan fill=\"#0072B2\">● after, with 1 σ</tspan></text>\n"
+                   "</svg>\n<p>Hold the pointer over a point to read its condition{}.</p>\n",
+                   kLeft, kHeight - 8.0, has_clouds ? "; click it for its cloud" : "");
+}
+
+}  // namespace fathom
