@@ -32,7 +32,8 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   values.push_back({"desk_roll_deg", kDesk, deg_from_radians(roll_above(estimates.desk))});
   for (std::size_t i = 0; i < estimates.desk_residual.size(); ++i)
     if (estimates.desk_residual[i].weight >= kFewestOnDesk)
-      values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean)});
+      values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean),
+                        estimates.desk_residual[i].weight});
   const Eigen::Vector2d& comb = estimates.step_comb;
   values.push_back({"comb_strength", kDesk, comb.x()});
   values.push_back({"comb_phase", kDesk, std::atan2(comb.y(), comb.x()) / (2.0 * std::numbers::pi)});

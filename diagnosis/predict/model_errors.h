@@ -3,12 +3,13 @@
 
 #include <string_view>
 
+#include "diagnosis/measurement/rig.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
 
-/// By what is shared: region, liquid, place, condition.
-std::vector<SharedError> model_errors(const std::vector<Observation>& observations);
+/// By what is shared: region, liquid, place, condition; last those of each view of a desk by itself.
+std::vector<SharedError> model_errors(const std::vector<Observation>& observations, const LaboratoryRig& rig);
 
 /// Of an effect: what comes with it and no model foretells, where light passes a liquid of the nominal model.
 OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& observations,

@@ -69,7 +69,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.nuisances.push_back(windows);
   if (Nuisance response = brightness_response(evidence.observations, evidence.predicted); !response.signature.isZero())
     evidence.nuisances.push_back(std::move(response));
-  evidence.shared_errors = model_errors(evidence.observations);
+  evidence.shared_errors = model_errors(evidence.observations, measurement.rig);
   Candidates candidates = candidates_of(*predictor, only, quiet);
   evidence.candidates = std::move(candidates.all);
   for (Candidate& candidate : evidence.candidates) {

@@ -35,13 +35,12 @@ struct Cells {
   }
 };
 
-/// 1 where a cell is of a group.
-Eigen::MatrixXd membership(const std::vector<int>& of, const std::vector<Eigen::Index>& rows) {
-  int count = 0;
-  for (const auto row : rows) count = std::max(count, of[row] + 1);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), count);
+/// How much of each group's error the rows have.
+Eigen::MatrixXd membership(const VarianceComponent& component, const std::vector<Eigen::Index>& rows) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), component.groups.count);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (of[rows[i]] >= 0) result(static_cast<Eigen::Index>(i), of[rows[i]]) = 1.0;
+    if (const int group = component.groups.of[rows[i]]; group >= 0)
+      result(static_cast<Eigen::Index>(i), group) = component.scale[rows[i]];
   return result;
 }
 
@@ -50,6 +49,7 @@ Eigen::MatrixXd membership(const std::vector<int>& of, const std::vector<Eigen::
 std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, const Eigen::VectorXd& residual,
                                                      const Eigen::MatrixXd& known) {
   std::vector<ObservableErrors> result;
+  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(residual.size()), local = relative_errors(evidence.observations);
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
     const std::string& observable = evidence.observations[rows[0]].observable;
@@ -58,11 +58,8 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     for (const SharedError& shared : evidence.shared_errors) {
       if (shared.observable != observable) continue;
       const int count = *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1;
-      errors.components.push_back({observable,
-                                   ErrorLevel::model,
-                                   0.0,
-                                   {shared.group_of, count},
-                                   Eigen::VectorXd::Ones(static_cast<Eigen::Index>(evidence.observations.size()))});
+      errors.components.push_back(
+          {observable, ErrorLevel::model, 0.0, {shared.group_of, count}, shared.is_local ? local : alike});
       priors.push_back({shared.sigma * shared.sigma, kModelDof});
     }
     if (errors.components.empty()) continue;
@@ -70,7 +67,7 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     const Eigen::MatrixXd contrasts = free_of_candidates(evidence, cells.means);
     std::vector<Eigen::MatrixXd> shapes;
     for (const VarianceComponent& component : errors.components) {
-      const Eigen::MatrixXd half = contrasts.transpose() * membership(component.groups.of, cells.first);
+      const Eigen::MatrixXd half = contrasts.transpose() * membership(component, cells.first);
       shapes.push_back(half * half.transpose());
     }
     const Eigen::MatrixXd weights = contrasts.transpose() * cells.means;

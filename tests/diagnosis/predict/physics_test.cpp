@@ -112,16 +112,18 @@ TEST(Physics, NuisancesAreOnePerPourPlacementAndUncertainValue) {
 
 TEST(Physics, ErrorsOfTheModelAreSharedByRegionsPlacesAndConditions) {
   const Evidence evidence = physics_of(paper_measurement(false)).evidence;
-  std::set<int> groups_of_residual;
+  std::set<int> groups_of_residual, residuals_of_views;
   for (const SharedError& error : evidence.shared_errors) {
     ASSERT_EQ(error.group_of.size(), evidence.observations.size());
     EXPECT_GT(error.sigma, 0.0);
     for (std::size_t i = 0; i < error.group_of.size(); ++i) {
       EXPECT_EQ(error.group_of[i] >= 0, evidence.observations[i].observable == error.observable);
-      if (error.observable == "desk_residual_mm") groups_of_residual.insert(error.group_of[i]);
+      if (error.observable == "desk_residual_mm")
+        (error.is_local ? residuals_of_views : groups_of_residual).insert(error.group_of[i]);
     }
   }
   EXPECT_EQ(groups_of_residual.size(), 1u + 9u);  // none, and every third of the image
+  EXPECT_GE(residuals_of_views.size(), 1u + 9u);  // of each view for itself
 }
 
 TEST(Physics, HolesInAFoamMoveHeightsWhereTheyShowWater) {
