@@ -77,7 +77,7 @@ void run_calibrate(const CalibrateOptions& options, const CommonOptions& common)
   how.registered = options.registered;
   const std::vector<CalibrationCloud> clouds = clouds_of(options);
   const FolderOwner owner(common.output);  // what cannot be written shows before the long work
-  const Calibration unit = calibrate(clouds, how, common.quiet);
+  const UnitCalibration unit = calibrate(clouds, how, common.quiet);
   std::filesystem::remove(common.output / "unit.json");  // of an earlier run: it does not belong to what follows
   write_unit_report(common.output, unit);
   write_unit(common.output, unit);

@@ -85,8 +85,8 @@ std::vector<Estimate> apparent_depth_ratios(std::initializer_list<double> incide
 
 }  // namespace
 
-const std::vector<Case>& refraction_cases() {
-  static const std::vector<Case> cases{
+const std::vector<VerifyCase>& refraction_cases() {
+  static const std::vector<VerifyCase> cases{
       {"fresnel n 1.328, angles [deg]",
        {{"Brewster", 53.02, 5e-3}, {"critical", 48.85, 5e-3}},
        "Born & Wolf, 1.5.3 and 1.5.4, evaluated",

@@ -16,14 +16,14 @@ namespace {
 constexpr int kEvery_px = 8;  ///< of the picture's points
 
 /// Root mean square where desk was seen.
-double rms(const Image<float>& image, const Calibration& unit) {
+double rms(const Image<float>& image, const UnitCalibration& unit) {
   double squares = 0.0, count = 0.0;
   for (std::size_t i = 0; i < image.size(); ++i)
     if (unit.seen.pixels()[i]) squares += image.pixels()[i] * image.pixels()[i], count += 1.0;
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-void draw_unit(const std::filesystem::path& folder, const Calibration& unit) {
+void draw_unit(const std::filesystem::path& folder, const UnitCalibration& unit) {
   Table table({"column_px", "row_px", "bias_px", "sigma_px"});
   double most = 0.05;
   for (int y = kEvery_px / 2; y < unit.bias_px.height(); y += kEvery_px)
@@ -46,7 +46,7 @@ plot 'unit_map.csv' using 'column_px':'row_px':'bias_px' with image pixels)",
                    std::ceil(most * 20.0) / 20.0));
 }
 
-std::string facts_html(const Calibration& unit) {
+std::string facts_html(const UnitCalibration& unit) {
   std::vector<std::vector<std::string>> rows;
   for (const Row& row : unit_rows(unit))
     rows.push_back({row.name,
@@ -58,7 +58,7 @@ std::string facts_html(const Calibration& unit) {
 
 }  // namespace
 
-std::vector<Row> unit_rows(const Calibration& unit) {
+std::vector<Row> unit_rows(const UnitCalibration& unit) {
   const auto number = [](auto value) { return static_cast<double>(value); };
   double seen = 0.0;
   for (const char desk : unit.seen.pixels()) seen += desk;
@@ -91,7 +91,7 @@ std::vector<Row> unit_rows(const Calibration& unit) {
   return rows;
 }
 
-void write_unit_report(const std::filesystem::path& folder, const Calibration& unit) {
+void write_unit_report(const std::filesystem::path& folder, const UnitCalibration& unit) {
   draw_unit(folder, unit);
   const double share = unit.without_px > 0.0 ? unit.left_px / unit.without_px : 1.0;
   std::string html = fmt::format(

@@ -9,9 +9,9 @@
 
 namespace fathom {
 
-std::vector<Row> unit_rows(const Calibration& unit);
+std::vector<Row> unit_rows(const UnitCalibration& unit);
 
 /// unit_map.csv and its picture, and report.html, last.
-void write_unit_report(const std::filesystem::path& folder, const Calibration& unit);
+void write_unit_report(const std::filesystem::path& folder, const UnitCalibration& unit);
 
 }  // namespace fathom

@@ -117,7 +117,7 @@ void verify_fresnel(const VerifyOptions& options, const CommonOptions& common) {
 }
 
 /// One line for each quantity of a case, or one JSON object in `rows`. Counts what lies off.
-std::string compare(const Case& row, const std::vector<Estimate>& found, Json& rows, int& failures) {
+std::string compare(const VerifyCase& row, const std::vector<Estimate>& found, Json& rows, int& failures) {
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Published& published = row.published[i];
@@ -140,14 +140,14 @@ std::string compare(const Case& row, const std::vector<Estimate>& found, Json& r
 }
 
 /// Throws Error when a verdict fails, after all rows are printed.
-void verify_cases(const std::string& name, std::initializer_list<const std::vector<Case>*> tables,
+void verify_cases(const std::string& name, std::initializer_list<const std::vector<VerifyCase>*> tables,
                   const CommonOptions& common) {
   Json rows = Json::array();
   int failures = 0;
   std::string text = fmt::format("{:<53}  {:<19}  {:>9}  {:>8}  {:>9}  {:>6}  {:<7}  {}\n", "case", "quantity", "value",
                                  "std.err", "published", "sigmas", "verdict", "source");
-  for (const std::vector<Case>* table : tables)
-    for (const Case& row : *table) {
+  for (const std::vector<VerifyCase>* table : tables)
+    for (const VerifyCase& row : *table) {
       Progress progress(std::string(row.name), 0, common.quiet);
       text += compare(row, row.compute(common.seed, plan_with(progress, 0)), rows, failures);
     }

@@ -82,8 +82,8 @@ double deviation(const Estimate& found, const Published& published) {
   return (found.value - published.value) / error;
 }
 
-const std::vector<Case>& published_cases() {
-  static const std::vector<Case> cases{
+const std::vector<VerifyCase>& published_cases() {
+  static const std::vector<VerifyCase> cases{
       {"fresnel n 1.328",
        {{"0 deg", 0.019851, 5e-7}, {"45 deg", 0.027271, 5e-7}, {"60 deg", 0.058748, 5e-7}, {"70 deg", 0.132108, 5e-7}},
        "Born & Wolf, Principles of Optics, 1.5.2, evaluated",
@@ -154,8 +154,8 @@ const std::vector<Case>& published_cases() {
   return cases;
 }
 
-const std::vector<Case>& furnace_cases() {
-  static const std::vector<Case> cases{
+const std::vector<VerifyCase>& furnace_cases() {
+  static const std::vector<VerifyCase> cases{
       {"white slab n 1.33, thickness 5, g 0.8",
        {{"what leaves", 1.0, 0.0}},
        "conservation of energy",

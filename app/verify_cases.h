@@ -16,7 +16,7 @@ struct Published {
 };
 
 /// One computation, whose quantities are compared with published ones in their order.
-struct Case {
+struct VerifyCase {
   std::string_view name;
   std::vector<Published> published;
   std::string_view source;
@@ -24,9 +24,9 @@ struct Case {
   std::vector<Estimate> (*compute)(std::uint64_t seed, const SamplingPlan& plan);
 };
 
-const std::vector<Case>& published_cases();   ///< tables of reflectance, transmittance and what leaves where
-const std::vector<Case>& refraction_cases();  ///< angles and apparent depths
-const std::vector<Case>& furnace_cases();     ///< conservation of energy
+const std::vector<VerifyCase>& published_cases();   ///< tables of reflectance, transmittance and what leaves where
+const std::vector<VerifyCase>& refraction_cases();  ///< angles and apparent depths
+const std::vector<VerifyCase>& furnace_cases();     ///< conservation of energy
 
 /// How far a value lies from the published one, in standard errors; the published uncertainty counts as a further
 /// error.

@@ -59,6 +59,8 @@ LIBRARY_HEADERS = {
     "OpenNI2": r"(Oni\w+|OpenNI|PS1080)\.h|Driver/",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
+TYPE = re.compile(r"(?:struct|class|enum class|union) (\w+)[^;()]*\{")
 # What prints: libraries never do, and the program only where control characters are taken out of what files hold.
 PRINTS = re.compile(r"\b(fmt::print|f?printf|f?puts|putchar|say)\s*\(|\bstd::(cout|cerr|clog)\b")
 SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "app/*"]
@@ -123,10 +125,33 @@ def document_breaches(root):
                 yield f"{DOCUMENT}: {name}: says {written.get(name)}, tests/layers.py says {table.get(name)}"
 
 
+def types_of(text):
+    """(namespace, name) of each type that a header defines, those inside of others apart."""
+    namespace = ""
+    for line in text.splitlines():
+        if opened := NAMESPACE.match(line):
+            namespace = opened[1]
+        elif defined := TYPE.match(line):
+            yield namespace, defined[1]
+
+
+def type_breaches(root, headers):
+    """Two types of one name are one to the linker: where both are in a program, one's functions serve the other."""
+    places = {}
+    for path in headers:
+        for namespace, name in types_of((root / path).read_text()):
+            first = places.setdefault((namespace, name), path)
+            if first != path:
+                yield f"{path}: {namespace}::{name} is defined in {first} as well"
+
+
 def breaches(root):
     tops = sorted(folder for folder in root.iterdir() if folder.is_dir() and folder.name not in (".git", "build", "out"))
-    for file in (file for top in tops for file in sorted(top.rglob("*")) if file.suffix in (".h", ".cpp")):
-        yield from file_breaches(root, file.relative_to(root).as_posix())
+    files = [file.relative_to(root).as_posix()
+             for top in tops for file in sorted(top.rglob("*")) if file.suffix in (".h", ".cpp")]
+    for path in files:
+        yield from file_breaches(root, path)
+    yield from type_breaches(root, [path for path in files if path.endswith(".h")])
     yield from document_breaches(root)
 
 

@@ -35,6 +35,13 @@ class Layers(unittest.TestCase):
         self.write("detector/cup.cpp", '\n#include "sim/scene/scene.h"\n')
         self.assert_only_breach("detector/cup.cpp:2", "sim/scene/scene.h")
 
+    def test_two_types_of_one_name_are_caught(self):
+        self.write("detector/desk.h", "#pragma once\nnamespace fathom {\nstruct Desk;\nstruct Desk {\n  int a;\n};\n}\n")
+        self.write("sim/scene/desk.h", "#pragma once\nnamespace fathom::scene {\nstruct Desk {\n  int a;\n};\n}\n")
+        self.assertEqual(list(layers.breaches(self.root)), [])
+        self.write("sim/render/desk.h", "#pragma once\nnamespace fathom {\nclass Desk final {\n  double a;\n};\n}\n")
+        self.assert_only_breach("sim/render/desk.h", "fathom::Desk", "detector/desk.h")
+
     def test_the_oracle_includes_nothing_of_ours(self):
         self.write("theory/triangulation.cpp", '  #  include <core/error.h>\n')
         self.assert_only_breach("theory/triangulation.cpp:1", "only: nothing")

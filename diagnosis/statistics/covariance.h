@@ -17,7 +17,9 @@ struct Covariance {
   Eigen::LLT<Eigen::MatrixXd> factor;
 
   /// L⁻¹ x with total = L Lᵀ: columns of data or signatures in units of their error.
-  Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const { return factor.matrixL().solve(x); }
+  Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const {
+    return x.cols() == 0 ? x : Eigen::MatrixXd(factor.matrixL().solve(x));
+  }
 };
 
 /// Of measured minus predicted: repeats, prior nuisances, numerical error, and the variance components that the

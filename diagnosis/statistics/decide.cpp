@@ -12,6 +12,7 @@
 #include "diagnosis/statistics/intervals.h"
 #include "diagnosis/statistics/limits.h"
 #include "diagnosis/statistics/posterior.h"
+#include "diagnosis/statistics/problem.h"
 #include "diagnosis/statistics/sufficiency.h"
 #include "diagnosis/statistics/tiers.h"
 #include "diagnosis/statistics/unknown.h"
@@ -58,7 +59,7 @@ struct Rest {
 
 Rest rest_of(const Case& c, const Refit& fit) {
   Rest rest{c.problem.residual - fit.prediction, orthonormal(fit.jacobian)};
-  if (rest.explained.cols() > 0) rest.residual -= rest.explained * (rest.explained.transpose() * rest.residual);
+  rest.residual = without(rest.residual, rest.explained);
   return rest;
 }
 

@@ -140,10 +140,6 @@ Eigen::ArrayXd squared_scores(const Eigen::MatrixXd& columns, const Eigen::Vecto
   return (columns.transpose() * residual).array().square() / squares.max(1e-12);
 }
 
-Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& explained) {
-  return explained.cols() == 0 ? columns : columns - explained * (explained.transpose() * columns);
-}
-
 }  // namespace
 
 Discrepancy discrepancy_of(const Evidence& evidence, const std::vector<Stratum>& strata, const Covariance& covariance) {

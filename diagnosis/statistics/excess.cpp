@@ -6,6 +6,7 @@
 
 #include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/problem.h"
 
 namespace fathom {
 
@@ -111,8 +112,7 @@ std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covari
   add_trials(evidence.observations, contrasts);
   std::vector<Excess> looked_at = scatter_beyond(evidence.stated, covariance.errors);
   for (const Contrast& contrast : contrasts) {
-    Eigen::MatrixXd columns = covariance.whiten(contrast.columns);
-    if (explained.cols() > 0) columns -= explained * (explained.transpose() * columns);
+    const Eigen::MatrixXd columns = without(covariance.whiten(contrast.columns), explained);
     const Eigen::VectorXd weights = columns * (columns.transpose() * columns).ldlt().solve(contrast.weights);
     Excess excess = contrast.excess;
     excess.size = weights.dot(residual);

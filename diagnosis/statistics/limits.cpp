@@ -25,8 +25,7 @@ std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& pr
     if (std::find(named.begin(), named.end(), static_cast<int>(effect)) != named.end()) continue;
     const Candidate& candidate = evidence.candidates[effect];
     for (std::size_t k = 0; k < candidate.parameters.size(); ++k) {
-      Eigen::VectorXd signature = problem.signatures.col(problem.columns[effect][k]);
-      if (explained.cols() > 0) signature -= explained * (explained.transpose() * signature);
+      const Eigen::VectorXd signature = without(problem.signatures.col(problem.columns[effect][k]), explained);
       const double information = signature.squaredNorm();
       const Parameter& parameter = candidate.parameters[k];
       const double widest =

@@ -1,8 +1,11 @@
 #include "diagnosis/statistics/posterior.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "diagnosis/statistics/log_sum.h"
 #include "diagnosis/statistics/screen.h"
@@ -50,6 +53,10 @@ void sort_by_evidence(std::vector<Refit>& fits) {
   });
 }
 
+bool is_known(const std::vector<Refit>& fits, const std::vector<int>& effects) {
+  return std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == effects; });
+}
+
 /// Where signatures are no straight lines, others come in that only bend them: each of the likeliest fit's effects is
 /// left out in turn, as long as that makes a likelier one.
 void add_without_one(const Case& c, std::vector<Refit>& fits) {
@@ -61,13 +68,48 @@ void add_without_one(const Case& c, std::vector<Refit>& fits) {
       for (std::size_t e = 0; e < likeliest.effects.size(); ++e)
         if (e != left_out) others.push_back(e);
       const Hypothesis less = part_of(c.problem, likeliest, others);
-      const bool is_known =
-          std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == less.effects; });
-      if (!is_known) fits.push_back(fitted(c, less));
+      if (!is_known(fits, less.effects)) fits.push_back(fitted(c, less));
     }
     sort_by_evidence(fits);
     is_better = fits.front().hypothesis.effects != likeliest.effects;
   }
+}
+
+/// Where signatures bend, sets that look nearly the same may be far apart in linear evidence. So what each of the
+/// likeliest set's effects is confusable with takes its place in turn: of those the most alike.
+void add_confusable(const Case& c, std::vector<Refit>& fits) {
+  constexpr double kLeastCosine = 0.966;  // 15°, as limits.h lists them
+  constexpr std::size_t kMost = 4;
+  const Problem& problem = c.problem;
+  const Hypothesis likeliest = fits.front().hypothesis;
+  std::vector<std::pair<double, Hypothesis>> alike;
+  for (std::size_t e = 0; e < likeliest.effects.size(); ++e) {
+    std::vector<std::size_t> positions(likeliest.effects.size());
+    std::iota(positions.begin(), positions.end(), std::size_t{0});
+    positions.erase(positions.begin() + static_cast<std::ptrdiff_t>(e));
+    const Hypothesis others = part_of(problem, likeliest, positions), own = part_of(problem, likeliest, {e});
+    const auto signature = [&](const std::vector<int>& effects) -> Eigen::MatrixXd {
+      return problem.signatures(Eigen::all, columns_of(problem, effects));
+    };
+    const Eigen::MatrixXd explained = orthonormal(signature(others.effects));
+    const Eigen::VectorXd change = without(signature(own.effects) * own.parameters, explained);
+    for (int effect = 0; effect < static_cast<int>(problem.columns.size()); ++effect) {
+      if (is_said(problem, likeliest.effects, effect)) continue;
+      const Eigen::MatrixXd other = without(signature({effect}), explained);
+      if (other.isZero(0.0)) continue;
+      const std::vector<Eigen::Index>& columns = problem.columns[effect];
+      const Eigen::VectorXd parameters =
+          other.colPivHouseholderQr().solve(change).cwiseMax(problem.lower(columns)).cwiseMin(problem.upper(columns));
+      const Eigen::VectorXd changes = other * parameters;
+      if (const double cosine = changes.dot(change) / (changes.norm() * change.norm()); cosine > kLeastCosine)
+        alike.emplace_back(cosine, with_effect(problem, others, effect, parameters));
+    }
+  }
+  std::stable_sort(alike.begin(), alike.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (alike.size() > kMost) alike.erase(alike.begin() + kMost, alike.end());
+  for (const auto& [cosine, hypothesis] : alike)
+    if (!is_known(fits, hypothesis.effects)) fits.push_back(fitted(c, hypothesis));
+  sort_by_evidence(fits);
 }
 
 /// The likeliest sets, the empty one among them.
@@ -88,6 +130,7 @@ std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& 
   }
   sort_by_evidence(result);
   add_without_one(c, result);
+  add_confusable(c, result);
   return result;
 }
 
@@ -136,12 +179,9 @@ Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(columns.cols());
   Option option = option_of(fit);
   option.log_posterior += log_evidence(c.problem, 0.0, {effect}, nothing, columns.transpose() * columns);
-  const auto place = std::upper_bound(option.effects.begin(), option.effects.end(), effect);
-  const auto before = static_cast<Eigen::Index>(columns_of(c.problem, {option.effects.begin(), place}).size());
-  option.effects.insert(place, effect);
-  const Eigen::VectorXd& there = fit.hypothesis.parameters;
-  option.parameters.resize(there.size() + nothing.size());
-  option.parameters << there.head(before), nothing, there.tail(there.size() - before);
+  Hypothesis more = with_effect(c.problem, fit.hypothesis, effect, nothing);
+  option.effects = std::move(more.effects);
+  option.parameters = std::move(more.parameters);
   return option;
 }
 
@@ -185,9 +225,7 @@ Posterior posterior_of(const Case& c) {
     beside.insert(posterior.fits[k].hypothesis.effects);
   for (const Hypothesis& h : screened_beside_unknown(c)) {
     beside.insert(h.effects);
-    if (std::none_of(posterior.fits.begin(), posterior.fits.end(),
-                     [&](const Refit& f) { return f.hypothesis.effects == h.effects; }))
-      posterior.fits.push_back(fitted(c, h));
+    if (!is_known(posterior.fits, h.effects)) posterior.fits.push_back(fitted(c, h));
   }
   sort_by_evidence(posterior.fits);
   for (const Refit& fit : posterior.fits) {

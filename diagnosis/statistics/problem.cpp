@@ -121,6 +121,15 @@ Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::v
   return part;
 }
 
+Hypothesis with_effect(const Problem& problem, const Hypothesis& part, int effect, const Eigen::VectorXd& parameters) {
+  Hypothesis whole{part.effects, Eigen::VectorXd(part.parameters.size() + parameters.size())};
+  const auto place = std::upper_bound(whole.effects.begin(), whole.effects.end(), effect);
+  const auto before = static_cast<Eigen::Index>(columns_of(problem, {whole.effects.begin(), place}).size());
+  whole.effects.insert(place, effect);
+  whole.parameters << part.parameters.head(before), parameters, part.parameters.tail(part.parameters.size() - before);
+  return whole;
+}
+
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram) {
   if (effects.empty()) return 0.0;
@@ -146,7 +155,12 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
   qr.setThreshold(1e-8);
   qr.compute(columns);
+  if (qr.rank() == 0) return Eigen::MatrixXd(columns.rows(), 0);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& directions) {
+  return directions.cols() == 0 ? columns : columns - directions * (directions.transpose() * columns);
 }
 
 }  // namespace fathom

@@ -53,6 +53,9 @@ struct Hypothesis {
 /// Some effects of a hypothesis, by their position in it (ascending), where they are: without gain or evidence.
 Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::vector<std::size_t>& positions);
 
+/// The hypothesis with one effect more, at these parameters: without gain or evidence.
+Hypothesis with_effect(const Problem& problem, const Hypothesis& part, int effect, const Eigen::VectorXd& parameters);
+
 /// Laplace's log evidence: the parameters' prior below, and one effect expected among all candidates, shared out by
 /// their plausibility. `gram`:
 /// parameters × parameters, of the whitened jacobian.
@@ -73,5 +76,8 @@ Eigen::VectorXd prior_precisions(const Eigen::VectorXd& parameters);
 
 /// Orthonormal columns with the span of the given ones.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
+/// What orthonormal directions (may be none) leave of columns.
+Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& directions);
 
 }  // namespace fathom

@@ -59,8 +59,7 @@ std::string sparse_formula(const Evidence& evidence, const Covariance& covarianc
   const std::vector<Term> library = term_library(evidence.observations);
   Eigen::MatrixXd columns(residual.size(), static_cast<Eigen::Index>(library.size()));
   for (std::size_t k = 0; k < library.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = library[k].column;
-  columns = covariance.whiten(columns);
-  if (explained.cols() > 0) columns -= explained * (explained.transpose() * columns);
+  columns = without(covariance.whiten(columns), explained);
   Eigen::MatrixXd left = columns;
   const Eigen::VectorXd data = residual, full = columns.colwise().squaredNorm();
   std::vector<Eigen::Index> chosen;
@@ -93,8 +92,7 @@ UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covari
                               const Eigen::MatrixXd& explained) {
   UnknownShape shape;
   shape.formula = sparse_formula(evidence, covariance, residual, explained);
-  Eigen::MatrixXd signatures = problem.signatures;
-  if (explained.cols() > 0) signatures -= explained * (explained.transpose() * signatures);
+  const Eigen::MatrixXd signatures = without(problem.signatures, explained);
   const Eigen::VectorXd map = smooth_map(discrepancy, residual, explained);
   shape.map.assign(map.data(), map.data() + map.size());
   const Eigen::VectorXd smoothed = covariance.whiten(map);

@@ -27,7 +27,7 @@ constexpr double kMostWarmUp_px = 2.0;  ///< by which a device that warms up shi
 
 /// One cloud's desk.
 struct Reading {
-  DeskView desk;
+  CalibrationView desk;
   std::optional<double> time_s;
 };
 
@@ -49,7 +49,7 @@ double image_focal_px(const Cloud& cloud) {
 
 /// The first clouds say what device this is.
 void look_at_device(const std::vector<CalibrationCloud>& clouds, const CalibrationOptions& options,
-                    Calibration& result) {
+                    UnitCalibration& result) {
   constexpr std::size_t kFew = 3;
   std::vector<Points> first;
   for (std::size_t i = 0; i < std::min(kFew, clouds.size()); ++i) {
@@ -174,7 +174,7 @@ double squares_left(const BiasView& view, const BiasField& field, int state) {
 }
 
 /// Views are left out one by one; of many, several at a time.
-void judge(const std::vector<BiasView>& views, const BiasField& of_all, Calibration& result) {
+void judge(const std::vector<BiasView>& views, const BiasField& of_all, UnitCalibration& result) {
   constexpr std::size_t kMostTimes = 12;
   const std::size_t times = std::min(kMostTimes, views.size());
   double before = 0.0, left = 0.0;
@@ -195,7 +195,7 @@ void judge(const std::vector<BiasView>& views, const BiasField& of_all, Calibrat
 /// From a pixel of the clouds' image to what the device has there.
 class Sight {
  public:
-  Sight(const std::vector<const Reading*>& readings, const Calibration& calibration)
+  Sight(const std::vector<const Reading*>& readings, const UnitCalibration& calibration)
       : scale_(calibration.scale), image_focal_px_(calibration.image_focal_px) {
     for (const Reading* reading : readings) {
       plane_ += -reading->desk.plane.normal / reading->desk.plane.offset / static_cast<double>(readings.size());
@@ -264,7 +264,7 @@ Image<char> seen_in(const Sight& sight, const std::vector<BiasView>& views) {
 }
 
 void map_bias(const std::vector<Reading>& readings, const Scenes& scenes, const BiasLearner& learner,
-              const BiasField& field, Calibration& result) {
+              const BiasField& field, UnitCalibration& result) {
   std::vector<const Reading*> all;
   double nearer = 0.0, cells = 0.0;
   for (const Reading& reading : readings) {
@@ -324,8 +324,8 @@ std::optional<WarmUp> warm_up_in(const std::vector<Reading>& readings) {
 
 }  // namespace
 
-Calibration calibrate(const std::vector<CalibrationCloud>& clouds, const CalibrationOptions& options, bool quiet) {
-  Calibration result;
+UnitCalibration calibrate(const std::vector<CalibrationCloud>& clouds, const CalibrationOptions& options, bool quiet) {
+  UnitCalibration result;
   look_at_device(clouds, options, result);
   std::vector<Reading> readings;
   NoiseSums noise;

@@ -36,7 +36,7 @@ struct CalibrationPose {
 };
 
 /// Images are 640 × 480 [px of disparity].
-struct Calibration {
+struct UnitCalibration {
   std::size_t clouds = 0, views = 0, cells = 0;
   DeviceScale scale;
   double image_focal_px = 0.0;  ///< of the clouds' own image
@@ -55,10 +55,10 @@ struct Calibration {
 
 /// Reads every cloud once, but the first few twice. Throws Error naming the cloud without a desk. Tells of its progress
 /// unless `quiet`.
-Calibration calibrate(const std::vector<CalibrationCloud>& clouds, const CalibrationOptions& options,
-                      bool quiet = true);
+UnitCalibration calibrate(const std::vector<CalibrationCloud>& clouds, const CalibrationOptions& options,
+                          bool quiet = true);
 
 /// unit_bias.exr, then unit.json.
-void write_unit(const std::filesystem::path& folder, const Calibration& calibration);
+void write_unit(const std::filesystem::path& folder, const UnitCalibration& calibration);
 
 }  // namespace fathom

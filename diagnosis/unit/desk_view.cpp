@@ -81,7 +81,7 @@ Sums sums_of(const std::vector<Pixel>& pixels, const Eigen::Vector3d& plane, con
 
 }  // namespace
 
-std::optional<DeskView> desk_view(std::span<const Points> clouds, const Plane& guess, const DeviceScale& scale) {
+std::optional<CalibrationView> desk_view(std::span<const Points> clouds, const Plane& guess, const DeviceScale& scale) {
   const std::vector<Pixel> pixels = pixels_of(clouds, scale);
   if (pixels.empty()) return std::nullopt;
   const double product = scale.focal_px * scale.baseline_m;
@@ -98,7 +98,7 @@ std::optional<DeskView> desk_view(std::span<const Points> clouds, const Plane& g
   if (filled.size() < kFewestCells) return std::nullopt;
   const auto most = filled.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(filled.size()));
   std::nth_element(filled.begin(), most, filled.end());
-  DeskView result;
+  CalibrationView result;
   for (int cell = 0; cell < kColumns * kRows; ++cell) {
     if (sums.desk[cell] < kLeastFilled * *most || sums.desk[cell] < kLeastDesk * sums.seen[cell]) continue;
     const double points = sums.desk[cell];

@@ -25,7 +25,7 @@ struct DeviceScale {
 };
 
 /// What a pose shows.
-struct DeskView {
+struct CalibrationView {
   BiasView view;
   Plane plane;
 };
@@ -34,6 +34,6 @@ struct DeskView {
 /// even. What stands on the desk is none of it: points count within 0.6 px of the plane, then within 0.4 px of the mean
 /// about them, so that a bias of the same size stays; cells where less than 0.6 of what is measured is desk are left
 /// out. Nothing where fewer than twenty cells are left.
-std::optional<DeskView> desk_view(std::span<const Points> clouds, const Plane& guess, const DeviceScale& scale);
+std::optional<CalibrationView> desk_view(std::span<const Points> clouds, const Plane& guess, const DeviceScale& scale);
 
 }  // namespace fathom

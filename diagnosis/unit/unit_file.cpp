@@ -12,7 +12,7 @@ constexpr const char* kImage = "unit_bias.exr";
 
 std::string channel_of_pose(std::size_t pose) { return fmt::format("pose_{}_px", pose); }
 
-Json json_from(const Calibration& unit) {
+Json json_from(const UnitCalibration& unit) {
   Json poses = Json::array();
   for (std::size_t i = 0; i < unit.poses.size(); ++i)
     poses.push_back({{"channel", channel_of_pose(i)},
@@ -59,7 +59,7 @@ Json json_from(const Calibration& unit) {
 
 }  // namespace
 
-void write_unit(const std::filesystem::path& folder, const Calibration& unit) {
+void write_unit(const std::filesystem::path& folder, const UnitCalibration& unit) {
   std::vector<ExrChannel> channels{{"bias_px", unit.bias_px},
                                    {"sigma_px", unit.sigma_px},
                                    {"reference_px", unit.reference_px},

@@ -58,7 +58,7 @@ struct Outcome {
   std::string refused;              ///< why, if it was
 };
 
-std::string capture_command(const std::filesystem::path& folder, const Shot& shot, std::uint64_t seed) {
+std::string capture_command(const std::filesystem::path& folder, const RandomShot& shot, std::uint64_t seed) {
   return fmt::format("fathom capture {} --mode {} --light {} --spp 1 --seed {} -o {}", (folder / "scene.json").string(),
                      shot.mode == CaptureMode::geometric ? "geometric" : "photometric",
                      shot.light == LightModel::full ? "full" : "direct", seed, (folder / "out").string());
@@ -67,7 +67,7 @@ std::string capture_command(const std::filesystem::path& folder, const Shot& sho
 Outcome shoot(std::uint64_t seed, std::uint64_t number, const std::filesystem::path& folder, TubeCounts& counts) {
   Outcome outcome;
   try {
-    const Shot shot = write_random_scene(seed, number, folder);
+    const RandomShot shot = write_random_scene(seed, number, folder);
     outcome.command = capture_command(folder, shot, seed);
     const Setup setup = read_setup(folder / "scene.json");
     Camera camera(setup, shot.mode, 1, seed, shot.light);

@@ -239,10 +239,10 @@ Json random_object(Draw& draw, const Eigen::Vector2d& position_mm, const std::fi
 
 }  // namespace
 
-Shot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::filesystem::path& folder) {
+RandomShot write_random_scene(std::uint64_t seed, std::uint64_t number, const std::filesystem::path& folder) {
   Draw draw(Rng(seed, number));
-  const Shot shot{draw.chance(0.4) ? CaptureMode::geometric : CaptureMode::photometric,
-                  draw.chance(0.15) ? LightModel::full : LightModel::direct};
+  const RandomShot shot{draw.chance(0.4) ? CaptureMode::geometric : CaptureMode::photometric,
+                        draw.chance(0.15) ? LightModel::full : LightModel::direct};
   const Eigen::Vector2d middle_mm{draw.from(-150.0, 150.0), draw.from(50.0, 700.0)};
   const auto nearby = [&](double reach_mm) {
     const double x_mm = middle_mm.x() + draw.from(-reach_mm, reach_mm);

@@ -218,6 +218,39 @@ TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
   EXPECT_EQ(diagnosis.where.at(0).stratum, "time_since_pour=early");
 }
 
+/// By its change near nothing it could never be as large, but it is as it grows.
+TEST(Decide, LeavesOpenWhatLooksTheSameOnlyWhereItIsLarge) {
+  const World world(small_design());
+  const EffectValue truth = world.at_strength("sensor_height", 20.0, 1.0);
+  Evidence evidence = world.measure({truth}, {}, 4);
+  Candidate bent = evidence.candidates[world.candidate("sensor_height")];
+  const double scale = bent.parameters[0].prior_scale, most = 10.0 * scale, large = 5.0 * scale;
+  bent.effect = "bent";
+  bent.signature *= 0.02;
+  bent.parameters[0] = {"bent_mm", 0.0, scale, -most, most};
+  evidence.candidates.push_back(bent);
+  const Predict predict = [&, straight = world.predict()](const std::vector<EffectValue>& effects) {
+    std::vector<EffectValue> all = effects;
+    for (EffectValue& effect : all)
+      if (effect.effect == "bent") {
+        const double x = effect.values[0] / large;
+        effect = {"sensor_height", {0.02 * effect.values[0] + (truth.values[0] - 0.02 * large) * x * std::abs(x)}};
+      }
+    return straight(all);
+  };
+  const Diagnosis diagnosis = decide(evidence, predict);
+  const auto holds = [&](const std::string& name) {
+    const std::vector<std::string> alone{name};
+    return std::any_of(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), [&](const Explanation& e) {
+      return e.effects == alone ||
+             std::find(e.alternatives.begin(), e.alternatives.end(), alone) != e.alternatives.end();
+    });
+  };
+  EXPECT_TRUE(holds("sensor_height"));
+  EXPECT_TRUE(holds("bent"));
+  EXPECT_EQ(diagnosis.verdict, Verdict::ambiguous);
+}
+
 /// As foam hides what is below it, however thin it is.
 TEST(Decide, NamesWhatShowsHoweverLittleThereIsOfIt) {
   const World world(small_design());

@@ -20,7 +20,7 @@ constexpr int kWidth = 640, kHeight = 480;
 struct Desk {
   std::string name;
   Points points;  ///< organised
-  DeskView seen;
+  CalibrationView seen;
 };
 
 std::vector<Desk> desks() {
