@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
-#include <tuple>
 
 #include "app/fonts.h"
 #include "app/gnuplot.h"
 #include "app/gnuplot_text.h"
+#include "app/heights_chart.h"
 #include "core/table.h"
 #include "diagnosis/measurement/cup_regions.h"
 
@@ -75,18 +74,6 @@ std::map<std::string, Mean> means_by_region(const DiagnosedCampaign& campaign, s
 }
 
 }  // namespace
-
-std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations) {
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < observations.size(); ++i)
-    if (observations[i].observable == "height_mm") rows.push_back(i);
-  const auto key = [&](std::size_t row) {
-    const Factors& f = observations[row].factors;
-    return std::tie(f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm, f.region, f.session, f.placement);
-  };
-  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  return rows;
-}
 
 void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   Table table({"observable", "region", "session", "pour", "placement", "liquid", "fill_mm", "distance_mm", "lateral_mm",

@@ -8,12 +8,6 @@ namespace fathom {
 /// residuals.csv: every observation with its factors, measured minus predicted, and 1 σ of that.
 void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 
-/// Rows of heights by liquid, fill, distance and lateral: neighbours in a picture are neighbours in the campaign.
-std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations);
-
-/// Rows of heights by liquid, fill, distance and lateral: neighbours in a picture are neighbours in the campaign.
-std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations);
-
 /// heights.png: the heights' residuals over the campaign, liquid by liquid. False when there are no heights.
 bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 

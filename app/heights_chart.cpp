@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <tuple>
 
-#include "app/diagnosis_pictures.h"
 #include "app/html.h"
 
 namespace fathom {
@@ -14,32 +14,33 @@ namespace {
 
 constexpr double kWidth = 960.0, kHeight = 400.0, kLeft = 60.0, kTop = 28.0, kBottom = 370.0;  // px
 
-/// Where a difference stands in the chart.
+/// Where a difference stands in the chart, which holds them all and 0.
 class Scale {
  public:
   Scale(const Diagnosis& diagnosis, const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
-      const double after = std::abs(diagnosis.after[row]) + diagnosis.error[row];
-      most_ = std::max({most_, std::abs(diagnosis.before[row]), after});
+      const double before = diagnosis.before[row], after = diagnosis.after[row], error = diagnosis.error[row];
+      low_ = std::min({low_, before, after - error});
+      high_ = std::max({high_, before, after + error});
     }
-    most_ *= 1.05;
+    const double margin = 0.05 * std::max(high_ - low_, 1e-3);
+    low_ -= margin, high_ += margin;
   }
 
-  double y(double difference_mm) const {
-    return 0.5 * (kTop + kBottom) - difference_mm * 0.5 * (kBottom - kTop) / most_;
-  }
+  double y(double difference_mm) const { return kBottom - (difference_mm - low_) / (high_ - low_) * (kBottom - kTop); }
 
   /// Differences for lines across the chart: 1, 2 or 5 times a power of ten apart.
   std::vector<double> ticks() const {
-    const double power = std::pow(10.0, std::floor(std::log10(most_)));
-    const double step = most_ / power < 2.0 ? 0.5 * power : most_ / power < 5.0 ? power : 2.0 * power;
+    const double range = high_ - low_, power = std::pow(10.0, std::floor(std::log10(range)));
+    const double step = range / power < 2.0 ? 0.2 * power : range / power < 5.0 ? 0.5 * power : power;
     std::vector<double> result;
-    for (double tick = -std::floor(most_ / step) * step; tick <= most_; tick += step) result.push_back(tick);
+    for (double number = std::ceil(low_ / step); number * step <= high_; ++number)
+      result.push_back(number * step + 0.0);  // 0, not -0
     return result;
   }
 
  private:
-  double most_ = 1e-3;
+  double low_ = 0.0, high_ = 0.0;
 };
 
 /// A path as a link: no character of it can be read as anything but a file's name.
@@ -86,6 +87,18 @@ std::string liquids_svg(const std::vector<Observation>& observations, const std:
 
 }  // namespace
 
+std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (observations[i].observable == "height_mm") rows.push_back(i);
+  const auto key = [&](std::size_t row) {
+    const Factors& f = observations[row].factors;
+    return std::tie(f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm, f.region, f.session, f.placement);
+  };
+  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return rows;
+}
+
 std::string heights_chart(const DiagnosedCampaign& campaign) {
   const std::vector<std::size_t> rows = heights_in_order(campaign.observations);
   if (rows.empty()) return {};
@@ -98,8 +111,7 @@ std::string heights_chart(const DiagnosedCampaign& campaign) {
     svg += fmt::format(
         "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\"/><text x=\"{4}\" y=\"{5:.1f}\" "
         "text-anchor=\"end\">{6:.3g}</text>\n",
-        kLeft, kWidth, scale.y(tick), std::abs(tick) < 1e-9 ? "#222" : "#eee", kLeft - 6.0, scale.y(tick) + 4.0,
-        std::abs(tick) < 1e-9 ? 0.0 : tick);
+        kLeft, kWidth, scale.y(tick), tick == 0.0 ? "#222" : "#eee", kLeft - 6.0, scale.y(tick) + 4.0, tick);
   svg += liquids_svg(campaign.observations, rows, step);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];

@@ -7,6 +7,9 @@
 
 namespace fathom {
 
+/// Rows of heights by liquid, fill, distance and lateral: neighbours in a picture are neighbours in the campaign.
+std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observations);
+
 /// An <svg> element; empty where there are no heights.
 std::string heights_chart(const DiagnosedCampaign& campaign);
 
