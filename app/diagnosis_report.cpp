@@ -4,9 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
-#include <tuple>
 
 #include "app/diagnosis_pictures.h"
 #include "app/diagnosis_words.h"
@@ -43,13 +41,8 @@ std::string folded_table(const std::vector<std::string>& head, const Rows& rows)
   const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, rows.size()));
   std::string html = html_table(head, {rows.begin(), middle});
   if (middle != rows.end())
-    html += fmt::format("<details><summary>{} more</summary>{}</details>\n", rows.end() - middle,
-                        html_table(head, {middle, rows.end()}));
+    html += html_folded(fmt::format("{} more", rows.end() - middle), html_table(head, {middle, rows.end()}));
   return html;
-}
-
-std::string folded(const char* summary, const std::string& html) {
-  return fmt::format("<details><summary>{}</summary>\n{}</details>\n", summary, html);
 }
 
 std::string where_html(const Diagnosis& diagnosis) {
@@ -64,7 +57,9 @@ std::string where_html(const Diagnosis& diagnosis) {
   }
   if (left >= 0.005)
     rows.push_back({"elsewhere, too thinly spread to be placed", "", fmt::format("{:.0f} %", 100 * left), ""});
-  return paragraph("Each line is what the lines above it leave. The shares are of the whole gap, in squared errors.") +
+  return paragraph(
+             "Each difference is beside those of the other lines. The shares are of the whole gap, in squared "
+             "errors.") +
          html_table({"where", "measured − model", "share of the gap", "p that errors alone make it"}, rows);
 }
 
@@ -72,8 +67,6 @@ std::string effects_html(const Diagnosis& diagnosis) {
   std::string html;
   for (const NamedEffect& named : diagnosis.effects) {
     const Effect* effect = find_effect(effect_name(named.name).id);
-    std::string sentence = effect_clause(named) + ".";
-    sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
     std::vector<std::string> lines;
     for (const NamedParameter& parameter : shown_parameters(named)) lines.push_back(parameter_words(parameter));
     lines.push_back(fmt::format("It is there with a probability of {:.1f} %.", 100 * named.probability));
@@ -82,7 +75,8 @@ std::string effects_html(const Diagnosis& diagnosis) {
     lines.push_back(fmt::format("In conditions that had no part in finding its size they do with p = {:.1g}.",
                                 named.p_confirmation));
     if (effect && !effect->citation.empty()) lines.push_back(fmt::format("Source: {}.", effect->citation));
-    html += fmt::format("<h3>{}</h3>\n", html_escaped(effect_words(named.name))) + paragraph(sentence) + list(lines);
+    html += fmt::format("<h3>{}</h3>\n", html_escaped(effect_words(named.name))) +
+            paragraph(capitalised(effect_clause(named)) + ".") + list(lines);
   }
   return html;
 }
@@ -130,7 +124,7 @@ std::string beside_words(const Explanation& explanation) {
 std::string what_would_settle(const Explanation& explanation, const Diagnosis& diagnosis) {
   const std::vector<std::string>& first = diagnosis.ambiguity_set.front().effects;
   for (const NextMeasurement& next : diagnosis.next) {
-    const auto& [one, other] = std::tie(next.separates[0], next.separates[1]);
+    const std::vector<std::string>&one = next.separates[0], &other = next.separates[1];
     if ((one != first || other != explanation.effects) && (other != first || one != explanation.effects)) continue;
     return next.settles() ? fmt::format("{} ({:.0f} min): {:.1f} σ", next.measurement, next.cost, next.sigma)
                           : fmt::format("nothing that was considered: {:.1f} σ at most", next.sigma);
@@ -155,7 +149,8 @@ std::string rivals_html(const Diagnosis& diagnosis) {
       {"explanation", "probability", "looks the same in these measurements", "what would tell it from the first"},
       rows);
   if (!details.empty())
-    html += folded("What may be there besides", html_table({"explanation", "alone", "may be there as well"}, details));
+    html +=
+        html_folded("What may be there besides", html_table({"explanation", "alone", "may be there as well"}, details));
   return html;
 }
 
@@ -201,7 +196,7 @@ std::string confusable_html(const Diagnosis& diagnosis) {
     if (const std::set<std::string> ids = ids_of(direction.effects); is_new(ids))
       hidden.push_back(effects_words({ids.begin(), ids.end()}));
   if (!hidden.empty()) html += paragraph("Where these act together, their changes nearly cancel:") + list(hidden);
-  return html.empty() ? "" : folded("Effects that these measurements hardly tell apart", html);
+  return html.empty() ? "" : html_folded("Effects that these measurements hardly tell apart", html);
 }
 
 std::string next_html(const Diagnosis& diagnosis) {
@@ -220,10 +215,10 @@ std::string budget_html(const Diagnosis& diagnosis) {
     rows.push_back({line.condition, line.observable, fmt::format("{:+.3f}", line.comparison_error),
                     fmt::format("{:.3f}", line.u_data), fmt::format("{:.3f}", line.u_input),
                     fmt::format("{:.3f}", line.u_numerical), fmt::format("{:.3f}", line.u_validation)});
-  return fmt::format(
-      "<details><summary>{} conditions (ASME V&amp;V 20: E = measured − model, its uncertainty u_val of "
-      "data, inputs and numerics{})</summary>{}</details>\n",
-      rows.size(), is_traced ? "; u_num is by how much few rays differ from ray tracing" : "",
+  return html_folded(
+      fmt::format("{} conditions (ASME V&V 20: E = measured − model, its uncertainty u_val of data, inputs and "
+                  "numerics{})",
+                  rows.size(), is_traced ? "; u_num is by how much few rays differ from ray tracing" : ""),
       html_table({"condition", "observable", "E", "u_D", "u_input", "u_num", "u_val"}, rows, true));
 }
 
@@ -251,7 +246,7 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
   if (!campaign.ray_traced_html.empty()) html += heading("Few rays and ray tracing") + campaign.ray_traced_html;
   html += heading("What else it could be") + rivals_html(diagnosis) + confusable_html(diagnosis);
   if (!diagnosis.next.empty()) html += heading("What to measure next") + next_html(diagnosis);
-  html += heading("What could still hide") + folded("Limits of every effect", limits_html(diagnosis));
+  html += heading("What could still hide") + html_folded("Limits of every effect", limits_html(diagnosis));
   html += heading("Uncertainty budget") + budget_html(diagnosis);
   write_residuals(folder, campaign);
   html += "<p>Every observation: <code>residuals.csv</code>.</p>\n";

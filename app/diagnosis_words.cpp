@@ -68,11 +68,9 @@ std::string where_sentence(const Diagnosis& diagnosis) {
   const GapLocation& where = diagnosis.where.front();
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
-  std::string text =
-      fmt::format("{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ", words.name,
-                  std::abs(where.mean), words.unit, where.mean < 0 ? words.less : words.more);
-  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  return text;
+  return capitalised(fmt::format("{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ",
+                                 words.name, std::abs(where.mean), words.unit,
+                                 where.mean < 0 ? words.less : words.more));
 }
 
 /// "15 % (13 to 17 %)": the size of a parameter's departure from nominal, whichever way it goes, with its 95 %
@@ -250,6 +248,11 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string capitalised(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
 std::string effect_clause(const NamedEffect& named) {
   const EffectName name = effect_name(named.name);
   const Effect* effect = find_effect(name.id);
@@ -332,8 +335,7 @@ std::string beside_words(const Diagnosis& diagnosis) {
   std::string text = names.empty()      ? "Something besides heights and shapes departs"
                      : names.size() > 1 ? joined(names, "and") + " depart"
                                         : names.front() + " departs";
-  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  text += " from the model. That alone is no gap: heights and shapes decide.";
+  text = capitalised(std::move(text)) + " from the model. That alone is no gap: heights and shapes decide.";
   if (!diagnosis.beside_effects.empty()) text += fmt::format(" It may be {}.", effects_words(diagnosis.beside_effects));
   return text;
 }

@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+std::string capitalised(std::string text);              ///< with a large first letter; `text` is not empty
 std::string effect_words(const std::string& name);      ///< "subsurface scattering of milk tea"
 std::string heights_words(const Diagnosis& diagnosis);  ///< which heights were compared: "heights" where cups' were
 std::string effects_words(const std::vector<std::string>&);  ///< "foam and surface tilt", "nothing"

@@ -79,13 +79,16 @@ std::string html_table(const std::vector<std::string>& head, const std::vector<s
   return html + "</table>\n";
 }
 
+std::string html_folded(std::string_view summary, std::string_view body) {
+  return fmt::format("<details><summary>{}</summary>{}</details>\n", html_escaped(summary), body);
+}
+
 std::string html_details(const Table& table, const std::string& file) {
   if (table.rows() == 0) return fmt::format("<p>Data: <code>{}</code></p>\n", html_escaped(file));
   std::vector<std::vector<std::string>> rows(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row)
     for (const std::string& column : table.columns()) rows[row].push_back(table.text(row, column));
-  return fmt::format("<details><summary>{} ({} rows)</summary>{}</details>\n", html_escaped(file), table.rows(),
-                     html_table(table.columns(), rows, true));
+  return html_folded(fmt::format("{} ({} rows)", file, table.rows()), html_table(table.columns(), rows, true));
 }
 
 }  // namespace fathom

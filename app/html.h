@@ -23,6 +23,9 @@ std::string html_picture(const std::filesystem::path& png, std::string_view alte
 std::string html_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                        bool numbers = false);
 
+/// HTML that a click on its summary, a plain text, opens.
+std::string html_folded(std::string_view summary, std::string_view body);
+
 /// A table that a click on its name and number of rows opens; only a pointer to the file when it has no rows.
 std::string html_details(const Table& table, const std::string& file);
 

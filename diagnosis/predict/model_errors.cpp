@@ -145,7 +145,8 @@ std::vector<SharedError> errors_of_views(const std::vector<Observation>& observa
   if (pixels.empty() || views == 0) return {};
   constexpr double kFlattest = 0.1;  // sine of a pitch below which the image's middle sees no desk
   const double depth = rig.height_m / std::max(std::sin(rig.pitch_rad), kFlattest);
-  const double per_px = rig.height_m / (rig.focal_px * rig.baseline_m);  // of depth: height above the desk
+  const double per_px =
+      rig.height_m / (rig.focal_px * rig.baseline_m);  // height above the desk, for each metre of depth
   const double of_view = std::accumulate(pixels.begin(), pixels.end(), 0.0) / static_cast<double>(views);
   const double width = std::sqrt(4.0 / 3.0 * of_view), height = 0.75 * width;  // of what is seen of the desk, in px
   const double slope = per_px * rig.focal_px * kBiasOfView_px * std::sqrt(12.0 * kPatch_px2 / of_view);
@@ -155,12 +156,10 @@ std::vector<SharedError> errors_of_views(const std::vector<Observation>& observa
                             std::pair("desk_roll_deg", deg_from_radians(slope / width))};
   std::vector<SharedError> errors;
   for (const auto& [observable, sigma] : of_views) {
-    int row = 0;
-    Groups each = group_by(observations, [&](const Observation& o) {
-      ++row;
-      return o.observable == observable ? std::to_string(row) : std::string();
-    });
-    errors.push_back({observable, std::move(each.of), sigma, true});
+    std::vector<int> each;  // a group of its own
+    int count = 0;
+    for (const Observation& o : observations) each.push_back(o.observable == observable ? count++ : -1);
+    errors.push_back({observable, std::move(each), sigma, true});
   }
   return errors;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -57,6 +56,13 @@ bool is_known(const std::vector<Refit>& fits, const std::vector<int>& effects) {
   return std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == effects; });
 }
 
+Hypothesis without_effect(const Problem& problem, const Hypothesis& whole, std::size_t left_out) {
+  std::vector<std::size_t> others;
+  for (std::size_t e = 0; e < whole.effects.size(); ++e)
+    if (e != left_out) others.push_back(e);
+  return part_of(problem, whole, others);
+}
+
 /// Where signatures are no straight lines, others come in that only bend them: each of the likeliest fit's effects is
 /// left out in turn, as long as that makes a likelier one.
 void add_without_one(const Case& c, std::vector<Refit>& fits) {
@@ -64,10 +70,7 @@ void add_without_one(const Case& c, std::vector<Refit>& fits) {
     const Hypothesis likeliest = fits.front().hypothesis;
     if (likeliest.effects.size() < 2) return;
     for (std::size_t left_out = 0; left_out < likeliest.effects.size(); ++left_out) {
-      std::vector<std::size_t> others;
-      for (std::size_t e = 0; e < likeliest.effects.size(); ++e)
-        if (e != left_out) others.push_back(e);
-      const Hypothesis less = part_of(c.problem, likeliest, others);
+      const Hypothesis less = without_effect(c.problem, likeliest, left_out);
       if (!is_known(fits, less.effects)) fits.push_back(fitted(c, less));
     }
     sort_by_evidence(fits);
@@ -84,10 +87,7 @@ void add_confusable(const Case& c, std::vector<Refit>& fits) {
   const Hypothesis likeliest = fits.front().hypothesis;
   std::vector<std::pair<double, Hypothesis>> alike;
   for (std::size_t e = 0; e < likeliest.effects.size(); ++e) {
-    std::vector<std::size_t> positions(likeliest.effects.size());
-    std::iota(positions.begin(), positions.end(), std::size_t{0});
-    positions.erase(positions.begin() + static_cast<std::ptrdiff_t>(e));
-    const Hypothesis others = part_of(problem, likeliest, positions), own = part_of(problem, likeliest, {e});
+    const Hypothesis others = without_effect(problem, likeliest, e), own = part_of(problem, likeliest, {e});
     const auto signature = [&](const std::vector<int>& effects) -> Eigen::MatrixXd {
       return problem.signatures(Eigen::all, columns_of(problem, effects));
     };

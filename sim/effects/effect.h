@@ -29,10 +29,10 @@ struct EffectSetting {
 struct Effect {
   std::string_view id, family;
   std::string_view sentence;  ///< one, plain
-  /// The same with the size of its one parameter, and its unit, in place of {}: where it is above nominal, and below.
+  /// The same with the size of its first parameter, and its unit, in place of {}: where it is above nominal, and below.
   /// Empty where numbers do not fit into a sentence.
   std::string_view more = {}, less = {};
-  bool in_percent = false;  ///< the parameter is a share, and stands in these in percent
+  bool in_percent = false;  ///< that parameter is a share, and stands there in percent
   std::vector<EffectParameter> parameters;
   std::string_view citation;
   std::vector<std::string_view> twins;  ///< effects that look alike, in some campaigns at least
