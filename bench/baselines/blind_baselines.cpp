@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "bench/baselines/diagnosis_baselines.h"
-#include "bench/blind/command_line.h"
+#include "blind/command_line.h"
 #include "core/files.h"
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/physics.h"

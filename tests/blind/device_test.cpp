@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "bench/blind/device_law.h"
-#include "bench/blind/eye.h"
-#include "bench/blind/laboratory.h"
-#include "bench/blind/shoot.h"
+#include "blind/device_law.h"
+#include "blind/eye.h"
+#include "blind/laboratory.h"
+#include "blind/shoot.h"
 
 namespace fathom::blind {
 namespace {

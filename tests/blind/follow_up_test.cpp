@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <set>
 
-#include "bench/blind/laboratory.h"
-#include "bench/blind/settle.h"
-#include "bench/blind/write_set.h"
+#include "blind/laboratory.h"
+#include "blind/settle.h"
+#include "blind/write_set.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "tests/app/run_fathom.h"

@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "bench/blind/device_law.h"
-#include "bench/blind/eye.h"
-#include "bench/blind/fermat.h"
-#include "bench/blind/follow.h"
-#include "bench/blind/liquid_top.h"
-#include "bench/blind/turbid.h"
+#include "blind/device_law.h"
+#include "blind/eye.h"
+#include "blind/fermat.h"
+#include "blind/follow.h"
+#include "blind/liquid_top.h"
+#include "blind/turbid.h"
 #include "theory/triangulation.h"
 
 namespace fathom::blind {

@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "bench/blind/ledger.h"
-#include "bench/blind/pack.h"
-#include "bench/blind/strength.h"
-#include "bench/blind/write_set.h"
+#include "blind/ledger.h"
+#include "blind/pack.h"
+#include "blind/strength.h"
+#include "blind/write_set.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/hash.h"

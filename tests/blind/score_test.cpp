@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "bench/blind/clopper_pearson.h"
-#include "bench/blind/curves.h"
-#include "bench/blind/goals.h"
-#include "bench/blind/settle.h"
+#include "blind/clopper_pearson.h"
+#include "blind/curves.h"
+#include "blind/goals.h"
+#include "blind/settle.h"
 #include "core/files.h"
 
 namespace fathom::blind {

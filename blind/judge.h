@@ -1,0 +1,43 @@
+// One answer beside its truth.
+#pragma once
+
+#include <optional>
+
+#include "blind/draw.h"
+#include "blind/report_file.h"
+
+namespace fathom::blind {
+
+struct Judged {
+  SetTruth truth;
+  Answer answer;
+  std::optional<Answer> followed = {};  ///< to the set and what the answer proposed to measure next, together
+
+  double weakest() const;    ///< smallest s of what is hidden; 0 of nothing
+  double strongest() const;  ///< largest
+  /// The effects that a registry can name; empty where there are none or where they are unknown.
+  Names nameable() const;
+  bool is_unknown() const { return truth.kind == "unknown" && !truth.effects.empty(); }
+  bool is_single() const { return truth.kind == "single" && !truth.effects.empty(); }
+  /// Power of a filter that knows the signature of what is hidden and looks for nothing else, at 1 % false alarms.
+  double matched_filter() const;
+
+  /// What it puts first or names is exactly what is hidden, or, of twins, one of them.
+  bool is_right() const;
+  /// The same of a set of effects.
+  bool is_true(const Names& effects) const;
+  /// What is hidden is what it puts first, or what it says cannot be told from that or may be there as well, each for
+  /// itself or together.
+  bool first_holds_truth() const;
+  /// Neither is it right nor does its first hold the truth, and that has a probability of at least 0.9.
+  bool is_confidently_wrong() const;
+  /// What is hidden is among its explanations.
+  bool holds_truth() const;
+  /// Of book-keeping: a warning or an effect says what went wrong.
+  bool finds_mistake() const;
+  /// What it says, in one word or some: effects joined by +, "none", "unknown", …
+  std::string said() const;
+  std::string hidden() const;
+};
+
+}  // namespace fathom::blind
