@@ -7,9 +7,10 @@ import xml.etree.ElementTree as xml
 
 
 def reason(test):
-    """GoogleTest's line after "file:line: Skipped", else what ctest says."""
+    """GoogleTest's line after "file:line: Skipped" or Python's after "skipped", else what ctest says."""
     output = test.findtext("system-out") or ""
-    said = re.search(r"^\S*:\d+: Skipped\n(.*)$", output, re.MULTILINE)
+    said = (re.search(r"^\S*:\d+: Skipped\n(.*)$", output, re.MULTILINE)
+            or re.search(r"\.\.\. skipped ['\"](.*)['\"]$", output, re.MULTILINE))
     if said and said[1].strip():
         return said[1].strip()
     mark = test.find("skipped")

@@ -13,6 +13,8 @@ add_test(passes "/bin/sh" "-c" "true")
 add_test(fails "/bin/sh" "-c" "false")
 add_test(scene.Povray "/bin/sh" "-c" "seq 400; echo '/a/povray_test.cpp:118: Skipped'; echo 'no povray in PATH'; echo '[  SKIPPED ] x'")
 set_tests_properties(scene.Povray PROPERTIES SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+add_test(python "/bin/sh" "-c" "echo \"test_rays (a.B) ... skipped 'POV-Ray is not installed'\"; echo 'OK (skipped=1)'")
+set_tests_properties(python PROPERTIES SKIP_REGULAR_EXPRESSION "OK [(]skipped=")
 add_test(silent "/bin/sh" "-c" "exit 77")
 set_tests_properties(silent PROPERTIES SKIP_RETURN_CODE 77)
 """
@@ -29,10 +31,11 @@ class Skipped(unittest.TestCase):
 
     def test_each_is_counted_and_says_why(self):
         lines = self.summary(TESTS)
-        self.assertEqual(lines[0], "2 of 4 tests were skipped:")
+        self.assertEqual(lines[0], "3 of 5 tests were skipped:")
         self.assertIn("  scene.Povray: no povray in PATH", lines)
+        self.assertIn("  python: POV-Ray is not installed", lines)
         self.assertTrue(any(line.startswith("  silent: ") for line in lines), lines)
-        self.assertEqual(len(lines), 3)
+        self.assertEqual(len(lines), 4)
 
     def test_where_none_is_that_is_said(self):
         self.assertEqual(self.summary('add_test(passes "/bin/sh" "-c" "true")\n'), ["0 of 1 tests were skipped"])
@@ -54,13 +57,13 @@ class Skipped(unittest.TestCase):
         for name in ("install-packages", "build"):
             (root / "scripts" / name).write_text("#!/bin/sh\n")
             (root / "scripts" / name).chmod(0o755)
-        for tests, code, closing in ((TESTS, 8, "1 tests failed out of 4"),
-                                     (TESTS.replace('"false"', '"true"'), 0, "100% tests passed, 0 tests failed out of 4")):
+        for tests, code, closing in ((TESTS, 8, "1 tests failed out of 5"),
+                                     (TESTS.replace('"false"', '"true"'), 0, "100% tests passed, 0 tests failed out of 5")):
             (root / "build/ci/CTestTestfile.cmake").write_text(tests)
             run = subprocess.run(["scripts/test"], cwd=root, check=False, capture_output=True, text=True)
             self.assertEqual(run.returncode, code, run.stdout + run.stderr)
             self.assertIn(closing, run.stdout)
-            self.assertEqual(run.stdout.splitlines()[-3], "2 of 4 tests were skipped:")
+            self.assertEqual(run.stdout.splitlines()[-4], "3 of 5 tests were skipped:")
 
 
 if __name__ == "__main__":

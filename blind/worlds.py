@@ -1,0 +1,196 @@
+#!/usr/bin/python3
+"""usage: blind/worlds.py WORLD --program FATHOM [--seed N] [--sets N] [--jobs N] [--classes null:10,single:10,pair:4,unknown:6]
+       blind/worlds.py page SCORE.json...
+Judges the diagnosis in a world that is not Fathom's own: has WORLD write one measurement after the other, diagnoses each,
+removes its clouds, and scores the answers. WORLD is povray (POV-Ray's rays, OpenCV's matches) or second_laboratory, which
+needs the programs of ../shared/second_world. out/blind/WORLD-SEED/ holds truth, answers and score; it goes on where it was
+stopped. `page` prints the scores of several worlds as one table, the worst on its first line.
+Needs Debian's python3-numpy, python3-scipy; the world of POV-Ray also povray and python3-opencv."""
+import argparse
+import concurrent.futures
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SECOND = ROOT.parent / "shared" / "second_world" / "make_pack.py"
+# Each world's program and what it is asked for besides: designs with many and with few conditions.
+WORLDS = {"povray": (ROOT / "blind" / "povray" / "make_pack.py", []),
+          "second_laboratory": (SECOND, ["--design", "full,paper,onedist,fewpours", "--strength", "8,40"])}
+CLASSES = {"null": 10, "single": 10, "pair": 4, "unknown": 6}
+CONFIDENT = 0.9
+
+
+class Judged:
+    """An answer beside its truth, by the rules of blind/judge.cpp."""
+
+    def __init__(self, truth, answer):
+        self.kind, self.name = truth["class"], truth["set"]
+        self.truth = frozenset(effect["name"] for effect in truth["effects"])
+        self.wanted = frozenset(["unknown"]) if self.kind == "unknown" else self.truth
+        try:
+            report = json.loads((answer / "report.json").read_text())
+        except (OSError, ValueError):
+            report = {"verdict": "missing"}
+        self.verdict = report["verdict"]
+        named = frozenset(effect["name"].split("@")[0] for effect in report.get("effects") or [])
+        self.named = named if "named" in self.verdict else frozenset()
+        self.unknown = "unknown" in self.verdict
+        self.entries = [([frozenset(n.split("@")[0] for n in names) for names in [entry["effects"], *entry.get("indistinguishable", [])]],
+                         [frozenset(n.split("@")[0] for n in names) for names in entry.get("supersets", [])], entry["probability"])
+                        for entry in report.get("ambiguity_set") or []]
+
+    def right(self):
+        if self.kind == "unknown":
+            return self.unknown and not self.named
+        if self.kind == "null":
+            return not self.named
+        return self.named == self.wanted or (not self.named and bool(self.entries) and self.entries[0][0][0] == self.wanted)
+
+    def leaves_open(self, entry):
+        same, more, _ = entry
+        return self.wanted in same or self.wanted in more
+
+    def first_holds_truth(self):
+        return bool(self.entries) and self.leaves_open(self.entries[0])
+
+    def holds_truth(self):
+        return self.named == self.wanted or any(map(self.leaves_open, self.entries))
+
+    def confidently_wrong(self):
+        return not self.right() and bool(self.entries) and self.entries[0][2] >= CONFIDENT and not self.first_holds_truth()
+
+
+def share(metric, judged, hit, bar, at_most):
+    """A goal, as in score.json of blind_score; no answer counts as a failure."""
+    from scipy.stats import beta
+    hits = sum(at_most if one.verdict == "missing" else bool(hit(one)) for one in judged)
+    trials = len(judged)
+    if not trials:
+        return {"metric": metric, "hits": 0, "trials": 0, "value": None, "ci95": [0, 1], "bar": bar, "verdict": "no sets"}
+    low = float(beta.ppf(0.025, hits, trials - hits + 1)) if hits else 0.0
+    high = float(beta.ppf(0.975, hits + 1, trials - hits)) if hits < trials else 1.0
+    value = hits / trials
+    sure, met = (high <= bar, value <= bar) if at_most else (low >= bar, value >= bar)
+    return {"metric": metric, "hits": hits, "trials": trials, "value": value, "ci95": [low, high], "bar": bar,
+            "verdict": "met" if sure else "open" if met else "missed"}
+
+
+def goals(judged):
+    def of(*kinds):
+        return [one for one in judged if one.kind in kinds]
+    return [
+        share("answered", judged, lambda one: one.verdict != "missing", 1.0, False),
+        share("null set called none", of("null"), lambda one: one.verdict == "none", 0.95, False),
+        share("names something on a null set", of("null"), lambda one: one.named, 0.01, True),
+        share("calls a null set unknown", of("null"), lambda one: one.unknown, 0.01, True),
+        share("single effect first", of("single"), Judged.right, 0.95, False),
+        share("single effect first, or not told from what is", of("single"), lambda one: one.right() or one.first_holds_truth(), 0.99, False),
+        share("pair exact", of("pair"), Judged.right, 0.95, False),
+        share("truth in the ambiguity set", of("single", "pair"), Judged.holds_truth, 0.99, False),
+        share("unknown flagged", of("unknown"), lambda one: one.unknown, 0.98, False),
+        share("confidently wrong", judged, Judged.confidently_wrong, 0.02, True),
+    ]
+
+
+def run_set(world, number, kind, options, pack):
+    """Writes one measurement, diagnoses it, removes its clouds. Returns whether something was done."""
+    answer = pack / "answers" / f"{number:04d}"
+    if (answer / "report.json").exists() or (answer / "failed.txt").exists():
+        return False
+    program, extra = WORLDS[world]
+    work = pack / "work" / f"{number:04d}"
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    one_thread = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    # One set a call, with a seed of its own: so each can be made again alone.
+    subprocess.run(["/usr/bin/python3", "-B", str(program), "--out", str(work / "pack"), "--seed", str(1000 * options.seed + number), "--sets", "1",
+                    "--classes", f"{kind}:1", *extra], check=True, stdout=subprocess.DEVNULL, env=one_thread)
+    truth = json.loads((work / "pack.truth.jsonl").read_text()) | {"set": f"{number:04d}"}
+    part = answer.with_suffix(".part")
+    shutil.rmtree(part, ignore_errors=True)
+    part.mkdir(parents=True)
+    run = subprocess.run([options.program, "diagnose", str(work / "pack" / "set_0000"), "-o", str(part), "--threads", "1", "--quiet"],
+                         capture_output=True, text=True)
+    if run.returncode:
+        (part / "failed.txt").write_text(run.stderr)
+    (part / "truth.json").write_text(json.dumps(truth) + "\n")
+    part.rename(answer)
+    if not options.keep:
+        shutil.rmtree(work)
+    return True
+
+
+def judge_all(pack):
+    return [Judged(json.loads((answer / "truth.json").read_text()), answer) for answer in sorted((pack / "answers").glob("[0-9]*"))
+            if (answer / "truth.json").exists()]
+
+
+def score(pack, world):
+    judged = judge_all(pack)
+    result = goals(judged)
+    (pack / "score").mkdir(exist_ok=True)
+    (pack / "score" / "score.json").write_text(json.dumps({"pack": pack.name, "world": world, "sets": len(judged), "goals": result}, indent=1) + "\n")
+    with open(pack / "score" / "sets.csv", "w", encoding="utf-8") as table:
+        table.write("set,class,hidden,verdict,named,first,probability,right,confidently_wrong\n")
+        for one in judged:
+            first = one.entries[0] if one.entries else ([frozenset()], [], 0)
+            table.write(",".join([one.name, one.kind, "+".join(sorted(one.truth)) or "none", one.verdict, "+".join(sorted(one.named)),
+                                  "+".join(sorted(first[0][0])), f"{first[2]:.2f}", str(int(one.right())), str(int(one.confidently_wrong()))]) + "\n")
+    for goal in result:
+        if goal["trials"]:
+            print(f"{goal['metric']:46} {goal['hits']:4} of {goal['trials']:4}  {100 * goal['ci95'][0]:5.1f} to {100 * goal['ci95'][1]:5.1f} %  {goal['verdict']}")
+    print(f"Look at {pack / 'score'}")
+
+
+def page(files):
+    """Worlds as rows: the one that misses most bars first."""
+    scores = [json.loads(Path(file).read_text()) for file in files]
+    scores.sort(key=lambda one: -sum(goal["verdict"] == "missed" for goal in one["goals"]))
+    metrics = [goal["metric"] for goal in scores[0]["goals"]]
+    print("| world | " + " | ".join(metrics) + " |\n|" + "---|" * (len(metrics) + 1))
+    for one in scores:
+        cells = {goal["metric"]: f"{goal['hits']}/{goal['trials']}" for goal in one["goals"]}
+        print(f"| {one['pack']} | " + " | ".join(cells.get(metric, "") for metric in metrics) + " |")
+
+
+def main():
+    if sys.argv[1:2] == ["page"] and len(sys.argv) > 2:
+        return page(sys.argv[2:])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("world", choices=WORLDS)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--sets", type=int, default=30)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--classes", default=",".join(f"{name}:{weight}" for name, weight in CLASSES.items()))
+    parser.add_argument("--keep", action="store_true", help="keep the clouds")
+    options = parser.parse_args()
+    options.program = str(Path(options.program).resolve())
+    if not WORLDS[options.world][0].exists():
+        print(f"skipped: the programs of {options.world} are not here: {WORLDS[options.world][0]}")
+        return None
+    weights = {part.split(":")[0]: int((part.split(":") + ["1"])[1]) for part in options.classes.split(",")}
+    if not set(weights) <= set(CLASSES):
+        parser.error("classes are " + ", ".join(CLASSES))
+    # Kinds alternate as their shares are, so that a run that was stopped has some of each.
+    order = sorted(((k + 0.5) / weight, name) for name, weight in weights.items() for k in range(weight))
+    pack = ROOT / "out" / "blind" / f"{options.world}-{options.seed}"
+    started, done = time.monotonic(), 0
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        runs = [pool.submit(run_set, options.world, number, order[number % len(order)][1], options, pack) for number in range(options.sets)]
+        for count, run in enumerate(concurrent.futures.as_completed(runs), 1):
+            done += run.result()
+            rate = (time.monotonic() - started) / max(done, 1)
+            print(f"diagnosed {count} of {options.sets}, {rate * (options.sets - count) / 60:.0f} min left", end="\r" if sys.stderr.isatty() else "\n",
+                  file=sys.stderr, flush=True)
+    score(pack, options.world)
+    return None
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,119 @@
+#!/usr/bin/python3
+"""usage: tests/blind/worlds_test.py
+The worlds of other people's parts: how answers in them are judged, and that the world of POV-Ray and OpenCV keeps the laws
+that it is to be trusted for. What needs POV-Ray, NumPy, SciPy or OpenCV is skipped where they are not installed."""
+import importlib.util
+import json
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "blind"), str(ROOT / "blind" / "povray")]
+import worlds  # noqa: E402
+
+HAS_SCIPY = importlib.util.find_spec("scipy") is not None
+HAS_WORLD = HAS_SCIPY and importlib.util.find_spec("cv2") is not None and shutil.which("povray") is not None
+
+
+def judged(kind, hidden, report):
+    with tempfile.TemporaryDirectory() as folder:
+        if report is not None:
+            (Path(folder) / "report.json").write_text(json.dumps(report))
+        return worlds.Judged({"set": "0000", "class": kind, "effects": [{"name": name} for name in hidden]}, Path(folder))
+
+
+def named(*effects, probability=0.99):
+    return {"verdict": "named", "effects": [{"name": name} for name in effects],
+            "ambiguity_set": [{"effects": list(effects), "probability": probability}]}
+
+
+class Judging(unittest.TestCase):
+    def test_what_is_hidden_and_named_is_right_and_nothing_else_is(self):
+        self.assertTrue(judged("single", ["foam"], named("foam@milk_tea")).right())
+        wrong = judged("single", ["foam"], named("meniscus"))
+        self.assertFalse(wrong.right())
+        self.assertTrue(wrong.confidently_wrong())
+        self.assertFalse(judged("single", ["foam"], named("meniscus", probability=0.8)).confidently_wrong())
+
+    def test_silence_is_right_where_nothing_is_hidden_and_nowhere_else(self):
+        silent = {"verdict": "none", "effects": [], "ambiguity_set": [{"effects": ["none"], "probability": 0.99}]}
+        self.assertTrue(judged("null", [], silent).right())
+        self.assertFalse(judged("single", ["foam"], silent).right())
+        self.assertFalse(judged("unknown", ["pebble"], silent).right())
+        self.assertTrue(judged("unknown", ["pebble"], {"verdict": "unknown", "effects": []}).right())
+
+    def test_what_cannot_be_told_from_the_first_is_not_wrong(self):
+        open_answer = {"verdict": "ambiguous", "effects": [],
+                       "ambiguity_set": [{"effects": ["fill_offset"], "indistinguishable": [["cup_bottom_height"]], "probability": 0.97}]}
+        answer = judged("single", ["cup_bottom_height"], open_answer)
+        self.assertFalse(answer.right())
+        self.assertTrue(answer.holds_truth())
+        self.assertFalse(answer.confidently_wrong())
+
+    @unittest.skipUnless(HAS_SCIPY, "SciPy is not installed")
+    def test_no_answer_fails_every_goal(self):
+        missing = [judged(kind, hidden, None) for kind, hidden in
+                   [("null", []), ("single", ["foam"]), ("pair", ["foam", "meniscus"]), ("unknown", ["pebble"])]]
+        for goal in worlds.goals(missing):
+            self.assertEqual(goal["verdict"], "missed", goal)
+
+    @unittest.skipUnless(HAS_SCIPY, "SciPy is not installed")
+    def test_a_share_has_clopper_and_pearsons_interval(self):
+        ones = [judged("null", [], {"verdict": "none"})] * 19 + [judged("null", [], {"verdict": "unknown"})]
+        goal = worlds.share("", ones, lambda one: one.verdict == "none", 0.95, False)
+        self.assertAlmostEqual(goal["ci95"][0], 0.7513, places=4)  # tables: 19 of 20
+        self.assertAlmostEqual(goal["ci95"][1], 0.9987, places=4)
+
+
+@unittest.skipUnless(HAS_WORLD, "POV-Ray, NumPy, SciPy or OpenCV is not installed")
+class PovRayAndOpenCv(unittest.TestCase):
+    def test_a_bottom_is_seen_through_water_where_snell_has_it(self):
+        import numpy as np
+        import world
+        sensor, cup, level, index = world.Sensor(), world.Cup(y_mm=250), 37.0, 1.33
+        seen = world.positions(sensor.camera_mm(), sensor, cup, world.Liquid(level, index))
+        wet = world.Scene.in_the_liquid(seen, cup, world.Liquid(level, index)) & (np.abs(seen[..., 2] - cup.bottom_mm) < 0.01)
+        rows, columns = np.nonzero(wet)
+        ray = np.stack([(columns - 319.5) / world.FOCAL_PX, (rows - 239.5) / world.FOCAL_PX, np.ones(len(rows))], 1) @ sensor.axes()
+        ray /= np.linalg.norm(ray, axis=1)[:, None]
+        surface = sensor.camera_mm() + ray * ((level - sensor.height_mm) / ray[:, 2])[:, None]
+        across = ray[:, :2] / index
+        below = np.concatenate([across, -np.sqrt(1 - (across ** 2).sum(1))[:, None]], 1)
+        expected = surface + below * ((cup.bottom_mm - level) / below[:, 2])[:, None]
+        self.assertGreater(len(rows), 1000)
+        self.assertLess(np.abs(seen[rows, columns] - expected).max(), 0.05)  # sixteen bits of 3 m are 0.046 mm
+
+    def test_the_desk_has_the_disparity_of_its_distance(self):
+        import numpy as np
+        import world
+        unit, sensor = world.Unit(np.random.default_rng(1)), world.Sensor()
+        scene = world.Scene(unit, sensor, None, world.Liquid())
+        picture = scene.infrared(np.random.default_rng(2), np.random.default_rng(3))
+        found = world.disparities(picture, unit.reference(sensor))
+        point = world.positions(sensor.camera_mm(), sensor, None, world.Liquid())
+        z = ((point - sensor.camera_mm()) @ sensor.axes().T)[..., 2]
+        error = found - world.FOCAL_PX * world.BASELINE_MM * (1 / z - 1 / world.REFERENCE_MM)
+        error = error[200:440, 100:540]
+        self.assertGreater(np.isfinite(error).mean(), 0.98)
+        # Speckle and noise of the nine dots in a window are 0.1 px; a plane has no bias.
+        self.assertLess(abs(np.nanmean(error)), 0.03)
+        self.assertLess(np.nanstd(error), 0.2)
+
+    def test_the_slide_moves_what_it_lights_and_not_the_reference(self):
+        import numpy as np
+        import world
+        unit = world.Unit(np.random.default_rng(1))
+        means = []
+        for offset in (0.0, 0.5):
+            sensor = world.Sensor(disparity_offset_px=offset)
+            scene = world.Scene(unit, sensor, None, world.Liquid())
+            picture = scene.infrared(np.random.default_rng(2), np.random.default_rng(3))
+            means.append(np.nanmean(world.disparities(picture, unit.reference(sensor))[200:440, 100:540]))
+        self.assertAlmostEqual(means[1] - means[0], 0.5, delta=0.03)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
