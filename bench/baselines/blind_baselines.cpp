@@ -30,7 +30,10 @@ void answer(const fs::path& folder, const fs::path& output) {
   const Evidence evidence =
       physics_of(read_measurement(folder), Json::array(), (folder / "rig.json").string()).evidence;
   const std::pair<const char*, std::vector<int> (*)(const Evidence&)> methods[] = {
-      {"greedy_bic", greedy_bic}, {"lasso_bic", lasso_bic}, {"largest_correlation", largest_correlation}};
+      {"greedy_bic", greedy_bic},
+      {"gls_bic", gls_bic},
+      {"lasso_bic", lasso_bic},
+      {"largest_correlation", largest_correlation}};
   for (const auto& [name, method] : methods) {
     const fs::path own = output / name / folder.lexically_normal().filename();
     make_directory(own);
@@ -42,7 +45,9 @@ void answer(const fs::path& folder, const fs::path& output) {
 
 int main(int argc, char** argv) {
   fs::path folder, output;
-  CLI::App app("Answers to a measurement by greedy BIC, LASSO and the largest correlation, with independent noise");
+  CLI::App app(
+      "Answers to a measurement by greedy BIC (with independent noise and by generalised least squares), LASSO and the "
+      "largest correlation");
   app.add_option("folder", folder, "Measurement directory")->required();
   app.add_option("-o,--output", output,
                  "Gets METHOD/NAME/report.json for each method, NAME being that of the directory")

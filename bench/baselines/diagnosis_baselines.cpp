@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/problem.h"
 
 namespace fathom {
 namespace {
@@ -14,11 +15,24 @@ struct Scaled {
   Eigen::MatrixXd signatures;  ///< unit columns; 0 where nothing sees the effect
 };
 
-Scaled scaled(const Evidence& evidence) {
-  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
-  Scaled s{-evidence.predicted, Eigen::MatrixXd(n, static_cast<Eigen::Index>(evidence.candidates.size()))};
-  for (Eigen::Index i = 0; i < n; ++i) s.residual[i] += evidence.observations[i].value;
+/// The residual and each candidate's first signature, in the observables' units.
+Scaled unscaled(const Evidence& evidence) {
+  const Eigen::VectorXd residual = measured_minus_predicted(evidence);
+  Scaled s{residual, Eigen::MatrixXd(residual.size(), static_cast<Eigen::Index>(evidence.candidates.size()))};
   for (Eigen::Index k = 0; k < s.signatures.cols(); ++k) s.signatures.col(k) = evidence.candidates[k].signature.col(0);
+  return s;
+}
+
+/// Not colwise().normalized(), which makes NaN of a column of zeros, and thereby of all that it is multiplied with.
+void normalize(Eigen::MatrixXd& columns) {
+  for (auto column : columns.colwise())
+    if (const double norm = column.norm(); norm > 0.0) column /= norm;
+}
+
+/// As if errors were independent.
+Scaled scaled(const Evidence& evidence) {
+  Scaled s = unscaled(evidence);
+  const Eigen::Index n = s.residual.size();
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   const Groups cells = group_by(evidence.observations, cell_key);
   const auto members = cells.members();
@@ -39,9 +53,17 @@ Scaled scaled(const Evidence& evidence) {
     s.residual[i] /= sd;
     s.signatures.row(i) /= sd;
   }
-  // Not colwise().normalized(), which makes NaN of a column of zeros, and thereby of all that it is multiplied with.
-  for (auto column : s.signatures.colwise())
-    if (const double norm = column.norm(); norm > 0.0) column /= norm;
+  normalize(s.signatures);
+  return s;
+}
+
+/// With the covariance that the diagnosis has.
+Scaled whitened(const Evidence& evidence) {
+  Scaled s = unscaled(evidence);
+  const Covariance covariance = estimate_covariance(evidence, s.residual);
+  s.residual = covariance.whiten(s.residual);
+  s.signatures = covariance.whiten(s.signatures);
+  normalize(s.signatures);
   return s;
 }
 
@@ -55,10 +77,8 @@ double bic(const Scaled& s, const std::vector<int>& effects) {
   return chi2 + static_cast<double>(effects.size()) * std::log(static_cast<double>(s.residual.size()));
 }
 
-}  // namespace
-
-std::vector<int> greedy_bic(const Evidence& evidence) {
-  const Scaled s = scaled(evidence);
+/// Ascending: one more as long as BIC falls.
+std::vector<int> forward_selection(const Scaled& s) {
   std::vector<int> chosen;
   double best = bic(s, chosen);
   for (bool grows = true; grows;) {
@@ -79,6 +99,12 @@ std::vector<int> greedy_bic(const Evidence& evidence) {
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
+
+}  // namespace
+
+std::vector<int> greedy_bic(const Evidence& evidence) { return forward_selection(scaled(evidence)); }
+
+std::vector<int> gls_bic(const Evidence& evidence) { return forward_selection(whitened(evidence)); }
 
 std::vector<int> lasso_bic(const Evidence& evidence) {
   if (evidence.candidates.empty()) return {};
