@@ -96,9 +96,12 @@ Eigen::MatrixXd signatures_at(const Evidence& evidence, const std::vector<Eigen:
 }
 
 /// The directions, most common first, of which hardly more than a twentieth of any column is left.
-Eigen::MatrixXd common_directions(const Eigen::MatrixXd& columns) {
+Eigen::MatrixXd common_directions(Eigen::MatrixXd columns) {
   constexpr double kLeft = 0.05;
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns.colwise().normalized(), Eigen::ComputeThinU);
+  // Not colwise().normalized(), which makes NaN of a column of zeros; and no decomposition is one of nothing.
+  for (auto column : columns.colwise()) column.normalize();
+  if (columns.isZero(0.0)) return columns.leftCols(0);
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
   return svd.matrixU().leftCols((svd.singularValues().array() > kLeft).count());
 }
 

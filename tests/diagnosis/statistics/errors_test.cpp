@@ -62,6 +62,24 @@ TEST(VarianceComponents, OfPoursThatWereNotRepeatedAreFoundBetweenThem) {
   EXPECT_NEAR(mean, kPours * kPours + 0.08 * 0.08, 0.35 * kPours * kPours);
 }
 
+TEST(VarianceComponents, DoNotChangeWithAnEffectThatNothingSees) {
+  const World world(once_poured_design());
+  Evidence evidence = with_errors_of_pours(world.measure({}, {}, 300), 0.4, 900);
+  const Eigen::MatrixXd before = estimate_covariance(evidence, residual_of(evidence)).total;
+  Candidate unseen = evidence.candidates.front();
+  unseen.signature.setZero();
+  evidence.candidates.push_back(unseen);
+  const Eigen::MatrixXd after = estimate_covariance(evidence, residual_of(evidence)).total;
+  EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
+}
+
+TEST(VarianceComponents, AreFoundWithoutAnyCandidate) {
+  const World world(once_poured_design());
+  Evidence evidence = with_errors_of_pours(world.measure({}, {}, 300), 0.4, 900);
+  evidence.candidates.clear();
+  EXPECT_TRUE(estimate_covariance(evidence, residual_of(evidence)).total.allFinite());
+}
+
 TEST(VarianceComponents, AreBlindToEffects) {
   const World world(small_design());
   const EffectValue effect = world.at_strength("radial_distortion", 50.0, 1.0);
