@@ -78,8 +78,8 @@ TEST_P(EveryEffect, ChangesWhatIsMeasured) {
       for (const char* quantization : {"off", "device"})
         for (const char* liquid : {"water", "milk_tea"}) {
           fathom::Setup with = stood(liquid, quantization), without = with;
-          with.effects = {switched_on(effect, nullptr)};
-          without.effects = {switched_on(effect, &parameter)};
+          with.effects = Json::array({switched_on(effect, nullptr)});
+          without.effects = Json::array({switched_on(effect, &parameter)});
           if (shot(with, mode) != shot(without, mode)) return true;
         }
     return false;
