@@ -8,6 +8,7 @@ stopped. `page` prints the scores of several worlds as one table, the worst on i
 Needs Debian's python3-numpy, python3-scipy; the world of POV-Ray also povray and python3-opencv."""
 import argparse
 import concurrent.futures
+import fcntl
 import json
 import os
 import shutil
@@ -108,8 +109,11 @@ def run_set(world, number, kind, options, pack):
     work.mkdir(parents=True)
     one_thread = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     # One set a call, with a seed of its own: so each can be made again alone.
-    subprocess.run(["/usr/bin/python3", "-B", str(program), "--out", str(work / "pack"), "--seed", str(1000 * options.seed + number), "--sets", "1",
-                    "--classes", f"{kind}:1", *extra], check=True, stdout=subprocess.DEVNULL, env=one_thread)
+    wrote = subprocess.run(["/usr/bin/python3", "-B", str(program), "--out", str(work / "pack"), "--seed", str(1000 * options.seed + number),
+                            "--sets", "1", "--classes", f"{kind}:1", *extra], capture_output=True, text=True, env=one_thread)
+    if wrote.returncode:
+        lines = wrote.stderr.strip().splitlines() or ["said nothing"]
+        raise RuntimeError(f"set {number}: {program.name}: {lines[-1]}")
     truth = json.loads((work / "pack.truth.jsonl").read_text()) | {"set": f"{number:04d}"}
     part = answer.with_suffix(".part")
     shutil.rmtree(part, ignore_errors=True)
@@ -170,6 +174,8 @@ def main():
     parser.add_argument("--classes", default=",".join(f"{name}:{weight}" for name, weight in CLASSES.items()))
     parser.add_argument("--keep", action="store_true", help="keep the clouds")
     options = parser.parse_args()
+    if options.sets < 1 or options.jobs < 1 or options.seed < 0:
+        parser.error("--sets and --jobs are at least 1, --seed at least 0")
     options.program = str(Path(options.program).resolve())
     if not WORLDS[options.world][0].exists():
         print(f"skipped: the programs of {options.world} are not here: {WORLDS[options.world][0]}")
@@ -180,11 +186,21 @@ def main():
     # Kinds alternate as their shares are, so that a run that was stopped has some of each.
     order = sorted(((k + 0.5) / weight, name) for name, weight in weights.items() for k in range(weight))
     pack = ROOT / "out" / "blind" / f"{options.world}-{options.seed}"
+    pack.mkdir(parents=True, exist_ok=True)
+    lock = open(pack / ".lock", "w")  # held while this program lives, so that a kill releases it
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        sys.exit(f"error: {pack}: another run is writing here")
     started, done = time.monotonic(), 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         runs = [pool.submit(run_set, options.world, number, order[number % len(order)][1], options, pack) for number in range(options.sets)]
         for count, run in enumerate(concurrent.futures.as_completed(runs), 1):
-            done += run.result()
+            try:
+                done += run.result()
+            except (OSError, RuntimeError) as problem:
+                pool.shutdown(cancel_futures=True)
+                sys.exit(f"error: {problem}")
             rate = (time.monotonic() - started) / max(done, 1)
             print(f"diagnosed {count} of {options.sets}, {rate * (options.sets - count) / 60:.0f} min left", end="\r" if sys.stderr.isatty() else "\n",
                   file=sys.stderr, flush=True)
