@@ -12,7 +12,7 @@ namespace fathom {
 std::vector<int> greedy_bic(const Evidence& evidence);  ///< forward selection while BIC falls
 /// The same by generalised least squares, with the covariance of errors that the diagnosis has.
 std::vector<int> gls_bic(const Evidence& evidence);
-std::vector<int> lasso_bic(const Evidence& evidence);   ///< Tibshirani 1996 by coordinate descent, λ by BIC
+std::vector<int> lasso_bic(const Evidence& evidence);  ///< Tibshirani 1996 by coordinate descent, λ by BIC
 /// The candidate with the largest |correlation| with the residual, if its z exceeds 3.
 std::vector<int> largest_correlation(const Evidence& evidence);
 
