@@ -27,7 +27,7 @@ CONFIDENT = 0.9
 
 
 class Judged:
-    """An answer beside its truth, by the rules of blind/judge.cpp."""
+    """An answer beside its truth, by the rules of blind/judge.cpp. One is stricter: what stands first under the verdict `none` was not found."""
 
     def __init__(self, truth, answer):
         self.kind, self.name = truth["class"], truth["set"]
@@ -50,7 +50,7 @@ class Judged:
             return self.unknown and not self.named
         if self.kind == "null":
             return not self.named
-        return self.named == self.wanted or (not self.named and bool(self.entries) and self.entries[0][0][0] == self.wanted)
+        return self.named == self.wanted or (self.verdict == "ambiguous" and bool(self.entries) and self.entries[0][0][0] == self.wanted)
 
     def leaves_open(self, entry):
         same, more, _ = entry

@@ -45,6 +45,11 @@ class Judging(unittest.TestCase):
         self.assertFalse(judged("unknown", ["pebble"], silent).right())
         self.assertTrue(judged("unknown", ["pebble"], {"verdict": "unknown", "effects": []}).right())
 
+    def test_what_stands_first_where_nothing_is_said_to_be_wrong_was_not_found(self):
+        report = {"effects": [], "ambiguity_set": [{"effects": ["foam"], "probability": 0.3}, {"effects": ["none"], "probability": 0.2}]}
+        self.assertFalse(judged("single", ["foam"], report | {"verdict": "none"}).right())
+        self.assertTrue(judged("single", ["foam"], report | {"verdict": "ambiguous"}).right())
+
     def test_what_cannot_be_told_from_the_first_is_not_wrong(self):
         open_answer = {"verdict": "ambiguous", "effects": [],
                        "ambiguity_set": [{"effects": ["fill_offset"], "indistinguishable": [["cup_bottom_height"]], "probability": 0.97}]}
