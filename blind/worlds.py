@@ -26,8 +26,14 @@ CLASSES = {"null": 10, "single": 10, "pair": 4, "unknown": 6}
 CONFIDENT = 0.9
 
 
+def ids(names):
+    """Effects without the liquid that they are of: id@liquid."""
+    return frozenset(name.split("@")[0] for name in names)
+
+
 class Judged:
-    """An answer beside its truth, by the rules of blind/judge.cpp. One is stricter: what stands first under the verdict `none` was not found."""
+    """An answer beside its truth, by the rules of blind/judge.cpp. One is stricter: what stands first under the verdict `none`
+    was not found."""
 
     def __init__(self, truth, answer):
         self.kind, self.name = truth["class"], truth["set"]
@@ -38,12 +44,11 @@ class Judged:
         except (OSError, ValueError):
             report = {"verdict": "missing"}
         self.verdict = report["verdict"]
-        named = frozenset(effect["name"].split("@")[0] for effect in report.get("effects") or [])
-        self.named = named if "named" in self.verdict else frozenset()
+        self.named = ids(effect["name"] for effect in report.get("effects") or []) if "named" in self.verdict else frozenset()
         self.unknown = "unknown" in self.verdict
-        self.entries = [([frozenset(n.split("@")[0] for n in names) for names in [entry["effects"], *entry.get("indistinguishable", [])]],
-                         [frozenset(n.split("@")[0] for n in names) for names in entry.get("supersets", [])], entry["probability"])
-                        for entry in report.get("ambiguity_set") or []]
+        # Of each explanation itself with what cannot be told from it, what may be there besides, and their probability.
+        self.entries = [([*map(ids, [entry["effects"], *entry.get("indistinguishable", [])])], [*map(ids, entry.get("supersets", []))],
+                         entry["probability"]) for entry in report.get("ambiguity_set") or []]
 
     def right(self):
         if self.kind == "unknown":
@@ -129,13 +134,8 @@ def run_set(world, number, kind, options, pack):
     return True
 
 
-def judge_all(pack):
-    return [Judged(json.loads((answer / "truth.json").read_text()), answer) for answer in sorted((pack / "answers").glob("[0-9]*"))
-            if (answer / "truth.json").exists()]
-
-
 def score(pack, world):
-    judged = judge_all(pack)
+    judged = [Judged(json.loads(file.read_text()), file.parent) for file in sorted((pack / "answers").glob("????/truth.json"))]
     result = goals(judged)
     (pack / "score").mkdir(exist_ok=True)
     (pack / "score" / "score.json").write_text(json.dumps({"pack": pack.name, "world": world, "sets": len(judged), "goals": result}, indent=1) + "\n")

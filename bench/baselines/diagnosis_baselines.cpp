@@ -25,8 +25,7 @@ Scaled unscaled(const Evidence& evidence) {
 
 /// Not colwise().normalized(), which makes NaN of a column of zeros, and thereby of all that it is multiplied with.
 void normalize(Eigen::MatrixXd& columns) {
-  for (auto column : columns.colwise())
-    if (const double norm = column.norm(); norm > 0.0) column /= norm;
+  for (auto column : columns.colwise()) column.normalize();
 }
 
 /// As if errors were independent.

@@ -106,12 +106,6 @@ def scene_of(row, effects, nuisances, unit):
     return world.Scene(unit, sensor, cup, liquid)
 
 
-def smooth(rng, sigma_px):
-    """A field (ROWS, COLUMNS) of unit variance, smooth over so many pixels."""
-    field = world.gaussian_filter(rng.standard_normal((world.ROWS, world.COLUMNS)), sigma_px, mode="wrap")
-    return field / field.std()
-
-
 def write_set(folder, kind, seed, number):
     """One measurement directory; returns its line of truth."""
     rng = np.random.default_rng([seed, number])
@@ -137,7 +131,8 @@ def write_set(folder, kind, seed, number):
         place_seed, shot = [seed, number, 2, frame - row["trial"]], np.random.default_rng([seed, number, 3, frame])
         infrared = scene.infrared(np.random.default_rng(place_seed), shot)
         disparity = world.disparities(infrared, unit.reference(scene.sensor)) + unit.bias_px
-        disparity += WANDER_SHOT * smooth(shot, WANDER_PX) + WANDER_PLACEMENT * smooth(np.random.default_rng(place_seed + [1]), WANDER_PX)
+        disparity += WANDER_SHOT * world.smooth_field(shot, WANDER_PX)
+        disparity += WANDER_PLACEMENT * world.smooth_field(np.random.default_rng(place_seed + [1]), WANDER_PX)
         if "dirty_lens" in effects:
             smear = effects["dirty_lens"]
             v, u = np.mgrid[0:world.ROWS, 0:world.COLUMNS]

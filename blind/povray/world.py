@@ -98,11 +98,7 @@ class Unit:
         unit = (cells + rng.random(cells.shape)) / side
         self.dots = np.array([left, -up]) + unit * np.array([right - left, 2 * up])  # tangents x/z, y/z from the projector
         self.power = np.exp(POWER_SPREAD * rng.standard_normal(len(self.dots)))
-        field = 0
-        for sigma_px, size_px in ((40, 0.08), (12, 0.05)):
-            part = gaussian_filter(rng.standard_normal((ROWS, COLUMNS)), sigma_px, mode="wrap")
-            field = field + size_px * part / part.std()
-        self.bias_px = field
+        self.bias_px = sum(size_px * smooth_field(rng, sigma_px) for sigma_px, size_px in ((40, 0.08), (12, 0.05)))
         self.references = {}
 
     def reference(self, sensor):
@@ -110,9 +106,19 @@ class Unit:
         key = sensor.focal_px, sensor.baseline_mm, sensor.k1
         if key not in self.references:
             tangents = self.dots + [sensor.baseline_mm / REFERENCE_MM, 0]
-            picture = AMBIENT + drawn(2 * sensor.image_of(tangents) + 0.5, self.power * WHITE)
-            self.references[key] = np.clip(np.round(picture), 0, 255).astype(np.uint8)
+            self.references[key] = eight_bits(AMBIENT + drawn(2 * sensor.image_of(tangents) + 0.5, self.power * WHITE))
         return self.references[key]
+
+
+def smooth_field(rng, sigma_px):
+    """A field (ROWS, COLUMNS) of unit variance, smooth over so many pixels."""
+    field = gaussian_filter(rng.standard_normal((ROWS, COLUMNS)), sigma_px, mode="wrap")
+    return field / field.std()
+
+
+def eight_bits(picture):
+    """Grey levels as the camera gives them."""
+    return np.clip(np.round(picture), 0, 255).astype(np.uint8)
 
 
 def drawn(places, levels):
@@ -251,7 +257,7 @@ class Scene:
         speckle = placement_rng.gamma(shape, 1 / shape, len(self.level)) * (1 + 0.05 * rng.standard_normal(len(self.level)))
         picture = AMBIENT + drawn(self.places, np.where(np.isfinite(self.level), self.level, 0) * speckle)
         picture += SHOT * np.sqrt(picture) * rng.standard_normal(picture.shape)
-        return np.clip(np.round(picture), 0, 255).astype(np.uint8)
+        return eight_bits(picture)
 
 
 def disparities(infrared, reference):
