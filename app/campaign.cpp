@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "app/campaign_spec.h"
@@ -13,6 +14,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
+#include "core/image_file.h"
 #include "core/input_record.h"
 #include "core/manifest.h"
 #include "core/progress.h"
@@ -32,6 +34,7 @@ struct CampaignOptions {
   fs::path spec;
   fs::path truth, model;
   int spp = kDefaultSamplesPerPixel;
+  bool infrared = false;
   bool yes = false;
 };
 
@@ -138,6 +141,18 @@ std::string cloud_file(const Placement& placement, int trial) {
   return fmt::format("clouds/{:06}.pcd", placement.first_frame + trial);
 }
 
+std::string infrared_file(const Placement& placement, int trial) {
+  return fmt::format("infrared/{:06}.png", placement.first_frame + trial);
+}
+
+/// Counts of the detector, as an infrared stream has them.
+Image<std::uint16_t> whole_dn(const Image<float>& ir) {
+  Image<std::uint16_t> counts(ir.width(), ir.height());
+  for (std::size_t i = 0; i < ir.size(); ++i)
+    counts.pixels()[i] = static_cast<std::uint16_t>(std::lround(std::clamp(ir.pixels()[i], 0.0f, 65535.0f)));
+  return counts;
+}
+
 Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json& effects, const std::string& file) {
   Setup setup{
       .scene = {.desk = spec.desk, .cups = {}, .objects = {}}, .rig = spec.rig, .file = file, .effects = effects};
@@ -155,12 +170,14 @@ Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json&
   return setup;
 }
 
-/// Shoots the trials whose clouds are not there yet, or not as they were written.
+/// Shoots the trials whose files are not there yet, or not as they were written.
 int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& setup, const CampaignOptions& options,
           const CommonOptions& common, Manifest& manifest) {
   std::vector<int> missing;
   for (int trial = 0; trial < placement.trials; ++trial)
-    if (!manifest.holds(cloud_file(placement, trial))) missing.push_back(trial);
+    if (!manifest.holds(cloud_file(placement, trial)) ||
+        (options.infrared && !manifest.holds(infrared_file(placement, trial))))
+      missing.push_back(trial);
   if (missing.empty()) return 0;
   fs::remove(common.output / kFramesFile);  // while it is there the campaign counts as complete
   const std::uint64_t seed = placement.filling ? Rng(common.seed, Draw::camera, placement.number).bits()
@@ -168,23 +185,32 @@ int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& set
   const Setup shot = with_effects(setup);
   Camera camera(shot, spec.mode, options.spp, seed, measured_light(shot));
   for (const int trial : missing) {
-    write_pcd(common.output / cloud_file(placement, trial), camera.shoot(static_cast<std::uint64_t>(trial)).cloud);
+    const Frame frame = camera.shoot(static_cast<std::uint64_t>(trial));
+    write_pcd(common.output / cloud_file(placement, trial), frame.cloud);
     manifest.add(cloud_file(placement, trial));
+    if (!options.infrared) continue;
+    write_png(common.output / infrared_file(placement, trial), whole_dn(frame.ir));
+    manifest.add(infrared_file(placement, trial));
   }
   return static_cast<int>(missing.size());
 }
 
-Table frames_table(const CampaignSpec& spec, const std::vector<Placement>& placements) {
-  Table table({"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm", "distance_mm",
-               "lateral_mm", "cloud"});
+Table frames_table(const CampaignSpec& spec, const std::vector<Placement>& placements, bool infrared) {
+  std::vector<std::string> columns{"frame",  "session", "pour",    "placement",   "trial",      "time_s",
+                                   "liquid", "fill_mm", "distance_mm", "lateral_mm", "cloud"};
+  if (infrared) columns.push_back("ir");
+  Table table(std::move(columns));
   for (const Placement& p : placements)
-    for (int trial = 0; trial < p.trials; ++trial)
-      table.add({fmt::format("{}", p.first_frame + trial), fmt::format("{}", p.session), fmt::format("{}", p.pour),
+    for (int trial = 0; trial < p.trials; ++trial) {
+      std::vector<std::string> cells{fmt::format("{}", p.first_frame + trial), fmt::format("{}", p.session), fmt::format("{}", p.pour),
                  fmt::format("{}", p.number), fmt::format("{}", trial),
                  fmt::format("{:g}", p.time_s + trial * spec.frame_s), p.filling ? p.filling->liquid : "none",
                  fmt::format("{:g}", p.filling ? mm_from_metres(p.filling->fill) : 0.0),
                  fmt::format("{:g}", mm_from_metres(p.nominal_place.y())),
-                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(p, trial)});
+                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(p, trial)};
+      if (infrared) cells.push_back(infrared_file(p, trial));
+      table.add(std::move(cells));
+    }
   return table;
 }
 
@@ -206,7 +232,7 @@ Json truth_json(const std::vector<Placement>& placements, const Json& effects) {
 void require_own_folder(const fs::path& folder, const Manifest& manifest) {
   manifest.require_same_run();
   if (manifest.exists()) return;
-  for (const char* name : {"clouds", "frames.csv", "rig.json"})
+  for (const char* name : {"clouds", "infrared", "frames.csv", "rig.json"})
     if (fs::exists(folder / name)) throw Error((folder / name).string(), "is there already; choose another folder");
 }
 
@@ -221,16 +247,18 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   if (!options.truth.empty()) require_truth_outside(options.truth, common.output);
   const InputRecord inputs;
   const CampaignSpec spec = read_campaign_spec(options.spec);
+  if (options.infrared && spec.mode == CaptureMode::geometric)
+    throw UsageError("--infrared needs a campaign of mode photometric: geometric frames have no images");
   Json effects = spec.effects;
   if (!options.model.empty())
     for (const Json& effect : effects_of_model(options.model)) effects.push_back(effect);
   for (const Json& error : rig_errors(spec, common.seed)) effects.push_back(error);
-  const std::string size = require_space(common, {spec.frames(), cloud_bytes(spec.rig.sensor)}, options.yes);
+  const std::string size = require_space(common, {spec.frames(), frame_bytes(spec.rig.sensor, options.infrared)}, options.yes);
   const std::vector<Placement> placements = plan(spec, common.seed);
   const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
   with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
   with_effects(setup(placements.back()));   // and an effect of cups reads its files
-  const RunIdentity identity{"campaign", {{"seed", common.seed}, {"spp", options.spp}}, inputs.files()};
+  const RunIdentity identity{"campaign", {{"seed", common.seed}, {"spp", options.spp}, {"infrared", options.infrared}}, inputs.files()};
 
   const FolderOwner owner(common.output);
   Manifest manifest(common.output, identity);
@@ -241,8 +269,12 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   }
   announce(common, size);
   manifest.begin();  // first, so that a run cut short at any later moment can go on
-  make_directory(common.output / "clouds");
-  remove_leftovers(common.output / "clouds");
+  std::vector<const char*> folders{"clouds"};
+  if (options.infrared) folders.push_back("infrared");
+  for (const char* folder : folders) {
+    make_directory(common.output / folder);
+    remove_leftovers(common.output / folder);
+  }
   write_json(common.output / "rig.json", json_from_laboratory_rig(spec.nominal));
   Progress progress("placement", placements.size(), common.quiet);
   int shot = 0;
@@ -251,7 +283,7 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
     progress.step();
   }
   manifest.finish();
-  const Table frames = frames_table(spec, placements);
+  const Table frames = frames_table(spec, placements, options.infrared);
   write_table(common.output / kFramesFile, frames);  // last: its presence says that the campaign is complete
   print_text(format_rows({{"placements", static_cast<double>(placements.size()), ""},
                           {"frames", static_cast<double>(frames.rows()), ""},
@@ -271,6 +303,7 @@ std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
+  app.add_flag("--infrared", options->infrared, "Infrared images beside the clouds, named in the column ir");
   app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
   return [options, &common] {
     require_output(common);

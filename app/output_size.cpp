@@ -44,15 +44,16 @@ double pixels(int width, int height) { return static_cast<double>(width) * heigh
 
 }  // namespace
 
-double cloud_bytes(const SensorModel& sensor) {
-  constexpr double kHeader = 256.0, kPoint = 16.0;
-  return kHeader + kPoint * pixels(sensor.width, sensor.height);
+double frame_bytes(const SensorModel& sensor, bool infrared) {
+  constexpr double kHeader = 256.0, kPoint = 16.0, kDn = 2.0;
+  return kHeader + kPoint * pixels(sensor.width, sensor.height) +
+         (infrared ? kDn * pixels(sensor.ir_width, sensor.ir_height) : 0.0);
 }
 
 double capture_bytes(const SensorModel& sensor, bool infrared, bool device_outputs) {
   // Of images that are compressed: what those of noisy frames without steps of depth take.
   constexpr double kDepths = 10.0, kInfrared = 2.5, kDevice = 1.0;
-  return cloud_bytes(sensor) + (kDepths + (device_outputs ? kDevice : 0.0)) * pixels(sensor.width, sensor.height) +
+  return frame_bytes(sensor, false) + (kDepths + (device_outputs ? kDevice : 0.0)) * pixels(sensor.width, sensor.height) +
          (infrared ? kInfrared * pixels(sensor.ir_width, sensor.ir_height) : 0.0);
 }
 

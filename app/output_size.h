@@ -15,8 +15,9 @@ struct OutputSize {
   double bytes() const;  ///< in whole blocks of a file system
 };
 
-/// What one frame's files take at most: a cloud, or all that a capture writes of it.
-double cloud_bytes(const SensorModel& sensor);
+/// What one frame's files take at most: of a campaign a cloud and perhaps the infrared image, or all that a capture
+/// writes of it.
+double frame_bytes(const SensorModel& sensor, bool infrared);
 double capture_bytes(const SensorModel& sensor, bool infrared, bool device_outputs);
 
 /// How many frames there will be, what they take and what the disk has: a sentence for announce(). Makes nothing. What

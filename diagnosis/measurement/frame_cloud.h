@@ -6,7 +6,10 @@
 
 namespace fathom {
 
-/// Throws Error naming the file when it is no cloud, or none in metres.
+/// With the brightness of its infrared image, where the frame has one: of each of the cloud's pixels the mean over
+/// those of the image, which has as many or a whole number of times as many columns, and its middle rows (Xtion and
+/// Kinect: 1280 x 1024 about 640 x 480). Throws Error naming the file when it is no cloud, or none in metres; or when
+/// the image is none, of another size, or the cloud has no rows.
 Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder);
 
 /// The same, naming the frame's row in the table besides.

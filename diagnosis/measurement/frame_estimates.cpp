@@ -120,6 +120,7 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
   const double reach = radius + soft;
   std::array<std::vector<SharedHeight>, 5> height;
   Sums interior, intensity;
+  DotContrast dots;
   for (const CupPoint& p : points) {
     const Eigen::Vector2d from_axis = p.from_axis - axis;
     if (from_axis.squaredNorm() > reach * reach || p.height < kLeastHeight || p.height > kMostHeight) continue;
@@ -132,13 +133,28 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
       }
     interior.add(p.height, p.weight * whole);
     intensity.add(p.intensity, p.weight * whole);
+    if (whole > 0.0) dots.add(p.intensity, p.weight * whole);
   }
   for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = region_mean(height[i]);
   estimates.interior = interior.estimate();
   estimates.interior_intensity = intensity.estimate();
+  estimates.interior_contrast = dots.contrast();
 }
 
 }  // namespace
+
+void DotContrast::add(double intensity, double weight) {
+  double& before = before_[count_ % kApart];
+  if (count_ >= kApart) {
+    weight_ += weight;
+    sum_ += weight * intensity;
+    squares_ += weight * 0.5 * (intensity - before) * (intensity - before);
+  }
+  before = intensity;
+  ++count_;
+}
+
+double DotContrast::contrast() const { return sum_ > 0.0 ? std::sqrt(squares_ * weight_) / sum_ : 0.0; }
 
 double clear_of_cup(const LaboratoryRig& rig) {
   constexpr double kAround = 0.025;  // a cup's foot, its windows' reach and its own place's error
@@ -170,6 +186,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   std::array<Sums, std::tuple_size_v<decltype(DeskBands::rows)>> rows;
   std::array<Sums, std::tuple_size_v<decltype(DeskBands::columns)>> columns;
   Sums desk_intensity;
+  DotContrast desk_dots;
   std::vector<CupPoint> around;
   std::optional<OutlineFit> outline;
   if (cup) outline.emplace(rig, cup->centre, view.fill_m);
@@ -201,6 +218,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     rows[part_of_image(sensed.point, rig.focal_px, 1, static_cast<int>(rows.size()))].add(off_px, w);
     columns[part_of_image(sensed.point, rig.focal_px, static_cast<int>(columns.size()), 1)].add(off_px, w);
     desk_intensity.add(sensed.intensity, w);
+    desk_dots.add(sensed.intensity, w);
     if (number % comb_every != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.device_z > 0.0f ? sensed.device_z : sensed.point.z();  // steps are the device's
@@ -225,6 +243,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   for (std::size_t i = 0; i < rows.size(); ++i) estimates.desk_bands.rows[i] = rows[i].estimate();
   for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();
+  estimates.desk_contrast = desk_dots.contrast();
   if (outline) estimates.outline = outline->solve();
   set_inside(around, interior_radius(rig.cup), view.soft_m, estimates);
   if (codes.weight > 0.0) {

@@ -1,6 +1,7 @@
 // What one frame says about desk and cup: the same estimators for a cloud's points and for a model's few rays.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -10,6 +11,21 @@
 #include "diagnosis/measurement/rig.h"
 
 namespace fathom {
+
+/// Of the dots in the infrared image: the deviation of its brightness from place to place, over its mean. Pixels three
+/// apart are compared, which is farther than a dot is wide and too near for shading to matter.
+class DotContrast {
+ public:
+  /// Neighbours after each other, as the rows of an image have them.
+  void add(double intensity, double weight);
+  double contrast() const;  ///< 0 of nothing
+
+ private:
+  static constexpr std::size_t kApart = 3;
+  std::array<double, kApart> before_{};
+  std::size_t count_ = 0;
+  double weight_ = 0.0, sum_ = 0.0, squares_ = 0.0;
+};
 
 /// A point as the sensor gives it.
 struct SensedPoint {
@@ -46,6 +62,7 @@ struct FrameEstimates {
       height;                         ///< [m] above the fitted desk, by region of the cup; of what lies near the median
   RegionEstimate interior;            ///< plain mean of all regions together
   RegionEstimate interior_intensity;  ///< [DN]
+  double desk_contrast = 0.0, interior_contrast = 0.0;  ///< of the infrared's dots (DotContrast)
   std::optional<CupOutline> outline;
   Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
   std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px

@@ -120,6 +120,17 @@ class EarlierRows {
   std::map<PlacementKey, std::map<int, double>> times_;  // by trial
 };
 
+/// A file that a cell names; empty where it names none.
+std::filesystem::path file_of(const Table& frames, std::size_t row, const char* column,
+                              const std::filesystem::path& folder) {
+  if (!frames.has(column) || frames.text(row, column).empty()) return {};
+  const std::string& name = frames.text(row, column);
+  const std::filesystem::path file = path_named_in((folder / "frames.csv").string(), frames.place(row, column), name);
+  if (!std::filesystem::is_regular_file(file))
+    frames.fail(row, column, fmt::format("there is no file {}", file.string()));
+  return name;
+}
+
 FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<std::string>& liquids,
                        const std::filesystem::path& folder) {
   FrameRecord record;
@@ -136,13 +147,9 @@ FrameRecord read_frame(const Table& frames, std::size_t row, const std::vector<s
   record.fill_m = metres_from_mm(frames.number(row, "fill_mm"));
   record.distance_m = metres_from_mm(frames.number(row, "distance_mm"));
   record.lateral_m = metres_from_mm(frames.number(row, "lateral_mm"));
-  if (frames.has("cloud")) record.cloud = frames.text(row, "cloud");
-  if (!record.cloud.empty()) {
-    const std::filesystem::path cloud =
-        path_named_in((folder / "frames.csv").string(), frames.place(row, "cloud"), record.cloud);
-    if (!std::filesystem::is_regular_file(cloud))
-      frames.fail(row, "cloud", fmt::format("there is no file {}", cloud.string()));
-  }
+  record.cloud = file_of(frames, row, "cloud", folder);
+  record.infrared = file_of(frames, row, "ir", folder);
+  if (!record.infrared.empty() && record.cloud.empty()) frames.fail(row, "ir", "needs a cloud beside it");
   record.height_sd_mm = not_negative(frames, row, "height_sd_mm");
   record.points = not_negative(frames, row, "points");
   if (frames.has("height_mm")) record.height_mm = frames.number_if_any(row, "height_mm");

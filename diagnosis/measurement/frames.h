@@ -17,6 +17,7 @@ struct FrameRecord {
   std::string liquid;    ///< "empty", "none" (bare desk), or a liquid of the rig
   double fill_m = 0.0, distance_m = 0.0, lateral_m = 0.0;
   std::filesystem::path cloud;                            ///< empty: the height stands in the table
+  std::filesystem::path infrared;                         ///< image beside the cloud; empty: none
   std::optional<double> height_mm, height_sd_mm, points;  ///< as far as the table has them
 
   bool bare_desk() const { return liquid == "none"; }
@@ -30,7 +31,7 @@ PlacementKey placement_of(const FrameRecord& frame);
 /// column: a missing column, an unknown liquid, what is no number,
 /// a frame that a session has twice, time that runs backwards over a placement's trials, lengths that cannot be in mm
 /// (a cup out of the sensor's sight, a fill or a height beyond the cup's), fills and places where there are none, a
-/// cloud that is not there, and neither cloud nor height.
+/// cloud or an infrared image that is not there, and neither cloud nor height.
 std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
                                      const std::filesystem::path& folder);
 

@@ -23,8 +23,9 @@ inline constexpr double kFewestInRegion = 60.0;
 /// it), "desk_pitch_deg", "desk_roll_deg", "desk_residual_mm" of each third of the image with at least a hundred,
 /// of the disparities' fractions "comb_strength" (mean cosine: 1 on the device's steps, −1 half a step beside them) and
 /// "comb_phase" (in steps), "comb_quarter" and "comb_half" how far disparities keep to
-/// steps of 1/4 and 1/2 px, "millimetre_comb" of the depths' in the first way; "log_brightness", the natural
-/// logarithm of the brightness inside over that of the desk, and "height_sd_mm" of the whole interior.
+/// steps of 1/4 and 1/2 px, "millimetre_comb" of the depths' in the first way; of the whole interior "height_sd_mm",
+/// "log_brightness", the natural logarithm of the brightness inside over that of the desk, and "log_ir_contrast", the
+/// same of the contrast of the infrared's dots, where the desk shows any; both contrasts are "ir_contrast".
 std::vector<NamedValue> named_values(const FrameEstimates& estimates);
 
 }  // namespace fathom

@@ -82,12 +82,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   reading.values = named_values(*estimates);
   reading.bands = estimates->desk_bands;
   if (!bias) reading.cells.add(points, estimates->desk, rig, view);
-  const auto contrast = [&](const RegionEstimate& intensity, std::string_view region) {
-    if (intensity.mean > 0.0) reading.values.push_back({"ir_contrast", region, intensity.sd / intensity.mean});
-  };
-  contrast(estimates->desk_intensity, "desk");
   if (!view.cup) return reading;
-  contrast(estimates->interior_intensity, kWholeInterior);
   if (const auto valid = valid_fraction(cloud, rig, estimates->desk, *view.cup))
     reading.values.push_back({"valid_fraction", kWholeInterior, *valid});
   return reading;

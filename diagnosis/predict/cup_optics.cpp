@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "diagnosis/predict/seen_depth.h"
+#include "diagnosis/predict/turbid_dots.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/snell.h"
 #include "sim/scene/cup.h"
@@ -170,7 +170,7 @@ std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d
   return LitPoint{target, direction, cup.body.albedo * irradiance * down.transmittance * to_camera / (seen.n * seen.n)};
 }
 
-/// An opaque liquid's light seems to be sent back from a depth (seen_depth.h): it enters where the projector's ray to
+/// An opaque liquid's light seems to be sent back from a depth (turbid_dots.h): it enters where the projector's ray to
 /// there does. Its top is taken for level, so that sines are as in air over n.
 std::optional<LitPoint> light_surface(const CupOptics& cup, const Way& seen, const Eigen::Vector3d& projector,
                                       double to_camera) {

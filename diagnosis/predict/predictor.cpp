@@ -277,6 +277,7 @@ double Predictor::value_of(std::size_t row, const Condition& condition, const Fo
   if (observable == "height_mm" && regions_[row] == kWholeInterior) return interior_height_mm(foreseen.estimates);
   for (const NamedValue& value : foreseen.named)
     if (value.observable == observable && value.region == regions_[row]) return value.value;
+  if (observable == "log_ir_contrast") return log_contrast_of_dots(foreseen.shot);  // few rays make no dots
   return std::numeric_limits<double>::quiet_NaN();
 }
 

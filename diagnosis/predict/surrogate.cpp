@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/predict/cup_walls.h"
+#include "diagnosis/predict/turbid_dots.h"
 #include "theory/raised_bottom.h"
 
 namespace fathom {
@@ -245,6 +246,15 @@ std::vector<SensedPoint> all_points(const SurrogateFrame& frame) {
 SurrogateView surrogate_view(const Setup& setup) {
   return {DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0, setup.processing.bisector,
           setup.rig.sensor.step_phase, cup_optics(setup)};
+}
+
+double log_contrast_of_dots(const Setup& setup) {
+  const std::optional<CupOptics> cup = cup_optics(setup);
+  if (!cup || cup->layers.empty() || !cup->layers.back().opaque) return 0.0;
+  const LiquidLayer& layer = cup->layers.back();
+  const Eigen::Vector3d surface(cup->body.axis.x(), cup->body.axis.y(), layer.at);
+  const double distance = (surface - setup.rig.projector_in_world()).norm();
+  return std::log(dot_contrast(layer.core_rad * distance / layer.transport_length));
 }
 
 bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b) {

@@ -38,6 +38,10 @@ struct SurrogateFrame {
 
 SurrogateView surrogate_view(const Setup& setup);
 
+/// Natural logarithm of the contrast that infrared dots have in the cup, over that on the desk: 0 but for liquids that
+/// let light in before they scatter it back (dot_contrast).
+double log_contrast_of_dots(const Setup& setup);
+
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
 /// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct

@@ -1,10 +1,11 @@
-// From how deep a turbid liquid's light seems to come: limits, and whole frames of it.
-#include "diagnosis/predict/seen_depth.h"
+// From how deep a turbid liquid's light seems to come and what is left of its dots: limits, and whole frames.
+#include "diagnosis/predict/turbid_dots.h"
 
 #include <gtest/gtest.h>
 
 #include "diagnosis/predict/cup_optics.h"
 #include "diagnosis/predict/device_reader.h"
+#include "diagnosis/predict/surrogate.h"
 #include "sim/sensor/capture.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 
@@ -55,7 +56,8 @@ struct Height {
   double few;    ///< mean of the surrogate's rays
 };
 
-Height height_of_milk(double transport_length_mm) {
+/// Seen from 0.7 m.
+fathom::Setup wide_vessel_of_milk(double transport_length_mm) {
   LaboratoryRig rig = paper_laboratory();
   rig.liquids["milk"] = {{"index", 1.336}, {"scattering_per_mm", 1000.0}, {"absorption_per_mm", 0.0032}};
   NominalModel model = nominal_model(rig, "rig.json");
@@ -68,8 +70,11 @@ Height height_of_milk(double transport_length_mm) {
     for (Eigen::Vector2d& point : *profile) point.x() *= kWider;
   if (transport_length_mm > 0.0)
     setup.effects = {{{"name", "subsurface_scattering"}, {"transport_length_mm", transport_length_mm}}};
-  setup = with_effects(std::move(setup));
+  return with_effects(std::move(setup));
+}
 
+Height height_of_milk(double transport_length_mm) {
+  const fathom::Setup setup = wide_vessel_of_milk(transport_length_mm);
   constexpr int kSamples = 4;
   Camera camera(setup, CaptureMode::photometric, kSamples, 1, measured_light(setup));
   const Frame frame = camera.shoot(0);
@@ -105,6 +110,40 @@ TEST(SeenDepth, LowersASurfaceAsWholeFramesHaveIt) {
   // by all of its centroid, and from the projector's side alone, would lie at -0.52 mm.
   EXPECT_NEAR(few_mm, whole_mm, 0.1);
   EXPECT_LT(whole_mm, -0.5);
+}
+
+TEST(DotContrast, FallsFromOneToTheLightThatLeavesWhereItEntered) {
+  double last = 0.0;
+  for (double core = 0.0625; core <= 64.0; core *= 2.0) {
+    EXPECT_GT(dot_contrast(core), last) << core;
+    last = dot_contrast(core);
+  }
+  EXPECT_NEAR(last, 1.0, 0.05);
+  // Of what comes back along the normal without absorption a sixth has scattered once.
+  EXPECT_NEAR(dot_contrast(0.0625), 0.17, 0.03);
+}
+
+/// Of the dots in the middle of a wide vessel of milk, whose walls are out of the way, over those on the desk.
+double log_contrast_in_frames(const fathom::Setup& setup) {
+  constexpr int kSamples = 4;
+  Camera camera(setup, CaptureMode::photometric, kSamples, 1, measured_light(setup));
+  const Frame frame = camera.shoot(0);
+  DotContrast inside, desk;
+  for (const CloudPoint& p : frame.cloud.pixels()) {
+    if (!(p.z > 0.0f)) continue;
+    const Eigen::Vector3d there = setup.rig.world_from_camera * Eigen::Vector3d(p.x, p.y, p.z);
+    const double from_axis = (there.head<2>() - Eigen::Vector2d(0.0, 0.3)).norm();
+    if (from_axis < 0.03) inside.add(p.intensity, 1.0);
+    if (from_axis > 0.12 && from_axis < 0.2) desk.add(p.intensity, 1.0);
+  }
+  return std::log(inside.contrast() / desk.contrast());
+}
+
+TEST(DotContrast, IsThatOfWholeFrames) {
+  for (const double transport_length_mm : {0.0, 0.3, 0.8, 2.0}) {
+    const fathom::Setup setup = wide_vessel_of_milk(transport_length_mm);
+    EXPECT_NEAR(log_contrast_of_dots(setup), log_contrast_in_frames(setup), 0.15) << transport_length_mm << " mm";
+  }
 }
 
 }  // namespace
