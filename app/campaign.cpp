@@ -196,18 +196,23 @@ int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& set
 }
 
 Table frames_table(const CampaignSpec& spec, const std::vector<Placement>& placements, bool infrared) {
-  std::vector<std::string> columns{"frame",  "session", "pour",    "placement",   "trial",      "time_s",
+  std::vector<std::string> columns{"frame",  "session", "pour",        "placement",  "trial", "time_s",
                                    "liquid", "fill_mm", "distance_mm", "lateral_mm", "cloud"};
   if (infrared) columns.push_back("ir");
   Table table(std::move(columns));
   for (const Placement& p : placements)
     for (int trial = 0; trial < p.trials; ++trial) {
-      std::vector<std::string> cells{fmt::format("{}", p.first_frame + trial), fmt::format("{}", p.session), fmt::format("{}", p.pour),
-                 fmt::format("{}", p.number), fmt::format("{}", trial),
-                 fmt::format("{:g}", p.time_s + trial * spec.frame_s), p.filling ? p.filling->liquid : "none",
-                 fmt::format("{:g}", p.filling ? mm_from_metres(p.filling->fill) : 0.0),
-                 fmt::format("{:g}", mm_from_metres(p.nominal_place.y())),
-                 fmt::format("{:g}", mm_from_metres(p.nominal_place.x())), cloud_file(p, trial)};
+      std::vector<std::string> cells{fmt::format("{}", p.first_frame + trial),
+                                     fmt::format("{}", p.session),
+                                     fmt::format("{}", p.pour),
+                                     fmt::format("{}", p.number),
+                                     fmt::format("{}", trial),
+                                     fmt::format("{:g}", p.time_s + trial * spec.frame_s),
+                                     p.filling ? p.filling->liquid : "none",
+                                     fmt::format("{:g}", p.filling ? mm_from_metres(p.filling->fill) : 0.0),
+                                     fmt::format("{:g}", mm_from_metres(p.nominal_place.y())),
+                                     fmt::format("{:g}", mm_from_metres(p.nominal_place.x())),
+                                     cloud_file(p, trial)};
       if (infrared) cells.push_back(infrared_file(p, trial));
       table.add(std::move(cells));
     }
@@ -253,12 +258,14 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
   if (!options.model.empty())
     for (const Json& effect : effects_of_model(options.model)) effects.push_back(effect);
   for (const Json& error : rig_errors(spec, common.seed)) effects.push_back(error);
-  const std::string size = require_space(common, {spec.frames(), frame_bytes(spec.rig.sensor, options.infrared)}, options.yes);
+  const std::string size =
+      require_space(common, {spec.frames(), frame_bytes(spec.rig.sensor, options.infrared)}, options.yes);
   const std::vector<Placement> placements = plan(spec, common.seed);
   const auto setup = [&](const Placement& p) { return setup_of(spec, p, effects, options.spec.string()); };
   with_effects(setup(placements.front()));  // a mistake in an effect shows before a folder is made
   with_effects(setup(placements.back()));   // and an effect of cups reads its files
-  const RunIdentity identity{"campaign", {{"seed", common.seed}, {"spp", options.spp}, {"infrared", options.infrared}}, inputs.files()};
+  const RunIdentity identity{
+      "campaign", {{"seed", common.seed}, {"spp", options.spp}, {"infrared", options.infrared}}, inputs.files()};
 
   const FolderOwner owner(common.output);
   Manifest manifest(common.output, identity);

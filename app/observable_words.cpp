@@ -10,6 +10,8 @@ constexpr std::array kWords{
     ObservableWords{"height_mm", "height in the cup", " mm", "higher", "lower"},
     ObservableWords{"height_sd_mm", "scatter of the heights in the cup", " mm", "wider", "narrower"},
     ObservableWords{"log_brightness", "logarithm of the brightness in the cup", "", "higher", "lower"},
+    ObservableWords{"log_ir_contrast", "logarithm of the contrast of the infrared's dots in the cup", "", "higher",
+                    "lower"},
     ObservableWords{"ir_contrast", "contrast of the infrared image", "", "stronger", "weaker"},
     ObservableWords{"valid_fraction", "share of pixels in the cup with a depth", "", "larger", "smaller"},
     ObservableWords{"cup_x_mm", "sideways place of the cup", " mm", "further right", "further left"},

@@ -53,7 +53,8 @@ double frame_bytes(const SensorModel& sensor, bool infrared) {
 double capture_bytes(const SensorModel& sensor, bool infrared, bool device_outputs) {
   // Of images that are compressed: what those of noisy frames without steps of depth take.
   constexpr double kDepths = 10.0, kInfrared = 2.5, kDevice = 1.0;
-  return frame_bytes(sensor, false) + (kDepths + (device_outputs ? kDevice : 0.0)) * pixels(sensor.width, sensor.height) +
+  return frame_bytes(sensor, false) +
+         (kDepths + (device_outputs ? kDevice : 0.0)) * pixels(sensor.width, sensor.height) +
          (infrared ? kInfrared * pixels(sensor.ir_width, sensor.ir_height) : 0.0);
 }
 

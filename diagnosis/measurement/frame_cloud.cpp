@@ -56,8 +56,7 @@ Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& fo
   if (2 * far > measured)
     throw Error(file.string(), fmt::format("must be in metres: most of its points lie more than {:g} away", kFarthest));
   if (frame.infrared.empty()) return cloud;
-  const std::filesystem::path infrared =
-      path_named_in((folder / "frames.csv").string(), "column 'ir'", frame.infrared);
+  const std::filesystem::path infrared = path_named_in((folder / "frames.csv").string(), "column 'ir'", frame.infrared);
   set_intensity(read_infrared(infrared), infrared, cloud);
   return cloud;
 }

@@ -21,10 +21,10 @@ struct Measurement {
 
 /// Reads rig.json, frames.csv and every cloud, on all threads: once for the desks, from which the unit's bias is
 /// learned, and once more for what clouds say without it. Beside what named_values() lists: "valid_fraction" of the
-/// pixels that look into the cup's opening. Placements whose frames hold heights only give "height_mm" of the whole interior. In
-/// sessions with repeats desk_motion() as well. Places that were written down in another way are put right (places.h);
-/// trials that are copies of others do not count (copies.h). Throws Error naming file and place. Tells of its progress
-/// unless `quiet`.
+/// pixels that look into the cup's opening. Placements whose frames hold heights only give "height_mm" of the whole
+/// interior. In sessions with repeats desk_motion() as well. Places that were written down in another way are put right
+/// (places.h); trials that are copies of others do not count (copies.h). Throws Error naming file and place. Tells of
+/// its progress unless `quiet`.
 Measurement read_measurement(const std::filesystem::path& folder, bool quiet = true);
 
 /// The same in two steps, for several folders of one sensor. First what the clouds say with the unit's bias in them …

@@ -57,7 +57,8 @@ constexpr std::array kModelErrors{
     ModelError{"log_brightness", 0.50, SharedBy::liquid},    // what scatters has an albedo of its own
     ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
     ModelError{"log_brightness", 0.05, SharedBy::condition},
-    // Walls light a bottom of their own colour evenly: of its dots' contrast three quarters are left (detector/content_signs.h).
+    // Walls light a bottom of their own colour evenly: of its dots' contrast three quarters are left
+    // (detector/content_signs.h).
     ModelError{"log_ir_contrast", 0.30, SharedBy::all}, ModelError{"log_ir_contrast", 0.10, SharedBy::filling},
     ModelError{"log_ir_contrast", 0.05, SharedBy::place}, ModelError{"log_ir_contrast", 0.05, SharedBy::condition},
     // Smooth errors of a frame, a quarter of a step of 1/8 px over 40 px, lift and turn a fitted desk by so much.
@@ -85,7 +86,8 @@ constexpr std::array kEffectErrors{
     EffectError{"foam", {"height_mm", 0.3, SharedBy::condition_region}},  // … by other dots
     EffectError{"foam", {"liquid_motion_mm", 0.3, SharedBy::liquid}},
     EffectError{"foam", {"log_ir_contrast", 0.5, SharedBy::filling}},  // bubbles scatter
-    EffectError{"ripples", {"log_ir_contrast", 0.3, SharedBy::filling}, true},  // as lenses do, waves gather and spread dots
+    EffectError{
+        "ripples", {"log_ir_contrast", 0.3, SharedBy::filling}, true},  // as lenses do, waves gather and spread dots
     EffectError{"ripples", {"log_brightness", 0.08, SharedBy::filling}, true},
     EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, true},
     EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::place_region}, true, true},

@@ -72,6 +72,7 @@ Eigen::MatrixXd part(const Covariance& covariance, const std::vector<Eigen::Inde
 
 Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::MatrixXd& columns) {
   constexpr double kMost = 1e4;
+  if (columns.cols() == 0) return {};  // a matrix without columns has no rows that could be pointed to
   const Eigen::MatrixXd weights = covariance.factor.matrixU().solve(columns);
   const Eigen::VectorXd total = columns.colwise().squaredNorm().transpose().array().max(1e-300);
   const Eigen::VectorXd from_priors = (sparse(covariance.nuisance).transpose() * weights).colwise().squaredNorm();

@@ -123,6 +123,21 @@ TEST_F(CampaignCommand, ARunThatWasCutShortGoesOn) {
   EXPECT_TRUE(fs::exists(folder / "out" / "frames.csv"));
 }
 
+TEST_F(CampaignCommand, KeepsInfraredImagesWhereItIsAskedTo) {
+  Json spec = kSpec;
+  spec.update({{"mode", "photometric"}, {"distance_mm", {300}}, {"trials", 1}});
+  ASSERT_EQ(campaign(spec, "out", "--infrared --spp 1").exit_code, 0);
+  EXPECT_EQ(read_table(folder / "out" / "frames.csv").text(1, "ir"), "infrared/000001.png");
+  const fs::path image = folder / "out" / "infrared/000001.png";
+  const std::string whole = read_text(image);
+  fs::remove(image);
+  EXPECT_EQ(Json::parse(campaign(spec, "out", "--infrared --spp 1 --json").out)["frames_shot_now"]["value"], 1.0);
+  EXPECT_EQ(read_text(image), whole);
+  EXPECT_EQ(run_fathom("measure " + (folder / "out").string()).exit_code, 0);
+  EXPECT_EQ(campaign(kSpec, "geometric", "--infrared").exit_code, 1);
+  EXPECT_FALSE(fs::exists(folder / "geometric"));
+}
+
 TEST_F(CampaignCommand, ACloudThatIsNotWholeIsShotAgain) {
   ASSERT_EQ(campaign(kSpec, "out").exit_code, 0);
   const fs::path file = folder / "out" / "clouds/000003.pcd";

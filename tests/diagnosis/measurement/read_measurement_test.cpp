@@ -11,8 +11,10 @@
 
 #include "core/cloud_file.h"
 #include "core/files.h"
+#include "core/image_file.h"
 #include "core/rng.h"
 #include "core/units.h"
+#include "detector/read_cloud.h"
 #include "tests/core/expect_error.h"
 #include "tests/diagnosis/measurement/written_measurement.h"
 
@@ -43,6 +45,37 @@ const Observation* find(const Measurement& measurement, const char* observable, 
   for (const Observation& observation : measurement.observations)
     if (observation.observable == observable && observation.factors.region == region) return &observation;
   return nullptr;
+}
+
+/// Dots in every sixth column, of half the strength where the cup is.
+TEST_F(MeasurementFolder, InfraredImagesGiveTheContrastOfDots) {
+  const Cloud cloud = read_cloud(folder / "clouds/a.pcd");
+  Image<std::uint16_t> image(2 * cloud.width, 2 * cloud.height);
+  const auto draw = [&](int dot_inside) {
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) {
+        const Eigen::Vector3f& p = cloud.points[static_cast<std::size_t>(y / 2) * cloud.width + x / 2];
+        const bool is_inside =
+            p.allFinite() && p.z() < 0.98f * cloud.points[static_cast<std::size_t>(y / 2) * cloud.width].z();
+        image(x, y) = static_cast<std::uint16_t>(100 + (x / 6 % 2 == 0 ? is_inside ? dot_inside : 100 : 0));
+      }
+    write_png(folder / "ir.png", image);
+  };
+  draw(100);
+  const std::string row = "0,0,3,5,0,10,water,20,300,0,clouds/a.pcd,ir.png\n";
+  const Measurement same = read(row, kHeader + ",ir");
+  ASSERT_TRUE(find(same, "log_ir_contrast", "interior"));
+  EXPECT_NEAR(find(same, "log_ir_contrast", "interior")->value, 0.0, 0.1);
+  draw(20);
+  const Measurement washed = read(row, kHeader + ",ir");
+  EXPECT_LT(find(washed, "log_ir_contrast", "interior")->value, -0.7);
+  EXPECT_FALSE(find(read("0,0,3,5,0,10,water,20,300,0,clouds/a.pcd\n"), "log_ir_contrast", "interior")) << "no dots";
+}
+
+TEST_F(MeasurementFolder, RefusesInfraredImagesThatDoNotFit) {
+  write_png(folder / "ir.png", Image<std::uint16_t>(100, 100));
+  expect_refused("0,0,3,5,0,10,water,20,300,0,clouds/a.pcd,ir.png\n", "line 2", kHeader + ",ir");
+  expect_refused("0,0,3,5,0,10,water,20,300,0,clouds/a.pcd,none.png\n", "line 2", kHeader + ",ir");
 }
 
 TEST_F(MeasurementFolder, HeightsAreThoseOfTheRegionsOverTheTrials) {
