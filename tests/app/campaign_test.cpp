@@ -134,7 +134,7 @@ TEST_F(CampaignCommand, KeepsInfraredImagesWhereItIsAskedTo) {
   EXPECT_EQ(Json::parse(campaign(spec, "out", "--infrared --spp 1 --json").out)["frames_shot_now"]["value"], 1.0);
   EXPECT_EQ(read_text(image), whole);
   EXPECT_EQ(run_fathom("measure " + (folder / "out").string()).exit_code, 0);
-  EXPECT_EQ(campaign(kSpec, "geometric", "--infrared").exit_code, 1);
+  EXPECT_EQ(campaign(kSpec, "geometric", "--infrared").exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "geometric"));
 }
 
