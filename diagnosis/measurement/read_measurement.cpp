@@ -80,6 +80,8 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   if (!bias) reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
+  if (cloud.height <= 1)  // points after each other are no neighbours, so that dots have no contrast
+    std::erase_if(reading.values, [](const NamedValue& named) { return named.observable.ends_with("ir_contrast"); });
   reading.bands = estimates->desk_bands;
   if (!bias) reading.cells.add(points, estimates->desk, rig, view);
   if (!view.cup) return reading;

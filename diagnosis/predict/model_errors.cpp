@@ -60,7 +60,7 @@ constexpr std::array kModelErrors{
     // Walls light a bottom of their own colour evenly: of its dots' contrast three quarters are left
     // (detector/content_signs.h).
     ModelError{"log_ir_contrast", 0.30, SharedBy::all}, ModelError{"log_ir_contrast", 0.10, SharedBy::filling},
-    ModelError{"log_ir_contrast", 0.05, SharedBy::place}, ModelError{"log_ir_contrast", 0.05, SharedBy::condition},
+    ModelError{"log_ir_contrast", 0.05, SharedBy::place}, ModelError{"log_ir_contrast", 0.15, SharedBy::condition},
     // Smooth errors of a frame, a quarter of a step of 1/8 px over 40 px, lift and turn a fitted desk by so much.
     ModelError{"desk_wander_mm", 0.05, SharedBy::all}, ModelError{"desk_pitch_motion_deg", 0.01, SharedBy::all},
     ModelError{"desk_roll_motion_deg", 0.02, SharedBy::all}, ModelError{"liquid_motion_mm", 0.05, SharedBy::all},
