@@ -10,7 +10,6 @@
 #include "detector/read_cloud.h"
 
 namespace fathom {
-
 namespace {
 
 /// [DN]: a 16-bit PNG, or an EXR of one channel.

@@ -47,7 +47,8 @@ const Observation* find(const Measurement& measurement, const char* observable, 
   return nullptr;
 }
 
-/// Dots in every sixth column, of half the strength where the cup is.
+/// Bright bands, six columns of the image wide and six apart; first as bright in the cup as beside it, then a fifth of
+/// that.
 TEST_F(MeasurementFolder, InfraredImagesGiveTheContrastOfDots) {
   const Cloud cloud = read_cloud(folder / "clouds/a.pcd");
   Image<std::uint16_t> image(2 * cloud.width, 2 * cloud.height);
