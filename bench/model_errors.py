@@ -2,22 +2,26 @@
 """By how much the diagnosis mispredicts what simulated devices measure, as standard deviations of errors that
 observations share. The sizes in diagnosis/predict/model_errors.cpp come from here.
 
-  bench/model_errors.py build/release/app/fathom --members 24 -o out/model_errors
+  bench/model_errors.py build/release/app/fathom --members 36 -o out/model_errors
 
-Each member of the ensemble is a campaign with nothing hidden. Sensor, pattern, block, cup and mode are its own; rig and
-fills are known exactly, and the unit has no bias, so what is left is the prediction's own error. Even members are
-photometric, odd ones geometric. Variances are found by restricted maximum likelihood over all members of a mode. "own" is
-what one placement has for itself: noise, and no error of the model. Needs NumPy (Debian: python3-numpy).
+Each member of the ensemble is a campaign with nothing hidden. Sensor, pattern, block, cup and kind are its own; rig and
+fills are known exactly, and the unit has no bias, so what is left is the prediction's own error. Kinds take turns: exact
+triangulation, Fathom's frames, and Fathom's infrared images matched by OpenCV. Variances are found by restricted maximum likelihood over all members of a kind. "own" is
+what one placement has for itself: noise, and no error of the model. Needs NumPy and OpenCV (Debian:
+python3-opencv).
 Members whose residuals are in the folder already are not run again.
 """
 import argparse, csv, json, pathlib, random, shutil, sys
 import numpy as np
 
 from device_campaigns import PAINT, run
+from opencv_matcher import match_again
 
 SENSORS = ("xtion_pro_live_device", "kinect_v1_device", "xtion_pro_live")
 CUPS = {"paper_cup": 30, "mug": 25, "tapered_cup": 30}  # and a middle fill of each, in mm
 BLOCKS = (7, 9, 11)  # columns or rows; the shipped devices have 9
+KINDS = ("photometric", "geometric", "opencv")  # of member 0, 1, 2, 3, …
+REFERENCE_MM = 1200
 
 PLACE = ("lateral_mm", "distance_mm")
 CONDITION = ("liquid", "fill_mm", *PLACE)
@@ -44,7 +48,22 @@ def member(number):
     return {"sensor": sensor, "cup": {"shape": cup}, "liquids": {"water": "water", "paint": PAINT},
             "fillings": [{"liquid": "empty"}, *fillings], "distance_mm": [200, 300, 400],
             "lateral_mm": [-draw.choice((60, 80)), draw.choice((0, 40))], "pours": 2, "trials": 1, "bare_desk_views": 3,
-            "fill_sigma_mm": 0, "mode": "geometric" if number % 2 else "photometric"}
+            "fill_sigma_mm": 0, "mode": "geometric" if kind(number) == "geometric" else "photometric"}
+
+
+def kind(number):
+    return KINDS[number % len(KINDS)]
+
+
+def matched_by_opencv(args, number, folder):
+    """The clouds of the member's campaign, made anew with OpenCV and a wall that the same unit took for reference."""
+    sensor = {**member(number)["sensor"], "height_mm": REFERENCE_MM, "pitch_deg": 90}
+    del sensor["aim_mm"]
+    wall = {"sensor": sensor, "desk": {"size_mm": [3000, 3000]}}
+    (folder / "reference.json").write_text(json.dumps(wall))
+    run([args.fathom, "capture", folder / "reference.json", "-o", folder / "reference", "--quiet"])
+    match_again(folder / "measured", folder / "reference" / "ir.png", REFERENCE_MM, random.Random(-number).choice(BLOCKS))
+    shutil.rmtree(folder / "reference")
 
 
 def residuals(args, number):
@@ -53,7 +72,10 @@ def residuals(args, number):
     if not file.exists():
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "campaign.json").write_text(json.dumps(member(number)))
-        run([args.fathom, "campaign", folder / "campaign.json", "-o", folder / "measured", "--seed", number, "--quiet"])
+        run([args.fathom, "campaign", folder / "campaign.json", "-o", folder / "measured", "--seed", number, "--quiet",
+             *(["--infrared"] if kind(number) == "opencv" else [])])
+        if kind(number) == "opencv":
+            matched_by_opencv(args, number, folder)
         run([args.fathom, "diagnose", folder / "measured", "-o", folder / "diagnosis", "--quiet"])
         (folder / "diagnosis" / "residuals.csv").replace(file)
         for name in ("measured", "diagnosis"):
@@ -97,23 +119,23 @@ def variances(members, levels):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("fathom", type=lambda text: pathlib.Path(text).resolve())
-    parser.add_argument("--members", type=int, default=24)
+    parser.add_argument("--members", type=int, default=36)
     parser.add_argument("--first", type=int, default=1, help="number of the first member")
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     args = parser.parse_args()
-    by_mode = {"geometric": [], "photometric": []}
+    by_kind = {each: [] for each in KINDS}
     for number in range(args.first, args.first + args.members):
-        by_mode[member(number)["mode"]].append(residuals(args, number))
+        by_kind[kind(number)].append(residuals(args, number))
         print(f"member {number}, the last is {args.first + args.members - 1}", file=sys.stderr)
     for observable, levels in LEVELS.items():
-        for mode, members in by_mode.items():
+        for each_kind, members in by_kind.items():
             parts = [[row for row in rows if row["observable"] == observable] for rows in members]
             data = [(np.array([float(row["before"]) for row in rows]), shapes(rows, levels)) for rows in parts if rows]
             if not data:
                 continue
             sizes = " ".join(f"{level} {v ** 0.5:.4f}" for level, v in zip(levels, variances(data, levels)))
             each = sorted(np.sqrt(np.mean(y**2)) for y, _ in data)
-            print(f"{observable:17s} {mode:11s} {sizes}; rms of members {each[0]:.4f} to {each[-1]:.4f}", flush=True)
+            print(f"{observable:17s} {each_kind:11s} {sizes}; rms of members {each[0]:.4f} to {each[-1]:.4f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -188,7 +188,7 @@ MeasurementCheck check_measurement(const fs::path& folder) {
   MeasurementCheck check;
   check.rig = read_rig(folder / "rig.json");
   const Table table = read_table(folder / "frames.csv");
-  require_clouds(table, folder);
+  for (const char* column : {"cloud", "ir"}) require_files(table, column, folder);
   const std::vector<FrameRecord> frames = read_frames(table, check.rig, folder);
   check_clouds(folder, table, frames, check);
   Checker checker(frames, check);

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path cloud_path(const Table& table, std::size_t row, const fs::path& folder) {
-  return path_named_in((folder / "frames.csv").string(), table.place(row, "cloud"), table.text(row, "cloud"));
+fs::path path_of(const Table& table, std::size_t row, std::string_view column, const fs::path& folder) {
+  return path_named_in((folder / "frames.csv").string(), table.place(row, column), table.text(row, column));
 }
 
 class CloudChecker {
@@ -72,7 +72,7 @@ class CloudChecker {
     for (std::size_t row = 0; row < frames_.size(); ++row) {
       if (frames_[row].cloud.empty()) continue;
       std::error_code problem;
-      sizes.push_back(static_cast<double>(fs::file_size(cloud_path(table_, row, folder_), problem)));
+      sizes.push_back(static_cast<double>(fs::file_size(path_of(table_, row, "cloud", folder_), problem)));
       rows.push_back(row);
     }
     if (sizes.empty() || check_.height <= 1) return;
@@ -124,26 +124,26 @@ class CloudChecker {
 
 }  // namespace
 
-void require_clouds(const Table& table, const fs::path& folder) {
-  if (!table.has("cloud")) return;
+void require_files(const Table& table, std::string_view column, const fs::path& folder) {
+  if (!table.has(column)) return;
   std::vector<std::size_t> missing, empty;
   std::size_t named = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "cloud").empty()) continue;
+    if (table.text(row, column).empty()) continue;
     ++named;
     std::error_code problem;
-    const fs::path cloud = cloud_path(table, row, folder);
-    if (!fs::is_regular_file(cloud, problem))
+    const fs::path file = path_of(table, row, column, folder);
+    if (!fs::is_regular_file(file, problem))
       missing.push_back(row);
-    else if (fs::file_size(cloud, problem) == 0)
+    else if (fs::file_size(file, problem) == 0)
       empty.push_back(row);
   }
   const auto fail = [&](const std::vector<std::size_t>& rows, const char* what) {
     if (rows.empty()) return;
-    const std::string file = cloud_path(table, rows.front(), folder).string();
-    table.fail(rows.front(), "cloud",
+    const std::string file = path_of(table, rows.front(), column, folder).string();
+    table.fail(rows.front(), column,
                fmt::format("{} {}{}", what, file,
-                           rows.size() > 1 ? fmt::format(", and {} more of {} clouds", rows.size() - 1, named) : ""));
+                           rows.size() > 1 ? fmt::format(", and {} more of {} files", rows.size() - 1, named) : ""));
   };
   fail(missing, "there is no file");
   fail(empty, "there is nothing in");

@@ -1,12 +1,15 @@
 // The part of a check that looks at clouds: all their files, few of their points.
 #pragma once
 
+#include <string_view>
+
 #include "diagnosis/measurement/check.h"
 
 namespace fathom {
 
-/// Throws Error on files that are missing or empty, and counts them: read_frames() would tell of the first alone.
-void require_clouds(const Table& table, const std::filesystem::path& folder);
+/// Throws Error on files of a column that are missing or empty, and counts them: read_frames() would tell of the first
+/// alone.
+void require_files(const Table& table, std::string_view column, const std::filesystem::path& folder);
 
 /// Reads some of the clouds, and adds what they show otherwise than the notes. Throws Error where most of them show no
 /// desk, or no cup.

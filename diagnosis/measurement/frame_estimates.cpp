@@ -115,9 +115,9 @@ RegionEstimate region_mean(std::vector<SharedHeight>& heights) {
   return sums.estimate();
 }
 
-void set_inside(std::span<const CupPoint> points, double radius, double soft, FrameEstimates& estimates) {
+void set_inside(std::span<const CupPoint> points, double radius, const FrameView& view, FrameEstimates& estimates) {
   const Eigen::Vector2d axis = middle_of_regions(estimates.outline);
-  const double reach = radius + soft;
+  const double soft = view.soft_m, reach = radius + soft;
   std::array<std::vector<SharedHeight>, 5> height;
   Sums interior, intensity;
   DotContrast dots;
@@ -133,12 +133,12 @@ void set_inside(std::span<const CupPoint> points, double radius, double soft, Fr
       }
     interior.add(p.height, p.weight * whole);
     intensity.add(p.intensity, p.weight * whole);
-    if (whole > 0.0) dots.add(p.intensity, p.weight * whole);
+    if (view.has_rows && whole > 0.0) dots.add(p.intensity, p.weight * whole);
   }
   for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = region_mean(height[i]);
   estimates.interior = interior.estimate();
   estimates.interior_intensity = intensity.estimate();
-  estimates.interior_contrast = dots.contrast();
+  if (view.has_rows) estimates.interior_contrast = dots.contrast();
 }
 
 }  // namespace
@@ -218,7 +218,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     rows[part_of_image(sensed.point, rig.focal_px, 1, static_cast<int>(rows.size()))].add(off_px, w);
     columns[part_of_image(sensed.point, rig.focal_px, static_cast<int>(columns.size()), 1)].add(off_px, w);
     desk_intensity.add(sensed.intensity, w);
-    desk_dots.add(sensed.intensity, w);
+    if (view.has_rows) desk_dots.add(sensed.intensity, w);
     if (number % comb_every != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.device_z > 0.0f ? sensed.device_z : sensed.point.z();  // steps are the device's
@@ -243,9 +243,9 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   for (std::size_t i = 0; i < rows.size(); ++i) estimates.desk_bands.rows[i] = rows[i].estimate();
   for (std::size_t i = 0; i < columns.size(); ++i) estimates.desk_bands.columns[i] = columns[i].estimate();
   estimates.desk_intensity = desk_intensity.estimate();
-  estimates.desk_contrast = desk_dots.contrast();
+  if (view.has_rows) estimates.desk_contrast = desk_dots.contrast();
   if (outline) estimates.outline = outline->solve();
-  set_inside(around, interior_radius(rig.cup), view.soft_m, estimates);
+  set_inside(around, interior_radius(rig.cup), view, estimates);
   if (codes.weight > 0.0) {
     estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
     const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };

@@ -62,7 +62,7 @@ struct FrameEstimates {
       height;                         ///< [m] above the fitted desk, by region of the cup; of what lies near the median
   RegionEstimate interior;            ///< plain mean of all regions together
   RegionEstimate interior_intensity;  ///< [DN]
-  double desk_contrast = 0.0, interior_contrast = 0.0;  ///< of the infrared's dots (DotContrast)
+  std::optional<double> desk_contrast, interior_contrast;  ///< of the infrared's dots (DotContrast); none without rows
   std::optional<CupOutline> outline;
   Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
   std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px
@@ -75,6 +75,7 @@ struct FrameView {
   std::optional<Eigen::Vector2d> cup;  ///< [m] world: where the cup should stand; nothing on a bare desk
   double fill_m = 0.0;                 ///< of what should stand in it
   double soft_m = 0.0;                 ///< width of the regions' borders
+  bool has_rows = false;  ///< points come as in an image, neighbours after each other: dots have a contrast
 };
 
 /// Desk: the plane by least squares in inverse depth, where a plane is linear and disparity's noise is even; from where

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/units.h"
 
@@ -21,16 +22,15 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;
     if (inside > 0.0 && desk > 0.0) values.push_back({"log_brightness", kWholeInterior, std::log(inside / desk)});
   }
-  // Shading and a colour image's grain are below.
-  constexpr double kLeastOfDots = 0.15;
-  if (estimates.desk_intensity.mean > 0.0) values.push_back({"ir_contrast", kDesk, estimates.desk_contrast});
-  if (estimates.interior_intensity.mean > 0.0) {
-    values.push_back({"ir_contrast", kWholeInterior, estimates.interior_contrast});
-    if (estimates.desk_contrast > kLeastOfDots && estimates.interior_contrast > 0.0 &&
-        estimates.interior.weight >= kFewestInRegion)
-      values.push_back(
-          {"log_ir_contrast", kWholeInterior, std::log(estimates.interior_contrast / estimates.desk_contrast)});
-  }
+  const std::optional<double>&desk_dots = estimates.desk_contrast, &dots = estimates.interior_contrast;
+  const bool sees_desk = desk_dots && estimates.desk_intensity.mean > 0.0;
+  const bool sees_inside = dots && estimates.interior_intensity.mean > 0.0;
+  if (sees_desk) values.push_back({"ir_contrast", kDesk, *desk_dots});
+  if (sees_inside) values.push_back({"ir_contrast", kWholeInterior, *dots});
+  constexpr double kLeastOfDots = 0.15;  // shading and a colour image's grain are below
+  if (sees_desk && sees_inside && *desk_dots > kLeastOfDots && *dots > 0.0 &&
+      estimates.interior.weight >= kFewestInRegion)
+    values.push_back({"log_ir_contrast", kWholeInterior, std::log(*dots / *desk_dots)});
   if (estimates.outline) {
     constexpr std::string_view kWalls = "walls";
     values.push_back({"cup_x_mm", kWalls, mm_from_metres(estimates.outline->off.x())});

@@ -71,7 +71,8 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   const Cloud cloud = read_frame_cloud(frame, folder);
   std::vector<SensedPoint> points = sensed_points(cloud, rig);
   if (!bias) reading.print = print_of(points, rig.focal_px);
-  const FrameView view = view_of(frame);
+  FrameView view = view_of(frame);
+  view.has_rows = cloud.height > 1;
   points = with_desk_thinned(cloud, std::move(points), rig, view);
   if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
   if (bias) take_off(as_bias(*bias), rig, points);
@@ -80,8 +81,6 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   if (!bias) reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);
   reading.is_bare = view.cup && shows_desk(*estimates, rig);
   reading.values = named_values(*estimates);
-  if (cloud.height <= 1)  // points after each other are no neighbours, so that dots have no contrast
-    std::erase_if(reading.values, [](const NamedValue& named) { return named.observable.ends_with("ir_contrast"); });
   reading.bands = estimates->desk_bands;
   if (!bias) reading.cells.add(points, estimates->desk, rig, view);
   if (!view.cup) return reading;

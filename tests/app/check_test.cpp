@@ -65,7 +65,7 @@ TEST_F(CheckCommand, WhereNoDiagnosisCanRunItFailsWithOneLine) {
     EXPECT_EQ(run.out, "");
   };
   expect_failed("cloud\n0,0,0,0,0,0,empty,0,300,0,a.pcd\n1,0,0,0,1,1,empty,0,300,0,b.pcd\n",
-                "line 2, column 'cloud': there is no file " + (folder / "a.pcd").string() + ", and 1 more of 2 clouds");
+                "line 2, column 'cloud': there is no file " + (folder / "a.pcd").string() + ", and 1 more of 2 files");
   expect_failed("height_mm\n0,0,0,0,0,0,water,2000,300,0,9\n",
                 "line 2, column 'fill_mm': must be from 0 to 86, the depth of the cup, got '2000'");
   expect_failed("height_mm\n0,0,0,0,0,0,water,20,300,0,\n",

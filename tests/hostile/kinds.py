@@ -171,6 +171,23 @@ def png(rng, seeds, here):
     return ["capture", "scene.json", "--mode", "geometric"]
 
 
+def infrared(rng, seeds, here):
+    """An image beside a measurement's cloud."""
+    folder = here / "measured"
+    seeds.copy_clouds(folder)
+    table = (folder / "frames.csv").read_text().splitlines()
+    name = rng.choice(["ir.png", "ir.png", "ir.exr", "clouds/000001.pcd"])
+    (folder / "frames.csv").write_text("\n".join(
+        line + (",ir" if i == 0 else f",{name}" if i == 2 else ",") for i, line in enumerate(table)) + "\n")
+    if name == "ir.png":
+        good = mutate_image.grey_png(320, 240, 16)
+        data = mutate_bytes.mutate_bytes(rng, good) if rng.random() < BYTEWISE else mutate_image.mutate_png(rng, 320, 240)
+        (folder / name).write_bytes(data)
+    elif name == "ir.exr":
+        (folder / name).write_bytes(mutate_image.mutate_exr(rng, seeds.disparity))
+    return ["measure", "measured"]
+
+
 def clutter(rng, seeds, here):
     (here / "clutter.json").write_bytes(text_mutant(rng, seeds.clutter, here, seeds.campaign))
     return ["evaluate", rng.choice(["recognition", "recognition", "liquid"]), "--trials", "1", "--clutter", "clutter.json"]
@@ -210,8 +227,8 @@ def resumed(rng, seeds, here):
 
 
 # Kind: share of the mutants.
-KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, clutter: 2,
-         config: 4, resumed: 2}
+KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, infrared: 2,
+         clutter: 2, config: 4, resumed: 2}
 NAMES = [kind.__name__ for kind in KINDS]
 # How the program is called: what its streams lead to.
 STREAMS = ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full", ">&-", "<&-"]

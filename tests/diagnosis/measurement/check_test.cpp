@@ -186,18 +186,22 @@ TEST_F(CheckedFolder, ACopyThatBrokeOffIsNamed) {
 }
 
 TEST_F(CheckedFolder, WhatStopsADiagnosisIsOneLineThatCountsTheRest) {
-  const auto expect_refused = [&](const std::string& what) {
-    expect_error([&] { check(); }, {(folder / "frames.csv").string() + ": " + what});
+  const auto expect_refused = [&](const std::string& what, const std::string& last_column = "cloud") {
+    expect_error([&] { check(last_column); }, {(folder / "frames.csv").string() + ": " + what});
     rows.clear(), frames = 0;
   };
   add("0,0,0,0", "water,20,300,0");
   add("0,0,0,1", "water,20,300,0", "clouds/b.pcd");
   add("0,0,0,2", "water,20,300,0", "clouds/c.pcd");
   expect_refused("line 3, column 'cloud': there is no file " + (folder / "clouds/b.pcd").string() +
-                 ", and 1 more of 3 clouds");
+                 ", and 1 more of 3 files");
   write_text(folder / "clouds/nothing.pcd", "");
   add("0,0,0,0", "water,20,300,0", "clouds/nothing.pcd");
   expect_refused("line 2, column 'cloud': there is nothing in " + (folder / "clouds/nothing.pcd").string());
+  add("0,0,0,0", "water,20,300,0", "clouds/a.pcd,none.png");
+  add("0,0,0,1", "water,20,300,0", "clouds/a.pcd,none.png");
+  expect_refused("line 2, column 'ir': there is no file " + (folder / "none.png").string() + ", and 1 more of 2 files",
+                 "cloud,ir");
   add("0,0,0,0", "water,20,0.3,0");
   expect_refused("line 2, column 'distance_mm': must be in mm");
   add("0,0,0,0", "water,20,300,150");

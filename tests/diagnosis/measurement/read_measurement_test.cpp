@@ -73,6 +73,21 @@ TEST_F(MeasurementFolder, InfraredImagesGiveTheContrastOfDots) {
   EXPECT_FALSE(find(read("0,0,3,5,0,10,water,20,300,0,clouds/a.pcd\n"), "log_ir_contrast", "interior")) << "no dots";
 }
 
+/// Points after each other are no neighbours there.
+TEST_F(MeasurementFolder, CloudsWithoutRowsHaveNoContrastOfDots) {
+  const Image<CloudPoint> image = ideal_cloud(kHeight, 0.020);
+  Image<CloudPoint> row(static_cast<int>(image.pixels().size()), 1);
+  for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+    row.pixels()[i] = image.pixels()[i];
+    row.pixels()[i].intensity = i / 3 % 2 == 0 ? 200.0f : 50.0f;
+  }
+  write_pcd(folder / "clouds/row.pcd", row);
+  const Measurement measurement = read("0,0,3,5,0,10,water,20,300,0,clouds/row.pcd\n");
+  EXPECT_TRUE(find(measurement, "log_brightness", "interior"));
+  EXPECT_FALSE(find(measurement, "ir_contrast", "desk"));
+  EXPECT_FALSE(find(measurement, "log_ir_contrast", "interior"));
+}
+
 TEST_F(MeasurementFolder, RefusesInfraredImagesThatDoNotFit) {
   write_png(folder / "ir.png", Image<std::uint16_t>(100, 100));
   expect_refused("0,0,3,5,0,10,water,20,300,0,clouds/a.pcd,ir.png\n", "line 2", kHeader + ",ir");
