@@ -8,10 +8,10 @@
 
 #include "core/name_list.h"
 #include "core/units.h"
+#include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/sensed_frame.h"
 #include "diagnosis/predict/uncertain_rig.h"
-#include "diagnosis/statistics/sufficiency.h"
 
 namespace fathom {
 namespace {

@@ -12,7 +12,7 @@
 #include "app/html.h"
 #include "app/observable_words.h"
 #include "core/files.h"
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/statistics/diagnosis.h"
+#include "diagnosis/decision/diagnosis.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {

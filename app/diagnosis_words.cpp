@@ -10,7 +10,7 @@
 
 #include "app/observable_words.h"
 #include "diagnosis/statistics/decision_settings.h"
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {

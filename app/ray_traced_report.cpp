@@ -4,7 +4,7 @@
 
 #include "app/diagnosis_words.h"
 #include "app/html.h"
-#include "diagnosis/statistics/diagnosis_json.h"
+#include "diagnosis/decision/diagnosis_json.h"
 
 namespace fathom {
 namespace {

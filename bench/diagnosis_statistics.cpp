@@ -15,7 +15,7 @@
 #include "bench/baselines/diagnosis_baselines.h"
 #include "core/median.h"
 #include "core/rng.h"
-#include "diagnosis/statistics/decide.h"
+#include "diagnosis/decision/decide.h"
 #include "tests/diagnosis/statistics/synthetic_campaign.h"
 
 namespace {

@@ -62,7 +62,8 @@ def matched_by_opencv(args, number, folder):
     wall = {"sensor": sensor, "desk": {"size_mm": [3000, 3000]}}
     (folder / "reference.json").write_text(json.dumps(wall))
     run([args.fathom, "capture", folder / "reference.json", "-o", folder / "reference", "--quiet"])
-    match_again(folder / "measured", folder / "reference" / "ir.png", REFERENCE_MM, random.Random(-number).choice(BLOCKS))
+    block = BLOCKS[SENSORS.index(sensor["model"])]  # each model another
+    match_again(folder / "measured", folder / "reference" / "ir.png", REFERENCE_MM, block)
     shutil.rmtree(folder / "reference")
 
 

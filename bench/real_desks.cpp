@@ -8,8 +8,8 @@
 
 #include "bench/desk_rows.h"
 #include "bench/sensor_scenes.h"
+#include "diagnosis/decision/decide.h"
 #include "diagnosis/predict/candidates.h"
-#include "diagnosis/statistics/decide.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/statistics/diagnosis.h"
+#include "diagnosis/decision/diagnosis.h"
 
 namespace fathom {
 

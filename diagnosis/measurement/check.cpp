@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "core/units.h"
+#include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/measurement/check_clouds.h"
 #include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/unit_bias.h"
-#include "diagnosis/statistics/sufficiency.h"
 
 namespace fathom {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "diagnosis/predict/slope.h"
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {

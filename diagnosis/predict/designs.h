@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "diagnosis/decision/next_measurement.h"
 #include "diagnosis/measurement/read_measurement.h"
-#include "diagnosis/statistics/next_measurement.h"
 
 namespace fathom {
 

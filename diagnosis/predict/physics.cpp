@@ -9,7 +9,7 @@
 #include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/predictable.h"
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
 namespace {

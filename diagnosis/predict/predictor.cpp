@@ -12,7 +12,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "diagnosis/predict/desk_of_rays.h"
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 

@@ -11,7 +11,8 @@ bool has_liquid(const Factors& factors);
 /// Indices of the predictor's conditions.
 std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is);
 
-/// Those that an effect (as in effect_name.h) can change: of one of liquids, the ones with a liquid, or with its own.
+/// Those that an effect (named as by EffectName) can change: of one of liquids, the ones with a liquid, or with its
+/// own.
 std::vector<std::size_t> conditions_touched(const Predictor& predictor, const Effect& effect,
                                             const std::string& liquid);
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/progress.h"
+#include "diagnosis/decision/budget.h"
 #include "diagnosis/ray_traced/local_model.h"
 #include "diagnosis/ray_traced/plan.h"
-#include "diagnosis/statistics/budget.h"
 
 namespace fathom {
 namespace {

@@ -1,10 +1,10 @@
 // The diagnosis by ray tracing, after that by few rays.
 #pragma once
 
+#include "diagnosis/decision/decide.h"
+#include "diagnosis/decision/left_out.h"
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/ray_traced/evidence.h"
-#include "diagnosis/statistics/decide.h"
-#include "diagnosis/statistics/left_out.h"
 
 namespace fathom {
 

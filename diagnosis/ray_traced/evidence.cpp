@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "diagnosis/ray_traced/local_model.h"
-#include "diagnosis/statistics/evidence_rows.h"
+#include "diagnosis/statistics/evidence.h"
 #include "diagnosis/statistics/refit.h"
 
 namespace fathom {

@@ -29,7 +29,7 @@ struct RayTracedEvidence {
   std::size_t not_seen = 0;     ///< observations of which frames show nothing
 };
 
-/// Sets of effects (as in effect_name.h, each as the diagnosis has them) that are to be traced: near the values that
+/// Sets of effects (named as by EffectName, each as the diagnosis has them) that are to be traced: near the values that
 /// fit the data, found by Gauss and Newton's steps with slopes by central differences. Predictions of all other sets
 /// are the traced nominal ones and what few rays make of the change. Signatures of effects in traced sets are such that
 /// the set's change is exact where it fits. Physics and tracer must outlive the result's predictions.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 #include "sim/sensor/capture.h"
 
 namespace fathom {

@@ -1,9 +1,9 @@
 // Which sets of effects are worth ray tracing after few rays have screened all.
 #pragma once
 
+#include "diagnosis/decision/diagnosis.h"
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/ray_traced/ray_tracer.h"
-#include "diagnosis/statistics/diagnosis.h"
 
 namespace fathom {
 

@@ -5,7 +5,7 @@
 #include "core/rng.h"
 #include "diagnosis/predict/slope.h"
 #include "diagnosis/ray_traced/frame.h"
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 #include "sim/effects/registry.h"
 #include "sim/sensor/capture.h"
 

@@ -7,7 +7,7 @@
 
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/evidence.h"
-#include "diagnosis/statistics/scan.h"
+#include "diagnosis/statistics/strata.h"
 #include "diagnosis/statistics/variance_profile.h"
 
 namespace fathom {

@@ -1,5 +1,8 @@
-// Tails of the distributions that tests need, as accurate far out as near the middle.
+// Tails of the distributions that tests need, as accurate far out as near the middle, and sums of probabilities that
+// are known by their logarithms.
 #pragma once
+
+#include <vector>
 
 namespace fathom {
 
@@ -14,5 +17,8 @@ double chi_squared_tail(double x, double dof);
 /// The standard normal |z| with the tail that Student's |t| of `dof` degrees of freedom has (Wallace 1959; within 0.03
 /// from 5 degrees of freedom and up to |t| = 6).
 double normal_score(double t, double dof);
+
+/// log Σ exp; there must be one.
+double log_sum(const std::vector<double>& logs);
 
 }  // namespace fathom

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fathom {
@@ -26,9 +27,10 @@ struct Observation {
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
   int repeats = 1;
-  double pixels = 0.0;      ///< of one repeat, that the value is the mean of; 0: of no certain number
-  double rounding = 0.0;    ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
-  bool only_names = false;  ///< helps to name what makes a gap; that there is one, heights and shapes decide (tiers.h)
+  double pixels = 0.0;    ///< of one repeat, that the value is the mean of; 0: of no certain number
+  double rounding = 0.0;  ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  bool only_names =
+      false;  ///< helps to name what makes a gap; that there is one, heights and shapes decide (decision/tiers.h)
 };
 
 /// Something uncertain that is no effect: a calibrated length, the fill of one pour, the place of one placement.
@@ -54,15 +56,30 @@ struct Parameter {
   double step = 0.0;  ///< the model knows only whole multiples of it; 0: all values
 };
 
-/// What comes with an effect and nobody can predict (leeway.h).
+/// What comes with an effect and nobody can predict (statistics/leeway.h).
 struct OwnErrors {
   Eigen::MatrixXd columns{};  ///< observations × errors, 1 σ each
   bool grow = false;          ///< variances go with the first parameter, and are these at a typical departure
 };
 
+/// Of an effect: "id", or "id@liquid" for the effect in one liquid only.
+struct EffectName {
+  std::string id, liquid;  ///< no liquid: in all
+};
+
+inline EffectName effect_name(std::string_view name) {
+  const std::size_t at = name.find('@');
+  if (at == std::string_view::npos) return {std::string(name), ""};
+  return {std::string(name.substr(0, at)), std::string(name.substr(at + 1))};
+}
+
+inline std::string name_of(const EffectName& effect) {
+  return effect.liquid.empty() ? effect.id : effect.id + "@" + effect.liquid;
+}
+
 /// An effect that the model leaves out.
 struct Candidate {
-  std::string effect;  ///< as in effect_name.h: "id" or "id@liquid"
+  std::string effect;  ///< as name_of(EffectName) writes it
   std::vector<Parameter> parameters;
   Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
   double plausibility = 1.0;  ///< before anything is measured, beside that of other candidates
@@ -75,7 +92,8 @@ struct Mistake {
   std::string sentence;  ///< what it was
 };
 
-/// By how much the laboratory says that its repetitions may differ, 1 σ. What differs more is a finding (excess.h).
+/// By how much the laboratory says that its repetitions may differ, 1 σ. What differs more is a finding
+/// (decision/excess.h).
 struct StatedScatter {
   static constexpr double kAny = std::numeric_limits<double>::infinity();
   double session_mm = kAny, session_deg = kAny;  ///< sessions, beyond what the nuisances say
@@ -96,11 +114,14 @@ struct Evidence {
 
 /// An effect switched on, with the values of its parameters in their order.
 struct EffectValue {
-  std::string effect;  ///< as in effect_name.h
+  std::string effect;  ///< as name_of(EffectName) writes it
   std::vector<double> values;
 };
 
 /// The observations as the model with these effects predicts them.
 using Predict = std::function<Eigen::VectorXd(const std::vector<EffectValue>&)>;
+
+/// The evidence of some observations alone.
+Evidence evidence_of_rows(const Evidence& evidence, const std::vector<Eigen::Index>& rows);
 
 }  // namespace fathom

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "diagnosis/statistics/log_sum.h"
+#include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/screen.h"
 
 namespace fathom {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "diagnosis/statistics/effect_name.h"
+#include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
 

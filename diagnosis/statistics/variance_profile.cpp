@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/statistics/log_sum.h"
+#include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/shared_errors.h"
 
 namespace fathom {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "bench/real_desks.h"
-#include "diagnosis/statistics/diagnosis_json.h"
+#include "diagnosis/decision/diagnosis_json.h"
 
 namespace fathom {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "diagnosis/decision/hygiene.h"
+#include "diagnosis/decision/next_measurement.h"
 #include "diagnosis/statistics/groups.h"
-#include "diagnosis/statistics/hygiene.h"
-#include "diagnosis/statistics/next_measurement.h"
 #include "diagnosis/statistics/problem.h"
 #include "diagnosis/statistics/screen.h"
 #include "tests/diagnosis/statistics/small_campaign.h"

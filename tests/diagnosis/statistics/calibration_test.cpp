@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/rng.h"
-#include "diagnosis/statistics/decide.h"
+#include "diagnosis/decision/decide.h"
 #include "diagnosis/statistics/distributions.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 

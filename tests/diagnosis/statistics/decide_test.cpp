@@ -1,17 +1,18 @@
 // What a diagnosis promises, on campaigns of which the truth is known. Rates over many sets:
 // bench/diagnosis_statistics.
-#include "diagnosis/statistics/decide.h"
+#include "diagnosis/decision/decide.h"
+#include "diagnosis/decision/locate.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/decision/diagnosis_json.h"
+#include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/statistics/ambiguity.h"
-#include "diagnosis/statistics/diagnosis_json.h"
 #include "diagnosis/statistics/groups.h"
-#include "diagnosis/statistics/scan.h"
-#include "diagnosis/statistics/sufficiency.h"
+#include "diagnosis/statistics/strata.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "core/rng.h"
-#include "diagnosis/statistics/decide.h"
+#include "diagnosis/decision/decide.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"
 #include "tests/diagnosis/statistics/small_campaign.h"

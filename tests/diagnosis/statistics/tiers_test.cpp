@@ -1,12 +1,12 @@
 // What only names raises no alarm; what differs by more than is stated does.
-#include "diagnosis/statistics/tiers.h"
+#include "diagnosis/decision/tiers.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "diagnosis/statistics/decide.h"
-#include "diagnosis/statistics/diagnosis_json.h"
+#include "diagnosis/decision/decide.h"
+#include "diagnosis/decision/diagnosis_json.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {

@@ -1,0 +1,129 @@
+#include "diagnosis/decision/decide.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "diagnosis/decision/budget.h"
+#include "diagnosis/decision/excess.h"
+#include "diagnosis/decision/explanations.h"
+#include "diagnosis/decision/gap_size.h"
+#include "diagnosis/decision/hygiene.h"
+#include "diagnosis/decision/intervals.h"
+#include "diagnosis/decision/limits.h"
+#include "diagnosis/decision/locate.h"
+#include "diagnosis/decision/sufficiency.h"
+#include "diagnosis/decision/tiers.h"
+#include "diagnosis/decision/unknown.h"
+#include "diagnosis/statistics/case.h"
+#include "diagnosis/statistics/posterior.h"
+#include "diagnosis/statistics/problem.h"
+
+namespace fathom {
+
+namespace {
+
+/// What the evidence says before any effect is weighed.
+void describe_evidence(const Case& c, Diagnosis& diagnosis) {
+  diagnosis.mistakes = c.evidence.mistakes;
+  diagnosis.warnings = hygiene_warnings(c.evidence);
+  if (!c.covariance.errors.from_replicates)
+    diagnosis.warnings.emplace_back(
+        "hardly any condition was poured or placed anew: errors are taken from what a smooth model leaves");
+  diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
+  diagnosis.confusable = confusable_pairs(c.evidence, c.problem);
+  diagnosis.near_null = near_null_directions(c.evidence, c.problem);
+  const Eigen::MatrixXd columns = stratum_columns(c.strata, c.covariance);
+  diagnosis.where =
+      locate(c.strata, columns, degrees_of_freedom(c.covariance, columns), c.problem.residual, c.settings.p_where);
+}
+
+/// The likeliest option's effects that are surely there, fitted by themselves; nothing where there are none.
+std::optional<Refit> sure_fit(const Case& c, const Posterior& posterior, const std::vector<int>& kinds) {
+  const Option& best = likeliest(posterior.options);
+  std::vector<std::size_t> sure;
+  for (std::size_t e = 0; e < best.effects.size(); ++e)
+    if (probability_of(best.effects[e], posterior.options, kinds) > kSure) sure.push_back(e);
+  if (sure.empty()) return std::nullopt;
+  const Hypothesis part = part_of(c.problem, {best.effects, best.parameters}, sure);
+  const auto known = std::find_if(posterior.fits.begin(), posterior.fits.end(),
+                                  [&](const Refit& fit) { return fit.hypothesis.effects == part.effects; });
+  const Refit fit =
+      known != posterior.fits.end() ? *known : refit(c.evidence, c.predict, c.covariance, c.problem, part);
+  return with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
+}
+
+/// What effects leave of the residual, with whatever changes of their parameters would make taken out.
+struct Rest {
+  Eigen::VectorXd residual;   ///< whitened
+  Eigen::MatrixXd explained;  ///< orthonormal
+};
+
+Rest rest_of(const Case& c, const Refit& fit) {
+  Rest rest{c.problem.residual - fit.prediction, orthonormal(fit.jacobian)};
+  rest.residual = without(rest.residual, rest.explained);
+  return rest;
+}
+
+Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool names_all,
+                   bool names_any) {
+  const Verdict with_unknown = names_any ? Verdict::named_and_unknown : Verdict::unknown;
+  if (is_excess) return with_unknown;
+  if (kAlarmOdds * shares.nothing > 1.0) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
+  if (shares.unknown > 0.5) return with_unknown;
+  const AmbiguityClass& first = set.classes.front();
+  const bool is_one = first.probability > kSure && first.options.size() == 1;
+  return names_all && is_one ? Verdict::named : Verdict::ambiguous;
+}
+
+Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Designs& designs,
+                    const DecisionSettings& settings) {
+  Diagnosis diagnosis;
+  diagnosis.missing = missing_for_diagnosis(evidence);
+  if (!diagnosis.missing.empty()) return diagnosis;
+  const Case c(evidence, predict, settings);
+  describe_evidence(c, diagnosis);
+  const Posterior posterior = posterior_of(c);
+  const std::vector<int> kinds = kinds_of_candidates(evidence);
+  const Shares shares = shares_of(posterior.options);
+  AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta);
+  const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
+  const Refit& fit = sure ? *sure : posterior.fit_of({});
+  const Rest rest = rest_of(c, fit);
+  diagnosis.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);
+  const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
+  diagnosis.verdict = verdict_of(c, set, shares, !diagnosis.excess.empty(), names_all, sure.has_value());
+  if (!diagnosis.excess.empty()) set.put_unknown_first();
+  diagnosis.ambiguity_set = explanations(evidence, set);
+  diagnosis.probability_of_none = shares.nothing;
+  diagnosis.probability_of_unknown = shares.unknown;
+  if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
+    diagnosis.unknown =
+        describe_unknown(evidence, c.covariance, c.problem, c.discrepancy, rest.residual, rest.explained);
+  measure_gaps(c, fit, diagnosis);
+  diagnosis.upper_limits = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
+  if (sure) {
+    diagnosis.effects = named_effects(c, *sure);
+    for (std::size_t e = 0; e < diagnosis.effects.size(); ++e)
+      diagnosis.effects[e].probability = probability_of(sure->hypothesis.effects[e], posterior.options, kinds);
+    diagnosis.parameter_covariance = covariance_in_units(c, *sure);
+  }
+  if (designs && (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none))
+    diagnosis.next = next_measurements(evidence, c.covariance, designs, set);
+  return diagnosis;
+}
+
+}  // namespace
+
+Diagnosis decide(const Evidence& evidence, const Predict& predict, const Designs& designs,
+                 const DecisionSettings& settings) {
+  Diagnosis by_all = decide_by(evidence, predict, designs, settings);
+  const std::vector<Eigen::Index> deciding = deciding_rows(evidence);
+  const bool is_settled = by_all.verdict == Verdict::none || by_all.verdict == Verdict::named ||
+                          by_all.verdict == Verdict::insufficient || deciding.size() == evidence.observations.size();
+  if (is_settled) return by_all;
+  Diagnosis by_deciding =
+      decide_by(deciding_evidence(evidence, deciding), predict_rows(predict, deciding), designs, settings);
+  return joined_tiers(std::move(by_all), std::move(by_deciding), evidence, deciding);
+}
+
+}  // namespace fathom

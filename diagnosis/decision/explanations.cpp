@@ -1,0 +1,48 @@
+#include "diagnosis/decision/explanations.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+namespace {
+
+std::vector<std::string> words(const Evidence& evidence, const Option& option) {
+  std::vector<std::string> result;
+  for (const int effect : option.effects) result.push_back(evidence.candidates[effect].effect);
+  if (option.has_unknown) result.emplace_back("unknown");
+  return result;
+}
+
+}  // namespace
+
+std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
+  std::vector<Explanation> result;
+  for (const AmbiguityClass& one : set.classes) {
+    Explanation explanation{words(evidence, one.options.front()),
+                            {},
+                            {},
+                            one.probability,
+                            one.alone,
+                            std::all_of(one.options.begin(), one.options.end(), std::mem_fn(&Option::is_too_small))};
+    for (std::size_t i = 1; i < one.options.size(); ++i)
+      explanation.alternatives.push_back(words(evidence, one.options[i]));
+    for (const Option& superset : one.supersets) explanation.supersets.push_back(words(evidence, superset));
+    result.push_back(std::move(explanation));
+  }
+  return result;
+}
+
+std::vector<int> kinds_of_candidates(const Evidence& evidence) {
+  std::map<std::string, int> known;
+  std::vector<int> kinds;
+  for (const Candidate& candidate : evidence.candidates)
+    kinds.push_back(known.try_emplace(effect_name(candidate.effect).id, static_cast<int>(known.size())).first->second);
+  return kinds;
+}
+
+}  // namespace fathom

@@ -1,0 +1,18 @@
+// The ambiguity set in words, and what it has in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/decision/diagnosis.h"
+#include "diagnosis/statistics/ambiguity.h"
+#include "diagnosis/statistics/evidence.h"
+
+namespace fathom {
+
+std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set);
+
+/// Of each candidate a number that the same effect has in all liquids.
+std::vector<int> kinds_of_candidates(const Evidence& evidence);
+
+}  // namespace fathom

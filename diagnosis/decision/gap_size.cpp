@@ -1,0 +1,56 @@
+#include "diagnosis/decision/gap_size.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "diagnosis/decision/held_out.h"
+#include "diagnosis/statistics/groups.h"
+
+namespace fathom {
+
+namespace {
+
+double rms(const Eigen::VectorXd& values) {
+  return values.size() == 0 ? 0.0 : std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+GapSize gap_size(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& variance,
+                 const std::vector<Eigen::Index>& rows) {
+  return {rms(before(rows)), rms(after(rows)), std::sqrt(variance(rows).mean())};
+}
+
+void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
+  const Eigen::VectorXd before = c.covariance.factor.matrixL() * c.problem.residual;
+  const Eigen::VectorXd left_w = c.problem.residual - fit.prediction;
+  const Eigen::VectorXd left = c.covariance.factor.matrixL() * left_w;
+  const Eigen::VectorXd solved = c.covariance.factor.matrixU().solve(left_w);
+  const Eigen::VectorXd after = left - c.covariance.nuisance * (c.covariance.nuisance.transpose() * solved);
+  const Eigen::VectorXd errors = c.covariance.total.diagonal() - c.covariance.nuisance.rowwise().squaredNorm();
+  diagnosis.before.assign(before.begin(), before.end());
+  diagnosis.after.assign(after.begin(), after.end());
+  for (const double variance : errors) diagnosis.error.push_back(std::sqrt(variance));
+  std::vector<Eigen::Index> heights;
+  for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
+    if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
+  if (heights.empty()) return;
+  const HeldOut other = held_out(c.covariance, linear_fit(c.covariance, c.problem, fit),
+                                 deal_folds(c.evidence.observations, c.settings.seed));
+  const auto train = [&](const std::vector<Eigen::Index>& rows) { return gap_size(before, after, errors, rows); };
+  const auto held = [&](const std::vector<Eigen::Index>& rows) {
+    return gap_size(before, other.residual, other.variance, rows);
+  };
+  diagnosis.train = train(heights);
+  diagnosis.held_out = held(heights);
+  for (const std::string factor : {"liquid", "fill_mm", "distance_mm", "lateral_mm"}) {
+    std::map<std::string, std::vector<Eigen::Index>> levels;
+    for (const Eigen::Index row : heights)
+      if (const Observation& o = c.evidence.observations[row]; o.factors.liquid != "none")
+        levels[level(o, factor)].push_back(row);
+    for (const auto& [name, rows] : levels) diagnosis.strata.push_back({factor + "=" + name, train(rows), held(rows)});
+  }
+}
+
+}  // namespace fathom

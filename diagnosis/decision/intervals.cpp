@@ -1,0 +1,85 @@
+#include "diagnosis/decision/intervals.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/decision/held_out.h"
+#include "diagnosis/decision/linear_fit.h"
+#include "diagnosis/statistics/distributions.h"
+
+namespace fathom {
+
+namespace {
+
+/// Of the parameters in prior scales.
+Eigen::MatrixXd parameter_covariance(const Refit& fit) {
+  return (fit.jacobian.transpose() * fit.jacobian).completeOrthogonalDecomposition().pseudoInverse();
+}
+
+/// All that rounds to one value fits alike: a fit ends anywhere among them.
+double whole(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
+
+/// p of one effect's departures beside the others': χ² by the degrees of freedom of its variance.
+double p_of(const Eigen::VectorXd& departures, const Eigen::MatrixXd& covariance, double dof) {
+  const double chi2 = departures.dot(covariance.completeOrthogonalDecomposition().solve(departures));
+  const double z = departures.size() == 1
+                       ? std::sqrt(std::max(0.0, chi2))
+                       : normal_quantile(0.5 * chi_squared_tail(chi2, static_cast<double>(departures.size())));
+  return 2.0 * normal_tail(normal_score(std::max(0.0, z), dof));
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> covariance_in_units(const Case& c, const Refit& fit) {
+  std::vector<double> scales;
+  for (const int effect : fit.hypothesis.effects)
+    for (const Parameter& parameter : c.evidence.candidates[effect].parameters) scales.push_back(parameter.prior_scale);
+  const Eigen::MatrixXd covariance = parameter_covariance(fit);
+  std::vector<std::vector<double>> rows(scales.size());
+  for (std::size_t i = 0; i < scales.size(); ++i)
+    for (std::size_t j = 0; j < scales.size(); ++j)
+      rows[i].push_back(scales[i] * scales[j] * covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+  return rows;
+}
+
+std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
+  const Eigen::MatrixXd covariance = parameter_covariance(fit);
+  // Columns dual to the parameters: each estimate's weights on the data.
+  const Eigen::VectorXd dofs = degrees_of_freedom(c.covariance, fit.jacobian * covariance);
+  const std::vector<double> confirmed = confirmations(c.covariance, linear_fit(c.covariance, c.problem, fit),
+                                                      deal_folds(c.evidence.observations, c.settings.seed));
+  std::vector<NamedEffect> result;
+  Eigen::Index next = 0;
+  for (const int effect : fit.hypothesis.effects) {
+    const Candidate& candidate = c.evidence.candidates[effect];
+    const auto count = static_cast<Eigen::Index>(candidate.parameters.size());
+    const double dof = dofs.segment(next, count).minCoeff();
+    NamedEffect named;
+    named.name = candidate.effect;
+    named.p_discovery = std::min(
+        1.0, static_cast<double>(c.evidence.candidates.size()) *
+                 p_of(fit.hypothesis.parameters.segment(next, count), covariance.block(next, next, count, count), dof));
+    named.p_confirmation =
+        normal_tail(std::copysign(normal_score(confirmed[result.size()], dof), confirmed[result.size()]));
+    for (const Parameter& parameter : candidate.parameters) {
+      const double fitted = parameter.nominal + parameter.prior_scale * fit.hypothesis.parameters[next];
+      const double value = whole(fitted, parameter.step);
+      const double half =
+          std::max(student_quantile(0.025, dof) * parameter.prior_scale * std::sqrt(covariance(next, next)),
+                   0.5 * parameter.step);
+      ++next;
+      NamedParameter one{parameter.name, value, value - half, value + half};
+      if (parameter.lower < parameter.upper) {
+        one.low95 = std::max(one.low95, parameter.lower);
+        one.high95 = std::min(one.high95, parameter.upper);
+      }
+      named.parameters.push_back(std::move(one));
+    }
+    result.push_back(std::move(named));
+  }
+  return result;
+}
+
+}  // namespace fathom

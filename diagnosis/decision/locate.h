@@ -1,0 +1,19 @@
+// Where measured and predicted disagree.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/decision/diagnosis.h"
+#include "diagnosis/statistics/strata.h"
+
+namespace fathom {
+
+/// Strata with a significant mean, one after the other: the most significant is taken out before the next is sought
+/// (so a main effect does not return as ten interactions), until none has p < `level`, all strata that were looked at
+/// counted (Bonferroni). `dof` is that of the columns' variances. In the order of their shares of the gap, with the
+/// means that all of them have together.
+std::vector<GapLocation> locate(const std::vector<Stratum>& strata, const Eigen::MatrixXd& columns,
+                                const Eigen::VectorXd& dof, const Eigen::VectorXd& residual, double level);
+
+}  // namespace fathom
