@@ -45,13 +45,14 @@ Scaled scaled(const Evidence& evidence) {
   for (std::size_t i = 0; i < evidence.observations.size(); ++i)
     if (const Observation& o = evidence.observations[i]; dof[observables.of[i]] == 0.0)
       alone[observables.of[i]] += o.repeat_sd * o.repeat_sd / o.repeats, ++count[observables.of[i]];
+  Eigen::ArrayXd sds(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int of = observables.of[i];
     const double variance = dof[of] > 0.0 ? squares[of] / dof[of] : alone[of] / count[of];
-    const double sd = variance > 0.0 ? std::sqrt(variance) : 1.0;
-    s.residual[i] /= sd;
-    s.signatures.row(i) /= sd;
+    sds[i] = variance > 0.0 ? std::sqrt(variance) : 1.0;
   }
+  s.residual.array() /= sds;
+  s.signatures.array().colwise() /= sds;
   normalize(s.signatures);
   return s;
 }
