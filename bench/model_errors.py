@@ -6,9 +6,9 @@ observations share. The sizes in diagnosis/predict/model_errors.cpp come from he
 
 Each member of the ensemble is a campaign with nothing hidden. Sensor, pattern, block, cup and kind are its own; rig and
 fills are known exactly, and the unit has no bias, so what is left is the prediction's own error. Kinds take turns: exact
-triangulation, Fathom's frames, and Fathom's infrared images matched by OpenCV. Variances are found by restricted maximum likelihood over all members of a kind. "own" is
-what one placement has for itself: noise, and no error of the model. Needs NumPy and OpenCV (Debian:
-python3-opencv).
+triangulation, Fathom's infrared images matched by OpenCV, and Fathom's frames. Variances are found by restricted maximum
+likelihood over all members of a kind. "own" is what one placement has for itself: noise, and no error of the model. Needs
+NumPy and OpenCV (Debian: python3-opencv).
 Members whose residuals are in the folder already are not run again.
 """
 import argparse, csv, json, pathlib, random, shutil, sys

@@ -1,7 +1,8 @@
 """Clouds of a photometric campaign as another device would have made them: its infrared images, matched by OpenCV.
 
 cv2.StereoBM compares each image with one of a wall at the reference distance, which the same pattern was thrown on. The
-device's steps come after. Needs NumPy and OpenCV (Debian: python3-opencv).
+device's steps come after. Nothing is shared with blind/povray, which matches by OpenCV as well: that world judges what is
+learned here. Needs NumPy and OpenCV (Debian: python3-opencv).
 """
 import csv, json
 import cv2

@@ -33,8 +33,8 @@ enum class SharedBy {
 /// What few rays and direct light leave out of an observable, in its unit. Of heights, walls and the desk's plane these
 /// are root mean squares of the standard deviations that bench/model_errors.py finds for two matchers, as nobody knows
 /// how a laboratory's device matches: for Fathom's, over photometric campaigns of twelve simulated devices (geometric
-/// ones have less), and for OpenCV's on the infrared images of twelve others. Patterns, blocks, cups and fills are each
-/// campaign's own. Where a reason stands beside a size, it is the reason that counts.
+/// ones have less), and for OpenCV's on the infrared images of ten others (members 2 to 29). Patterns, blocks, cups and
+/// fills are each campaign's own. Where a reason stands beside a size, it is the reason that counts.
 struct ModelError {
   std::string_view observable;
   double sigma;

@@ -113,7 +113,7 @@ class Predictor {
 /// How clouds of a condition are looked at.
 FrameView view_of(const Factors& factors);
 
-/// Switches effects on, each named named as by EffectName. Values outside their bounds are taken at the bound. Throws
+/// Switches effects on, each named as by EffectName. Values outside their bounds are taken at the bound. Throws
 /// Error on an unknown id.
 Change switch_on(const std::vector<EffectValue>& effects);
 

@@ -1,7 +1,6 @@
 // What a diagnosis promises, on campaigns of which the truth is known. Rates over many sets:
 // bench/diagnosis_statistics.
 #include "diagnosis/decision/decide.h"
-#include "diagnosis/decision/locate.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include <cmath>
 
 #include "diagnosis/decision/diagnosis_json.h"
+#include "diagnosis/decision/locate.h"
 #include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/groups.h"
