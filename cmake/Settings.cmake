@@ -34,22 +34,25 @@ if(FATHOM_FUZZ)
   target_compile_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-fsanitize=fuzzer-no-link>)
 endif()
 
-# Half of the time to compile most files goes to reading the same headers of libraries: targets that use fmt read them compiled.
+# Most files read the same headers of libraries for a second or two: targets that use fmt read them compiled.
 # GCC takes a compiled header only with the very options and macros that it was made with, so modules and tests have one each.
 # Clang's presets read the headers themselves, and so find a file that forgets one.
 option(FATHOM_PRECOMPILE "Compile the headers of libraries once, not in every file" ON)
 set(FATHOM_PRECOMPILED <Eigen/Geometry> <filesystem> <fmt/format.h> <functional> <map> <nlohmann/json.hpp>)
 
-# fathom_precompiled(NAME HEADERS... LINK targets...): what fathom_use_precompiled(TARGET NAME) shares.
+# fathom_precompiled(NAME [HEADERS...] [LINK targets...] [FOR_PROGRAMS]): what fathom_use_precompiled(TARGET NAME) shares.
 function(fathom_precompiled name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "FOR_PROGRAMS" "" "HEADERS;LINK" ${ARGN})
   if(NOT FATHOM_PRECOMPILE)
     return()
   endif()
   file(CONFIGURE OUTPUT ${name}.cpp CONTENT "")
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE fathom_settings Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json ${ARG_LINK})
-  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
+  if(ARG_FOR_PROGRAMS)
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${name} PRIVATE -fPIE)
+  endif()
   target_precompile_headers(${name} PRIVATE ${FATHOM_PRECOMPILED} ${ARG_HEADERS})
 endfunction()
 
