@@ -77,7 +77,7 @@ std::map<std::string, Mean> means_by_region(const DiagnosedCampaign& campaign, s
 
 void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   Table table({"observable", "region", "session", "pour", "placement", "liquid", "fill_mm", "distance_mm", "lateral_mm",
-               "measured", "before", "after", "sigma"});
+               "measured", "before", "after", "sigma", "pixels"});
   for (std::size_t i = 0; i < campaign.observations.size(); ++i) {
     const Observation& o = campaign.observations[i];
     const Factors& f = o.factors;
@@ -85,7 +85,7 @@ void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaig
                fmt::format("{}", f.placement), f.liquid, fmt::format("{:g}", f.fill_mm),
                fmt::format("{:g}", f.distance_mm), fmt::format("{:g}", f.lateral_mm), fmt::format("{:.5g}", o.value),
                fmt::format("{:.5g}", campaign.diagnosis.before[i]), fmt::format("{:.5g}", campaign.diagnosis.after[i]),
-               fmt::format("{:.5g}", campaign.diagnosis.error[i])});
+               fmt::format("{:.5g}", campaign.diagnosis.error[i]), fmt::format("{:.5g}", o.pixels)});
   }
   write_table(folder / "residuals.csv", table);
 }

@@ -5,7 +5,7 @@
 
 namespace fathom {
 
-/// residuals.csv: every observation with its factors, measured minus predicted, and 1 σ of that.
+/// residuals.csv: every observation with its factors, measured minus predicted, 1 σ of that, and its pixels.
 void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 
 /// heights.png: the heights' residuals over the campaign, liquid by liquid. False when there are no heights.

@@ -85,12 +85,22 @@ def residuals(args, number):
         return list(csv.DictReader(lines))
 
 
+def relative(rows):
+    """By how much more each row has of an error in patches of the image than the campaign's rows have in the mean: walls
+    that are seen as short arcs of few pixels have more. As relative_errors() in diagnosis/statistics has it."""
+    pixels = np.array([float(row["pixels"]) for row in rows])
+    sizes = np.clip(np.sqrt(np.median(pixels) / pixels), 1 / 3, 3)
+    return sizes / np.sqrt(np.mean(sizes**2))
+
+
 def shapes(rows, levels):
-    """Z Zᵀ of each level: 1 where two rows share an error."""
+    """Z Zᵀ of each level: where two rows share an error, the product of how much they have of it."""
+    of_walls = rows[0]["observable"].startswith("cup_")
     result = []
     for level in levels:
         keys = [tuple(row[column] for column in SHARED_BY[level]) for row in rows]
-        result.append(np.array([[float(a == b) for b in keys] for a in keys]))
+        sizes = relative(rows) if of_walls and level != "all" else np.ones(len(rows))
+        result.append(np.outer(sizes, sizes) * np.array([[float(a == b) for b in keys] for a in keys]))
     return result
 
 

@@ -136,7 +136,7 @@ Eigen::MatrixXd own_errors(const Evidence& evidence, const std::vector<const Can
     if (seen == evidence.candidates.end() || seen->leeway.columns.cols() == 0) continue;
     const Eigen::MatrixXd& own = seen->leeway.columns;
     errors.conservativeResize(Eigen::NoChange, errors.cols() + own.cols());
-    errors.rightCols(own.cols()) = (seen->leeway.grow ? std::sqrt(amount) : 1.0) * own;
+    errors.rightCols(own.cols()) = std::sqrt(share_of_variance(seen->leeway.grow_from, amount)) * own;
   }
   return errors;
 }

@@ -79,9 +79,10 @@ std::optional<CupOutline> OutlineFit::step(const CupOutline& from, double gate) 
   if (std::min(inner_pixels, pixels - inner_pixels) < kFewestPixels) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal);
   if (eigen.eigenvalues()[0] < kBothSides * pixels) return std::nullopt;
-  const Eigen::Vector3d x =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose() * right;
-  return CupOutline{from.off + x.head<2>(), from.wider + x.z()};
+  const Eigen::Matrix3d covariance =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::Vector3d x = covariance * right;
+  return CupOutline{from.off + x.head<2>(), from.wider + x.z(), covariance.diagonal().cwiseInverse()};
 }
 
 std::optional<CupOutline> OutlineFit::fit_from(const Eigen::Vector2d& off) const {

@@ -12,6 +12,9 @@ namespace fathom {
 struct CupOutline {
   Eigen::Vector2d off;  ///< [m] of the axis from where it should stand
   double wider;         ///< [m] radius less the rig's at that height, of outer and inner wall alike
+  /// Pixels of which a mean would know as much as the fit does of x, y and the radius: where the walls are short arcs
+  /// of few pixels, what pulls at one of them moves all three.
+  Eigen::Vector3d pixels = Eigen::Vector3d::Zero();
 };
 
 /// [m] above the desk: the inner wall is looked at from there on, clear of a liquid of that fill.

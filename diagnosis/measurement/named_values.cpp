@@ -33,9 +33,10 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     values.push_back({"log_ir_contrast", kWholeInterior, std::log(*dots / *desk_dots)});
   if (estimates.outline) {
     constexpr std::string_view kWalls = "walls";
-    values.push_back({"cup_x_mm", kWalls, mm_from_metres(estimates.outline->off.x())});
-    values.push_back({"cup_y_mm", kWalls, mm_from_metres(estimates.outline->off.y())});
-    values.push_back({"cup_radius_mm", kWalls, mm_from_metres(estimates.outline->wider)});
+    const CupOutline& outline = *estimates.outline;
+    values.push_back({"cup_x_mm", kWalls, mm_from_metres(outline.off.x()), outline.pixels.x()});
+    values.push_back({"cup_y_mm", kWalls, mm_from_metres(outline.off.y()), outline.pixels.y()});
+    values.push_back({"cup_radius_mm", kWalls, mm_from_metres(outline.wider), outline.pixels.z()});
   }
   values.push_back({"desk_height_mm", kDesk, mm_from_metres(estimates.desk.offset)});
   values.push_back({"desk_pitch_deg", kDesk, deg_from_radians(pitch_above(estimates.desk))});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/median.h"
@@ -39,16 +40,18 @@ struct ModelError {
   std::string_view observable;
   double sigma;
   SharedBy shared_by;
+  bool is_local = false;  ///< in patches of the image: means of few pixels have more of it
 };
 constexpr std::array kModelErrors{
     ModelError{"height_mm", 0.05, SharedBy::all}, ModelError{"height_mm", 0.065, SharedBy::liquid_region},
     ModelError{"height_mm", 0.02, SharedBy::place}, ModelError{"height_mm", 0.09, SharedBy::place_region},
     ModelError{"height_mm", 0.06, SharedBy::condition}, ModelError{"height_mm", 0.11, SharedBy::condition_region},
-    ModelError{"cup_x_mm", 0.09, SharedBy::all}, ModelError{"cup_x_mm", 0.33, SharedBy::place},
-    ModelError{"cup_x_mm", 0.09, SharedBy::condition}, ModelError{"cup_y_mm", 0.67, SharedBy::all},
-    ModelError{"cup_y_mm", 0.11, SharedBy::place}, ModelError{"cup_y_mm", 0.03, SharedBy::condition},
+    ModelError{"cup_x_mm", 0.09, SharedBy::all}, ModelError{"cup_x_mm", 0.33, SharedBy::place, true},
+    ModelError{"cup_x_mm", 0.09, SharedBy::condition, true}, ModelError{"cup_y_mm", 0.67, SharedBy::all},
+    ModelError{"cup_y_mm", 0.11, SharedBy::place, true}, ModelError{"cup_y_mm", 0.03, SharedBy::condition, true},
     ModelError{"cup_radius_mm", 0.30, SharedBy::all},  // cups are round and straight to some tenths of a millimetre
-    ModelError{"cup_radius_mm", 0.09, SharedBy::place}, ModelError{"cup_radius_mm", 0.022, SharedBy::condition},
+    ModelError{"cup_radius_mm", 0.09, SharedBy::place, true},
+    ModelError{"cup_radius_mm", 0.022, SharedBy::condition, true},
     ModelError{"desk_height_mm", 0.05, SharedBy::all},  // beside a plane of bias, which is a nuisance
     ModelError{"desk_height_mm", 0.003, SharedBy::condition}, ModelError{"desk_pitch_deg", 0.026, SharedBy::all},
     ModelError{"desk_pitch_deg", 0.002, SharedBy::condition}, ModelError{"desk_roll_deg", 0.010, SharedBy::all},
@@ -73,14 +76,16 @@ constexpr std::array kModelErrors{
 struct EffectError {
   std::string_view effect;
   ModelError error;
-  bool grows = false, everywhere = false;
+  std::optional<double> grows_from{};
+  bool everywhere = false;
 };
 /// Foam has holes where nothing is seen. Of a window of 11 mm, 0.7 m away, cells of 6 mm that lack a tenth shift the
 /// middle of its light by half a pixel; across it heights differ by 0.7 mm a pixel. A region holds few such windows.
 /// Waves are of any length, and move a region by as much as that has it; a matcher that loses smeared dots makes
 /// the deeper bottoms of whole frames darker than direct light has them. How far each shot is off its mean
 /// is in the scatter of heights. Wide windows hold two surfaces: which they read, and where they have them, is the
-/// matcher's.
+/// matcher's. What windows of a device's width do so is in the errors above.
+constexpr double kUsualWindows = (9.0 - 1.0) / 8.0;  // px, over a typical departure
 constexpr std::array kEffectErrors{
     EffectError{"foam", {"height_mm", 0.3, SharedBy::liquid_region}},     // the same holes at each pour, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::place_region}},      // … seen from elsewhere, …
@@ -88,14 +93,14 @@ constexpr std::array kEffectErrors{
     EffectError{"foam", {"liquid_motion_mm", 0.3, SharedBy::liquid}},
     EffectError{"foam", {"log_ir_contrast", 0.5, SharedBy::filling}},  // bubbles scatter
     EffectError{
-        "ripples", {"log_ir_contrast", 0.3, SharedBy::filling}, true},  // as lenses do, waves gather and spread dots
-    EffectError{"ripples", {"log_brightness", 0.08, SharedBy::filling}, true},
-    EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, true},
-    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::place_region}, true, true},
-    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::condition_region}, true, true},
-    EffectError{"window_averaging", {"cup_x_mm", 0.4, SharedBy::condition}, true, true},
-    EffectError{"window_averaging", {"cup_y_mm", 0.4, SharedBy::condition}, true, true},
-    EffectError{"window_averaging", {"cup_radius_mm", 0.4, SharedBy::condition}, true, true}};
+        "ripples", {"log_ir_contrast", 0.3, SharedBy::filling}, 0.0},  // as lenses do, waves gather and spread dots
+    EffectError{"ripples", {"log_brightness", 0.08, SharedBy::filling}, 0.0},
+    EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, 0.0},
+    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::place_region}, kUsualWindows, true},
+    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::condition_region}, kUsualWindows, true},
+    EffectError{"window_averaging", {"cup_x_mm", 0.4, SharedBy::condition}, kUsualWindows, true},
+    EffectError{"window_averaging", {"cup_y_mm", 0.4, SharedBy::condition}, kUsualWindows, true},
+    EffectError{"window_averaging", {"cup_radius_mm", 0.4, SharedBy::condition}, kUsualWindows, true}};
 
 std::string shared_key(const Observation& observation, SharedBy shared_by) {
   const Factors& f = observation.factors;
@@ -179,7 +184,7 @@ std::vector<SharedError> model_errors(const std::vector<Observation>& observatio
   for (const ModelError& error : kModelErrors) {
     Groups groups = groups_of(error, observations);
     if (groups.count == 0) continue;
-    errors.push_back({std::string(error.observable), std::move(groups.of), error.sigma});
+    errors.push_back({std::string(error.observable), std::move(groups.of), error.sigma, error.is_local});
   }
   for (SharedError& error : errors_of_views(observations, rig)) errors.push_back(std::move(error));
   return errors;
@@ -192,7 +197,7 @@ OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& obs
   Eigen::MatrixXd& errors = own.columns;
   for (const EffectError& of_effect : kEffectErrors) {
     if (of_effect.effect != id) continue;
-    own.grow = of_effect.grows;
+    own.grow_from = of_effect.grows_from;
     const Groups groups = groups_of(of_effect.error, observations);
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, groups.count);
     for (Eigen::Index row = 0; row < n; ++row)

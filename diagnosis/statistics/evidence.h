@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,7 +60,9 @@ struct Parameter {
 /// What comes with an effect and nobody can predict (statistics/leeway.h).
 struct OwnErrors {
   Eigen::MatrixXd columns{};  ///< observations × errors, 1 σ each
-  bool grow = false;          ///< variances go with the first parameter, and are these at a typical departure
+  /// Variances go with the first parameter. Up to this many typical departures there are none, one beyond they are
+  /// these. Empty: they are these at any size.
+  std::optional<double> grow_from{};
 };
 
 /// Of an effect: "id", or "id@liquid" for the effect in one liquid only.

@@ -1,6 +1,7 @@
 #include "diagnosis/statistics/leeway.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -19,15 +20,19 @@ Eigen::VectorXd Leeway::share_in(const Eigen::VectorXd& residual) const {
 
 Leeway Leeway::at(double amount) const {
   Leeway there = *this;
-  if (!grows) return there;
-  there.variance *= std::abs(amount);
+  if (!grows_from) return there;
+  there.variance *= share_of_variance(grows_from, amount);
   there.log_det = there.variance.array().log1p().sum();
   return there;
 }
 
-Leeway leeway_of(const Eigen::MatrixXd& errors, bool grows) {
+double share_of_variance(std::optional<double> grows_from, double amount) {
+  return grows_from ? std::max(0.0, std::abs(amount) - *grows_from) : 1.0;
+}
+
+Leeway leeway_of(const Eigen::MatrixXd& errors, std::optional<double> grows_from) {
   constexpr double kNothing = 1e-9;  // of a residual's variance
-  Leeway leeway{Eigen::MatrixXd(errors.rows(), 0), {}, grows};
+  Leeway leeway{Eigen::MatrixXd(errors.rows(), 0), {}, grows_from};
   if (errors.cols() == 0) return leeway;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(errors.transpose() * errors);
   const Eigen::Index count = (eigen.eigenvalues().array() > kNothing).count();  // they ascend

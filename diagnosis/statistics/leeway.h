@@ -2,18 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace fathom {
 
 /// Beside the unit variance of whitened residuals, which stays as it is across the columns of `along`.
 struct Leeway {
-  Eigen::MatrixXd along;     ///< n × k, orthonormal; no columns: none
-  Eigen::VectorXd variance;  ///< along each
-  bool grows = false;        ///< with the amount of what brings it; as it is at a typical departure
-  double log_det = 0.0;      ///< log of the covariance's determinant
+  Eigen::MatrixXd along;               ///< n × k, orthonormal; no columns: none
+  Eigen::VectorXd variance;            ///< along each
+  std::optional<double> grows_from{};  ///< as OwnErrors::grow_from
+  double log_det = 0.0;                ///< log of the covariance's determinant
 
-  /// Where there is `amount` of what brings it, in typical departures, and some at all.
+  /// Where there is `amount` of what brings it, in typical departures.
   Leeway at(double amount) const;
 
   /// Whitened columns once more, so that what the leeway allows for counts less.
@@ -24,6 +25,9 @@ struct Leeway {
 };
 
 /// Of independent errors, whitened columns of 1 σ each.
-Leeway leeway_of(const Eigen::MatrixXd& errors, bool grows = false);
+Leeway leeway_of(const Eigen::MatrixXd& errors, std::optional<double> grows_from = {});
+
+/// Of the variance of own errors that is there with `amount` of what brings them, in typical departures.
+double share_of_variance(std::optional<double> grows_from, double amount);
 
 }  // namespace fathom

@@ -66,7 +66,7 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
     problem.leeways.push_back(leeway_of(candidate.leeway.columns.cols() > 0
                                             ? covariance.whiten(candidate.leeway.columns)
                                             : Eigen::MatrixXd(candidate.signature.rows(), 0),
-                                        candidate.leeway.grow));
+                                        candidate.leeway.grow_from));
   problem.said_by = same_elsewhere(evidence.candidates);
   problem.residual = covariance.whiten(measured_minus_predicted(evidence));
   problem.signatures = covariance.whiten(signatures);

@@ -54,10 +54,14 @@ TEST(Leeway, IsNothingWithoutErrors) {
 
 TEST(Leeway, GrowsWithWhatBringsItWhereItIsSaidTo) {
   const Eigen::MatrixXd errors = normals(12, 4, 5);
-  const Leeway quarter = leeway_of(errors, true).at(0.25), half_the_errors = leeway_of(0.5 * errors);
+  const Leeway quarter = leeway_of(errors, 0.0).at(0.25), half_the_errors = leeway_of(0.5 * errors);
   EXPECT_LT((quarter.whiten(errors) - half_the_errors.whiten(errors)).norm(), kRounding);
   EXPECT_NEAR(quarter.log_det, half_the_errors.log_det, kRounding);
   EXPECT_EQ(leeway_of(errors).at(0.25).log_det, leeway_of(errors).log_det);
+  const Leeway later = leeway_of(errors, 1.0);
+  EXPECT_EQ(later.at(0.9).log_det, 0.0);
+  EXPECT_EQ(later.at(0.9).whiten(errors), errors);
+  EXPECT_NEAR(later.at(1.25).log_det, half_the_errors.log_det, kRounding);
 }
 
 /// Of each region of a liquid's surface at each place, 1 σ.
