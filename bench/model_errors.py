@@ -22,6 +22,7 @@ CUPS = {"paper_cup": 30, "mug": 25, "tapered_cup": 30}  # and a middle fill of e
 BLOCKS = (7, 9, 11)  # columns or rows; the shipped devices have 9
 KINDS = ("photometric", "geometric", "opencv")  # of member 0, 1, 2, 3, …
 REFERENCE_MM = 1200
+OF_WALLS_PX = 1000  # sizes of errors of walls are those of a circle that knows as much as a mean of so many
 
 PLACE = ("lateral_mm", "distance_mm")
 CONDITION = ("liquid", "fill_mm", *PLACE)
@@ -85,12 +86,12 @@ def residuals(args, number):
         return list(csv.DictReader(lines))
 
 
-def relative(rows):
-    """By how much more each row has of an error in patches of the image than the campaign's rows have in the mean: walls
-    that are seen as short arcs of few pixels have more. As relative_errors() in diagnosis/statistics has it."""
+def errors_of_means(rows):
+    """Errors in patches of the image, beside that of a mean of OF_WALLS_PX pixels, as errors_of_means() in diagnosis/statistics has it:
+    walls that are seen as short arcs have more."""
     pixels = np.array([float(row["pixels"]) for row in rows])
-    sizes = np.clip(np.sqrt(np.median(pixels) / pixels), 1 / 3, 3)
-    return sizes / np.sqrt(np.mean(sizes**2))
+    typical = np.median(pixels)
+    return np.sqrt(OF_WALLS_PX / typical) * np.clip(np.sqrt(typical / pixels), 1 / 3, 3)
 
 
 def shapes(rows, levels):
@@ -99,7 +100,7 @@ def shapes(rows, levels):
     result = []
     for level in levels:
         keys = [tuple(row[column] for column in SHARED_BY[level]) for row in rows]
-        sizes = relative(rows) if of_walls and level != "all" else np.ones(len(rows))
+        sizes = errors_of_means(rows) if of_walls and level != "all" else np.ones(len(rows))
         result.append(np.outer(sizes, sizes) * np.array([[float(a == b) for b in keys] for a in keys]))
     return result
 

@@ -12,6 +12,7 @@
 
 #include "core/median.h"
 #include "core/units.h"
+#include "diagnosis/predict/nuisances.h"
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {
@@ -40,18 +41,20 @@ struct ModelError {
   std::string_view observable;
   double sigma;
   SharedBy shared_by;
-  bool is_local = false;  ///< in patches of the image: means of few pixels have more of it
+  double of_pixels = 0.0;  ///< of a mean of so many, and more of fewer; 0: of all alike
 };
+constexpr double kOfWalls_px = 1000.0;
 constexpr std::array kModelErrors{
     ModelError{"height_mm", 0.05, SharedBy::all}, ModelError{"height_mm", 0.065, SharedBy::liquid_region},
     ModelError{"height_mm", 0.02, SharedBy::place}, ModelError{"height_mm", 0.09, SharedBy::place_region},
     ModelError{"height_mm", 0.06, SharedBy::condition}, ModelError{"height_mm", 0.11, SharedBy::condition_region},
-    ModelError{"cup_x_mm", 0.09, SharedBy::all}, ModelError{"cup_x_mm", 0.33, SharedBy::place, true},
-    ModelError{"cup_x_mm", 0.09, SharedBy::condition, true}, ModelError{"cup_y_mm", 0.67, SharedBy::all},
-    ModelError{"cup_y_mm", 0.11, SharedBy::place, true}, ModelError{"cup_y_mm", 0.03, SharedBy::condition, true},
+    ModelError{"cup_x_mm", 0.09, SharedBy::all}, ModelError{"cup_x_mm", 0.33, SharedBy::place, kOfWalls_px},
+    ModelError{"cup_x_mm", 0.09, SharedBy::condition, kOfWalls_px}, ModelError{"cup_y_mm", 0.67, SharedBy::all},
+    ModelError{"cup_y_mm", 0.11, SharedBy::place, kOfWalls_px},
+    ModelError{"cup_y_mm", 0.03, SharedBy::condition, kOfWalls_px},
     ModelError{"cup_radius_mm", 0.30, SharedBy::all},  // cups are round and straight to some tenths of a millimetre
-    ModelError{"cup_radius_mm", 0.09, SharedBy::place, true},
-    ModelError{"cup_radius_mm", 0.022, SharedBy::condition, true},
+    ModelError{"cup_radius_mm", 0.09, SharedBy::place, kOfWalls_px},
+    ModelError{"cup_radius_mm", 0.022, SharedBy::condition, kOfWalls_px},
     ModelError{"desk_height_mm", 0.05, SharedBy::all},  // beside a plane of bias, which is a nuisance
     ModelError{"desk_height_mm", 0.003, SharedBy::condition}, ModelError{"desk_pitch_deg", 0.026, SharedBy::all},
     ModelError{"desk_pitch_deg", 0.002, SharedBy::condition}, ModelError{"desk_roll_deg", 0.010, SharedBy::all},
@@ -85,7 +88,7 @@ struct EffectError {
 /// the deeper bottoms of whole frames darker than direct light has them. How far each shot is off its mean
 /// is in the scatter of heights. Wide windows hold two surfaces: which they read, and where they have them, is the
 /// matcher's. What windows of a device's width do so is in the errors above.
-constexpr double kUsualWindows = (9.0 - 1.0) / 8.0;  // px, over a typical departure
+constexpr double kUsualWindows = (kDeviceWindow_px - kNoWindow_px) / 8.0;  // px, over a typical departure
 constexpr std::array kEffectErrors{
     EffectError{"foam", {"height_mm", 0.3, SharedBy::liquid_region}},     // the same holes at each pour, …
     EffectError{"foam", {"height_mm", 0.3, SharedBy::place_region}},      // … seen from elsewhere, …
@@ -172,7 +175,7 @@ std::vector<SharedError> errors_of_views(const std::vector<Observation>& observa
     std::vector<int> each;  // a group of its own
     int count = 0;
     for (const Observation& o : observations) each.push_back(o.observable == observable ? count++ : -1);
-    errors.push_back({observable, std::move(each), sigma, true});
+    errors.push_back({observable, std::move(each), sigma, median(pixels)});
   }
   return errors;
 }
@@ -184,7 +187,7 @@ std::vector<SharedError> model_errors(const std::vector<Observation>& observatio
   for (const ModelError& error : kModelErrors) {
     Groups groups = groups_of(error, observations);
     if (groups.count == 0) continue;
-    errors.push_back({std::string(error.observable), std::move(groups.of), error.sigma, error.is_local});
+    errors.push_back({std::string(error.observable), std::move(groups.of), error.sigma, error.of_pixels});
   }
   for (SharedError& error : errors_of_views(observations, rig)) errors.push_back(std::move(error));
   return errors;

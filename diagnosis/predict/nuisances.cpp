@@ -55,8 +55,6 @@ void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   }
 }
 
-constexpr double kNoWindow_px = 1.0, kDeviceWindow_px = 9.0;
-
 void add_fills(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   const double sigma_mm = mm_from_metres(predictor.model().laboratory.fill_sigma_m);
   if (sigma_mm <= 0.0) return;

@@ -46,7 +46,7 @@ struct SharedError {
   std::string observable;
   std::vector<int> group_of;  ///< of each observation, from 0; -1: of no group, or another observable
   double sigma = 0.0;         ///< 1 σ, as large as it is thought to be
-  bool is_local = false;      ///< in small patches of the image: a mean of few pixels has more of it
+  double of_pixels = 0.0;     ///< σ is that of a mean of so many pixels, and larger of fewer; 0: of all alike
 };
 
 struct Parameter {

@@ -49,7 +49,7 @@ Eigen::MatrixXd membership(const VarianceComponent& component, const std::vector
 std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, const Eigen::VectorXd& residual,
                                                      const Eigen::MatrixXd& known) {
   std::vector<ObservableErrors> result;
-  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(residual.size()), local = relative_errors(evidence.observations);
+  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(residual.size());
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
     const std::string& observable = evidence.observations[rows[0]].observable;
@@ -59,7 +59,11 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
       if (shared.observable != observable) continue;
       const int count = *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1;
       errors.components.push_back(
-          {observable, ErrorLevel::model, 0.0, {shared.group_of, count}, shared.is_local ? local : alike});
+          {observable,
+           ErrorLevel::model,
+           0.0,
+           {shared.group_of, count},
+           shared.of_pixels > 0.0 ? errors_of_means(evidence.observations, shared.of_pixels) : alike});
       priors.push_back({shared.sigma * shared.sigma, kModelDof});
     }
     if (errors.components.empty()) continue;

@@ -125,22 +125,27 @@ std::string name_of(ErrorLevel level) {
   return {};
 }
 
-Eigen::VectorXd relative_errors(const std::vector<Observation>& observations) {
+Eigen::VectorXd errors_of_means(const std::vector<Observation>& observations, double pixels) {
   constexpr double kMost = 3.0;
   Eigen::VectorXd result = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
   const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
-    std::vector<double> pixels;
-    for (const auto row : rows) pixels.push_back(observations[row].pixels);
-    if (*std::min_element(pixels.begin(), pixels.end()) <= 0.0) continue;
-    const double typical = median(pixels);
-    double squares = 0.0;
-    for (const auto row : rows) {
-      result[row] = std::clamp(std::sqrt(typical / observations[row].pixels), 1.0 / kMost, kMost);
-      squares += result[row] * result[row];
-    }
-    for (const auto row : rows) result[row] /= std::sqrt(squares / static_cast<double>(rows.size()));
+    std::vector<double> own;
+    for (const auto row : rows) own.push_back(observations[row].pixels);
+    if (*std::min_element(own.begin(), own.end()) <= 0.0) continue;
+    const double typical = median(own);
+    for (const auto row : rows)
+      result[row] =
+          std::sqrt(pixels / typical) * std::clamp(std::sqrt(typical / observations[row].pixels), 1.0 / kMost, kMost);
   }
+  return result;
+}
+
+Eigen::VectorXd relative_errors(const std::vector<Observation>& observations) {
+  Eigen::VectorXd result = errors_of_means(observations, 1.0);
+  const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
+  for (const auto& rows : observables.members())
+    result(rows) /= std::sqrt(result(rows).squaredNorm() / static_cast<double>(rows.size()));
   return result;
 }
 

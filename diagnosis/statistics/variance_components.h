@@ -37,8 +37,12 @@ struct ErrorBudget {
   bool from_replicates = true;  ///< of equal conditions; false: from what a smooth model leaves
 };
 
-/// How large the errors of single observations are beside those of their observable on the whole: a mean of few pixels
-/// scatters more.
+/// Errors in patches of the image, of each observation beside that of a mean of `pixels`: as the inverse root of its
+/// own pixels, at most three times more or less than of its observable's median. 1 where an observable is of no certain
+/// number.
+Eigen::VectorXd errors_of_means(const std::vector<Observation>& observations, double pixels);
+
+/// The same beside the mean square of its observable.
 Eigen::VectorXd relative_errors(const std::vector<Observation>& observations);
 
 /// Variance of the mean of each observation's repeats: their own scatter and the one pooled over its observable and

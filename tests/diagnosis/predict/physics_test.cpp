@@ -119,7 +119,7 @@ TEST(Physics, ErrorsOfTheModelAreSharedByRegionsPlacesAndConditions) {
     for (std::size_t i = 0; i < error.group_of.size(); ++i) {
       EXPECT_EQ(error.group_of[i] >= 0, evidence.observations[i].observable == error.observable);
       if (error.observable == "desk_residual_mm")
-        (error.is_local ? residuals_of_views : groups_of_residual).insert(error.group_of[i]);
+        (error.of_pixels > 0.0 ? residuals_of_views : groups_of_residual).insert(error.group_of[i]);
     }
   }
   EXPECT_EQ(groups_of_residual.size(), 1u + 9u);  // none, and every third of the image
@@ -209,11 +209,11 @@ TEST(Physics, TheUsualWindowsAreAllowedForAndWiderOnesAreAnEffect) {
            (windows->sigma * windows->signature.squaredNorm());
   };
   const auto of_width = [&](double px) { return physics.predict({{"window_averaging", {px}}}); };
-  EXPECT_NEAR(in_errors(of_width(9.0)), 1.0, 1e-9);
+  EXPECT_NEAR(in_errors(of_width(12.0)), 1.0, 1e-9);
   EXPECT_NEAR(in_errors(physics.predictor->predict({})), -1.0, 1e-9);
   EXPECT_NEAR(in_errors(of_width(1.0)), 0.0, 1e-9) << "which says nothing of windows";
-  EXPECT_GT(in_errors(of_width(17.0)), 4.0);
-  EXPECT_GT(in_errors(of_width(25.0)), 9.0);
+  EXPECT_GT(in_errors(of_width(17.0)), 2.5) << "as the square of the width: 17²/12² of 2, less 1";
+  EXPECT_GT(in_errors(of_width(25.0)), 6.0);
   const Candidate* candidate = find(evidence, "window_averaging");
   ASSERT_TRUE(candidate);
   EXPECT_GT(candidate->leeway.columns.cols(), 0);
