@@ -168,6 +168,22 @@ TEST(SharedErrors, AreBlindToCandidates) {
               1e-3);  // rounding, through thirty steps of scoring
 }
 
+/// A campaign whose every mean is of few pixels has larger errors than one of many, and not only beside its own.
+TEST(SharedErrors, AreOfSoManyPixelsInEveryCampaign) {
+  const auto observed = [](std::initializer_list<double> pixels) {
+    std::vector<Observation> observations;
+    for (const double each : pixels) {
+      observations.emplace_back().observable = "cup_radius_mm";
+      observations.back().pixels = each;
+    }
+    return observations;
+  };
+  EXPECT_EQ(errors_of_means(observed({100.0, 100.0}), 400.0), Eigen::Vector2d(2.0, 2.0));
+  EXPECT_EQ(errors_of_means(observed({1600.0, 1600.0}), 400.0), Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(errors_of_means(observed({400.0, 400.0, 4.0}), 400.0), Eigen::Vector3d(1.0, 1.0, 3.0));
+  EXPECT_EQ(errors_of_means(observed({0.0, 0.0}), 400.0), Eigen::Vector2d(1.0, 1.0)) << "of no certain number";
+}
+
 TEST(Covariance, WhitensWhatItIsTheCovarianceOf) {
   const World world(small_design());
   double mean = 0.0;
