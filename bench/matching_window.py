@@ -2,7 +2,8 @@
 """usage: bench/matching_window.py [--blocks 9,15,19,23]
 Over how wide a window a block matcher averages disparities: dots are drawn on a surface whose disparity is a parabola of curvature c,
 cv2.StereoBM matches them, and a mean over w pixels would be off by c w²/24 at the vertex. Blocks and windows are printed in pixels of
-the infrared image, which has twice those of the depth. Needs Debian's python3-numpy and python3-opencv."""
+the infrared image, which has twice those of the depth. Shares nothing with blind/povray, which judges what is learned here.
+Needs Debian's python3-numpy and python3-opencv."""
 import argparse
 import cv2
 import numpy as np

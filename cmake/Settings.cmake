@@ -35,7 +35,7 @@ if(FATHOM_FUZZ)
 endif()
 
 # Most files read the same headers of libraries for a second or two: targets that use fmt read them compiled.
-# GCC takes a compiled header only with the very options and macros that it was made with, so modules and tests have one each.
+# GCC takes a compiled header only with the very options and macros that it was made with, so modules, the program and the tests have one each.
 # Clang's presets read the headers themselves, and so find a file that forgets one.
 option(FATHOM_PRECOMPILE "Compile the headers of libraries once, not in every file" ON)
 set(FATHOM_PRECOMPILED <Eigen/Geometry> <filesystem> <fmt/format.h> <functional> <map> <nlohmann/json.hpp>)
