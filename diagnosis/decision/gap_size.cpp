@@ -1,5 +1,6 @@
 #include "diagnosis/decision/gap_size.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -17,6 +18,12 @@ double rms(const Eigen::VectorXd& values) {
 
 }  // namespace
 
+std::string compared_height(const std::vector<Observation>& observations) {
+  const bool in_cups = std::any_of(observations.begin(), observations.end(),
+                                   [](const Observation& o) { return o.observable == "height_mm"; });
+  return in_cups ? "height_mm" : "desk_height_mm";
+}
+
 GapSize gap_size(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& variance,
                  const std::vector<Eigen::Index>& rows) {
   return {rms(before(rows)), rms(after(rows)), std::sqrt(variance(rows).mean())};
@@ -33,8 +40,9 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   diagnosis.after.assign(after.begin(), after.end());
   for (const double variance : errors) diagnosis.error.push_back(std::sqrt(variance));
   std::vector<Eigen::Index> heights;
+  const std::string compared = compared_height(c.evidence.observations);
   for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
-    if (is_height(c.evidence.observations[i])) heights.push_back(static_cast<Eigen::Index>(i));
+    if (c.evidence.observations[i].observable == compared) heights.push_back(static_cast<Eigen::Index>(i));
   if (heights.empty()) return;
   const HeldOut other = held_out(c.covariance, linear_fit(c.covariance, c.problem, fit),
                                  deal_folds(c.evidence.observations, c.settings.seed));

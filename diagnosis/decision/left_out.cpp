@@ -23,9 +23,10 @@ std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const Covari
   std::vector<LeftOutLevel> result;
   const auto count = static_cast<Eigen::Index>(evidence.observations.size());
   const Eigen::VectorXd before = measured_minus_predicted(evidence);
+  const std::string compared = compared_height(evidence.observations);
   for (const std::string factor : {"liquid", "distance_mm"}) {
     const Groups levels = group_by(evidence.observations, [&](const Observation& o) {
-      return is_height(o) && o.factors.liquid != "none" ? level(o, factor) : std::string();
+      return o.observable == compared && o.factors.liquid != "none" ? level(o, factor) : std::string();
     });
     const auto members = levels.members();
     for (const std::vector<Eigen::Index>& rows : members) {

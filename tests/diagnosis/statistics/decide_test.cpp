@@ -54,6 +54,17 @@ TEST(Decide, NamesNothingWherePoursScatterThatWereNotRepeated) {
   EXPECT_LE(alarms, 1);
 }
 
+TEST(Decide, GapsAreOfHeightsInCupsAndNotOfTheDesk) {
+  const World world(small_design());
+  const auto before_rms_mm = [&](double desk_mm) {
+    Evidence evidence = world.measure({}, {}, 3);
+    for (Observation& o : evidence.observations)
+      if (o.observable == "desk_mm") o.observable = "desk_height_mm", o.value += desk_mm;
+    return decide(evidence, world.predict()).train.before_rms_mm;
+  };
+  EXPECT_NEAR(before_rms_mm(0.0), before_rms_mm(1.0), 1e-9);
+}
+
 TEST(Decide, NamesOneStrongEffectWithItsSizeAndClosesTheGap) {
   const World world(small_design());
   int named = 0, covered = 0;
