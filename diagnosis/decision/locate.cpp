@@ -15,7 +15,8 @@ constexpr double kAbsorbed = 0.05;  // share of a column's squared norm below wh
 
 struct SignificantStratum {
   Eigen::Index number = 0;
-  double z = 0.0, p = 1.0;  ///< of what those before it leave
+  double z = 0.0;  ///< of what those before it leave
+  double p = 1.0;  ///< that errors alone make any stratum depart as one does
 };
 
 std::vector<SignificantStratum> significant_strata(const Eigen::MatrixXd& columns, const Eigen::VectorXd& dof,
@@ -28,12 +29,13 @@ std::vector<SignificantStratum> significant_strata(const Eigen::MatrixXd& column
     Eigen::VectorXd z = (left.transpose() * residual).array() / squares.array().max(1e-300).sqrt();
     z = (squares.array() > kAbsorbed * full.array()).select(z, 0.0);
     const Eigen::ArrayXd scores = z.cwiseAbs().binaryExpr(dof, &normal_score).array();
-    const Eigen::ArrayXd p = scores.unaryExpr(
-        [&](double score) { return std::min(1.0, 2.0 * static_cast<double>(columns.cols()) * normal_tail(score)); });
-    // Of what chance does not explain the largest, though it may be known by fewer degrees of freedom.
+    const Eigen::ArrayXd p_alone = 2.0 * scores.unaryExpr(&normal_tail);
+    const double p = static_cast<double>(columns.cols()) * p_alone.minCoeff();
+    if (!(p < level)) break;
+    // Something departs. It is described by what is largest, though that may be known by fewer degrees of freedom.
     Eigen::Index best = 0;
-    if ((p < level).select(z.array().abs(), 0.0).maxCoeff(&best) == 0.0) break;
-    result.push_back({best, z[best], p[best]});
+    (p_alone < level).select(z.array().abs(), 0.0).maxCoeff(&best);
+    result.push_back({best, z[best], p});
     const Eigen::VectorXd direction = left.col(best).normalized();
     residual -= direction * direction.dot(residual);
     left -= direction * (direction.transpose() * left);

@@ -293,6 +293,17 @@ TEST(Locate, PutsFirstWhereMostOfTheGapIsThoughItShowsOnlyWithoutTheRest) {
   EXPECT_LT((both - residual).norm(), 1e-12);
 }
 
+TEST(Locate, DescribesADepartureThatIsEverywhereAsOneThoughItsErrorIsKnownByFewPours) {
+  const std::vector<Stratum> strata{{"height_mm", "all", true, {0, 1}}, {"height_mm", "distance_mm=300", true, {0}}};
+  const Eigen::MatrixXd columns{{1.0, 1.0}, {1.0, 0.0}};
+  // Of three degrees of freedom 20 errors have p = 0.0004, of fifty 14 have 1e-18.
+  const std::vector<GapLocation> where =
+      locate(strata, columns, Eigen::Vector2d(3, 50), Eigen::Vector2d(14.0, 14.0), 0.0005);
+  ASSERT_EQ(where.size(), 1U);
+  EXPECT_EQ(where[0].stratum, "all");
+  EXPECT_LT(where[0].p, 1e-12);
+}
+
 TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
   const World world(small_design());
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
