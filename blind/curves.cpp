@@ -34,23 +34,24 @@ std::vector<const Judged*> most_confident_first(std::span<const Judged> judged) 
 Table power_table(std::span<const Judged> judged) {
   constexpr std::array kBorders{0.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 1e9};
   Table table({"s_from", "s_to", "s_mean", "sets", "detected", "detected_low95", "detected_high95", "named",
-               "named_low95", "named_high95", "matched_filter"});
+               "named_low95", "named_high95", "matched_filter", "filter_bank"});
   for (std::size_t bin = 0; bin + 1 < kBorders.size(); ++bin) {
     Count detected, named;
-    double bound = 0.0, sum = 0.0;
+    double bound = 0.0, bank = 0.0, sum = 0.0;
     for (const Judged& one : judged) {
       const double s = one.strongest();
       if (!one.is_single() || s < kBorders[bin] || s >= kBorders[bin + 1]) continue;
       detected.add(one.answer.detects_something());
       named.add(one.is_right());
       bound += one.matched_filter();
+      bank += one.filter_bank();
       sum += s;
     }
     if (detected.trials == 0) continue;
     table.add({text(kBorders[bin]), text(std::min(kBorders[bin + 1], 100.0)), text(sum / detected.trials),
                fmt::format("{}", detected.trials), text(detected.share()), text(detected.interval().low),
                text(detected.interval().high), text(named.share()), text(named.interval().low),
-               text(named.interval().high), text(bound / detected.trials)});
+               text(named.interval().high), text(bound / detected.trials), text(bank / detected.trials)});
   }
   return table;
 }

@@ -156,26 +156,29 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
   std::vector<Goal> goals{
       share(
           "answered", judged, [](const Judged&) { return true; }, is_answered, Want::at_least, 1.0),
+      share(
+          "null set called none", judged, is_null, [](const Judged& one) { return one.answer.verdict == "none"; },
+          Want::at_least, 0.95),
       share("names something on a null set", judged, plain_null, names, Want::at_most, 0.01),
       share("… whose noise is mis-scaled or heavy-tailed", judged, odd_null, names, Want::at_most, 0.02),
       share("calls a null set unknown", judged, is_null, flags, Want::at_most, 0.01),
-      share("single effect first, s 5 to 8", judged, of_kind("single", 5.0, kStrong), is_right, Want::at_least, 0.95),
-      share("single effect first, s ≥ 8", judged, strong_single, is_right, Want::at_least, 0.99),
+      share("single effect first, s 5 to 8", judged, of_kind("single", 5.0, kStrong), is_right, Want::at_least, 0.90),
+      share("single effect first, s ≥ 8", judged, strong_single, is_right, Want::at_least, 0.97),
       share(
           "truth in the ambiguity set", judged, has_effects, [](const Judged& one) { return one.holds_truth(); },
           Want::at_least, 0.99),
       mean(
           "mean size of the ambiguity set, s ≥ 8", judged, strong_and_answered,
-          [](const Judged& one) { return static_cast<double>(one.answer.ambiguity_set.size()); }, Want::at_most, 1.2),
+          [](const Judged& one) { return static_cast<double>(one.answer.ambiguity_set.size()); }, Want::at_most, 1.5),
       share("twins called ambiguous", judged, of_kind("twins"), calls_twins_ambiguous, Want::at_least, 1.0),
-      share("pair exact, both s ≥ 8", judged, of_kind("pair", kStrong), is_right, Want::at_least, 0.95),
-      share("triple exact", judged, of_kind("triple"), is_right, Want::at_least, 0.85),
-      share("unknown flagged, escape ≥ 10", judged, escaping(10.0), flags, Want::at_least, 0.98),
+      share("pair exact, both s ≥ 8", judged, of_kind("pair", kStrong), is_right, Want::at_least, 0.90),
+      share("triple exact", judged, of_kind("triple"), is_right, Want::at_least, 0.75),
+      share("unknown flagged, escape ≥ 10", judged, escaping(10.0), flags, Want::at_least, 0.97),
       share("unknown flagged, escape 8 to 10", judged, escaping(8.0, 10.0), flags, Want::at_least, 0.84),
       share("unknown flagged, escape 6 to 8", judged, escaping(6.0, 8.0), flags, Want::at_least, 0.50),
       share(
           "confidently wrong", judged, judged_at_all, [](const Judged& one) { return one.is_confidently_wrong(); },
-          Want::at_most, 0.03),
+          Want::at_most, 0.02),
       share(
           "confidently wrong, escape ≥ 8", judged, escaping(8.0),
           [](const Judged& one) { return one.is_confidently_wrong(); }, Want::at_most, 0.01),

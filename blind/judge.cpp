@@ -20,6 +20,8 @@ const std::map<std::string, std::vector<std::string>> kWords{{"label_swap", {"la
                                                              {"flipped_axis", {"mirror", "flip"}},
                                                              {"duplicated_trial", {"identical", "duplicat"}}};
 
+double normal_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
+
 std::string joined(const Names& names) { return fmt::format("{}", fmt::join(names, "+")); }
 
 }  // namespace
@@ -38,7 +40,12 @@ double Judged::strongest() const {
 
 double Judged::matched_filter() const {
   constexpr double kFalseAlarm = 2.326;  // 1 %, one-sided
-  return 0.5 * std::erfc((kFalseAlarm - strongest()) / std::sqrt(2.0));
+  return normal_tail(kFalseAlarm - strongest());
+}
+
+double Judged::filter_bank() const {
+  constexpr double kFalseAlarm = 3.649;  // 1 % over 2 × 38 filters (Bonferroni), one-sided
+  return normal_tail(kFalseAlarm - strongest());
 }
 
 Names Judged::nameable() const {

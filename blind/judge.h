@@ -21,6 +21,8 @@ struct Judged {
   bool is_single() const { return truth.kind == "single" && !truth.effects.empty(); }
   /// Power of a filter that knows the signature of what is hidden and looks for nothing else, at 1 % false alarms.
   double matched_filter() const;
+  /// Power of such filters for all 38 effects of the registry and either sign, at 1 % false alarms of all together.
+  double filter_bank() const;
 
   /// What it puts first or names is exactly what is hidden, or, of twins, one of them.
   bool is_right() const;

@@ -94,11 +94,11 @@ def goals(judged):
         share("null set called none", of("null"), lambda one: one.verdict == "none", 0.95, False),
         share("names something on a null set", of("null"), lambda one: one.named, 0.01, True),
         share("calls a null set unknown", of("null"), lambda one: one.unknown, 0.01, True),
-        share("single effect first", of("single"), Judged.right, 0.95, False),
+        share("single effect first", of("single"), Judged.right, 0.97, False),
         share("single effect first, or not told from what is", of("single"), lambda one: one.right() or one.first_holds_truth(), 0.99, False),
-        share("pair exact", of("pair"), Judged.right, 0.95, False),
+        share("pair exact", of("pair"), Judged.right, 0.90, False),
         share("truth in the ambiguity set", of("single", "pair"), Judged.holds_truth, 0.99, False),
-        share("unknown flagged", of("unknown"), lambda one: one.unknown, 0.98, False),
+        share("unknown flagged", of("unknown"), lambda one: one.unknown, 0.97, False),
         share("confidently wrong", judged, Judged.confidently_wrong, 0.02, True),
     ]
 
