@@ -14,12 +14,17 @@ def shares(file):
     return [f"{goals[m]['hits']}/{goals[m]['trials']}" if goals[m]["trials"] else "–" for m in METRICS]
 
 
-def main(score):
+def columns(score):
+    """Each method's shares by its name, Fathom's first; nothing where no other method answered."""
     methods = sorted(file.parent for file in score.glob("*/score.json"))
-    columns = {"Fathom": shares(score / "score.json")} | {m.name: shares(m / "score.json") for m in methods}
-    print(f"\n{'beside simpler methods':46}" + "".join(f"{name:>21}" for name in columns))
+    return {"Fathom": shares(score / "score.json")} | {m.name: shares(m / "score.json") for m in methods} if methods else {}
+
+
+def main(score):
+    beside = columns(score)
+    print(f"\n{'beside simpler methods':46}" + "".join(f"{name:>21}" for name in beside))
     for row, metric in enumerate(METRICS):
-        print(f"{metric:46}" + "".join(f"{column[row]:>21}" for column in columns.values()))
+        print(f"{metric:46}" + "".join(f"{column[row]:>21}" for column in beside.values()))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,18 @@
 #!/usr/bin/env python3
 """usage: blind/page.py SCORE
-Prints a pack's goals and its worst sets, of SCORE/goals.csv and SCORE/worst.csv, as tables for docs/blind.md."""
+Prints what scripts/blind --baselines left in SCORE as the tables of docs/blind.md: the goals with their verdicts, simpler
+methods on the same measurements, which effects were found, what was made of unknown things, and the worst answers."""
 import csv
+import json
 import sys
+from collections import defaultdict
 from pathlib import Path
 
+from beside import METRICS, columns
+
 WORST = 12
+WEAKEST = 5.0  # s, and escape: below it nothing is expected
+MEANS = ("mean size", "gap closed", "held-out RMS", "matched filter", "localisation")
 
 
 def rows(file):
@@ -13,25 +20,70 @@ def rows(file):
         return list(csv.DictReader(lines))
 
 
+def table(head, lines):
+    print(f"| {' | '.join(head)} |\n|{'---|' * len(head)}")
+    for line in lines:
+        print(f"| {' | '.join(line)} |")
+    print()
+
+
 def figure(goal):
     if goal["trials"] == "0":
-        return "no sets"
-    if goal["metric"].startswith(("mean size", "gap closed", "held-out RMS", "matched filter")):
-        return f"{float(goal['value']):.2f} ({float(goal['low95']):.2f} to {float(goal['high95']):.2f}), {goal['trials']} sets"
-    if goal["metric"].startswith("localisation"):
-        return f"{float(goal['value']):.2f}, {goal['trials']} sets"
-    low, high = (100 * float(goal[key]) for key in ("low95", "high95"))
-    return f"{goal['hits']}/{goal['trials']} = {100 * float(goal['value']):.1f} % ({low:.1f} to {high:.1f})"
+        return "–", "–"
+    if goal["metric"].startswith(MEANS):
+        low, high = goal["low95"], goal["high95"]
+        return f"{float(goal['value']):.2f}", "–" if low == high else f"{float(low):.2f} to {float(high):.2f}"
+    return f"{goal['hits']}/{goal['trials']}", f"{100 * float(goal['low95']):.1f} to {100 * float(goal['high95']):.1f} %"
+
+
+def words(names):
+    return names.replace("+", ", ").replace("_", " ")
+
+
+def found_by_effect(sets):
+    """Of single effects that show: how often each came first, and what was said in its place."""
+    by_effect = defaultdict(list)
+    for one in sets:
+        if one["class"] == "single" and one["hidden"] != "none" and float(one["s"]) >= WEAKEST:
+            by_effect[one["hidden"]].append(one)
+    share = {name: sum(int(one["right"]) for one in ones) / len(ones) for name, ones in by_effect.items()}
+    for name in sorted(by_effect, key=lambda name: (share[name], name)):
+        ones = by_effect[name]
+        yield [words(name), f"{sum(int(one['right']) for one in ones)}/{len(ones)}", instead(ones)]
+
+
+def unknown_by_kind(sets):
+    by_kind = defaultdict(list)
+    for one in sets:
+        if one["class"] == "unknown" and float(one["escape"]) >= WEAKEST:
+            by_kind[one["hidden"]].append(one)
+    for name, ones in sorted(by_kind.items()):
+        flagged = sum("unknown" in one["verdict"] for one in ones)
+        yield [words(name.removesuffix(" (unknown)")), f"{flagged}/{len(ones)}", instead(ones)]
+
+
+def instead(ones):
+    """What was said where it was not right: the commonest first."""
+    counts = defaultdict(int)
+    for one in ones:
+        if not int(one["right"]):
+            counts[one["said"]] += 1
+    return "; ".join(f"{words(said)}{f' ({count})' if count > 1 else ''}" for said, count in sorted(counts.items(), key=lambda item: -item[1]))
 
 
 def main(score):
-    print("| metric | bar | measured (95 %) | |\n|---|---|---|---|")
-    for goal in rows(score / "goals.csv"):
-        print(f"| {goal['metric']} | {goal['bar']} | {figure(goal)} | {goal['verdict']} |")
-    print("\n| set | class, design | hidden | s | said | put first with |\n|---|---|---|---|---|---|")
-    for one in rows(score / "worst.csv")[:WORST]:
-        print(f"| {int(one['set'])} | {one['class']}, {one['design']} | {one['hidden'].replace('+', ', ')} | "
-              f"{float(one['s']):.1f} | {one['said'].replace('+', ', ')} | {float(one['probability']):.2f} |")
+    table(["metric", "goal", "measured", "95 %", "verdict"],
+          [[goal["metric"], goal["bar"], *figure(goal), goal["verdict"]] for goal in rows(score / "goals.csv")])
+    if beside := columns(score):
+        table(["on the same measurements", *beside], [[metric, *(column[row] for column in beside.values())] for row, metric in enumerate(METRICS)])
+    sets = rows(score / "sets.csv")
+    table([f"single effect, s ≥ {WEAKEST:.0f}", "first", "said in its place"], found_by_effect(sets))
+    table([f"unknown, escape ≥ {WEAKEST:.0f}", "flagged", "said in its place"], unknown_by_kind(sets))
+    table(["set", "class", "design", "hidden", "s", "said", "probability of what is first"],
+          [[str(int(one["set"])), one["class"], words(one["design"]), words(one["hidden"]), f"{float(one['s']):.1f}", words(one["said"]),
+            f"{float(one['probability']):.2f}"] for one in rows(score / "worst.csv")[:WORST]])
+    score = json.loads((score / "score.json").read_text())
+    print(f"{score['sets']} sets; truth {score['truth_sha256'][:12]}…")
 
 
 if __name__ == "__main__":
