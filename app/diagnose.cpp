@@ -17,6 +17,7 @@
 #include "app/print.h"
 #include "app/ray_traced_report.h"
 #include "app/remove_diagnosis.h"
+#include "app/shots.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/input_policy.h"
@@ -148,24 +149,6 @@ std::string rows_text(const Diagnosis& diagnosis, const std::vector<std::string>
   return text + fmt::format("report: {}\n", on_one_line((output / "report.html").string()));
 }
 
-/// Of each observation the cloud of its first trial, as a path from the report's folder. Of several folders it is not
-/// known whose sessions are whose: nothing leads to them.
-std::vector<std::string> clouds_of(const std::vector<Observation>& observations, const Measurement& measurement,
-                                   const std::vector<fs::path>& folders, const fs::path& output) {
-  if (folders.size() > 1) return {};
-  std::map<std::tuple<int, int, int, std::string>, std::string> of_placement;
-  for (const FrameRecord& f : measurement.frames)
-    if (!f.cloud.empty())
-      of_placement.emplace(std::tuple(f.session, f.pour, f.placement, f.liquid),
-                           fs::relative(folders.front() / f.cloud, output).generic_string());
-  std::vector<std::string> result;
-  for (const Observation& o : observations) {
-    const auto found = of_placement.find({o.factors.session, o.factors.pour, o.factors.placement, o.factors.liquid});
-    result.push_back(found != of_placement.end() ? found->second : std::string());
-  }
-  return result;
-}
-
 /// next.json, and beside it a campaign's file for each measurement that would settle something.
 void write_next(const fs::path& folder, const Diagnosis& diagnosis, const std::vector<MeasurementPlan>& plans,
                 const LaboratoryRig& rig) {
@@ -210,7 +193,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   for (const fs::path& folder : options.folders) names.push_back(folder.lexically_normal().string());
   DiagnosedCampaign campaign{.name = fmt::format("{}", fmt::join(names, " and ")),
                              .observations = physics.evidence.observations,
-                             .clouds = {},
+                             .shots = {},
                              .notes = measurement.notes,
                              .diagnosis = decide(physics.evidence, physics.predict, designs, settings),
                              .ray_traced_html = {}};
@@ -222,7 +205,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
     campaign.diagnosis = traced->diagnosis;
     campaign.ray_traced_html = ray_traced_html(*traced, by_few_rays);
   }
-  campaign.clouds = clouds_of(campaign.observations, measurement, options.folders, common.output);
+  campaign.shots = shots_of(campaign.observations, measurement, options.folders, common.output);
   if (std::string beside = beside_words(campaign.diagnosis); !beside.empty()) {
     campaign.notes.push_back(beside);
     measurement.notes.push_back(std::move(beside));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/shots.h"
 #include "diagnosis/decision/diagnosis.h"
 #include "diagnosis/statistics/evidence.h"
 
@@ -14,8 +15,8 @@ namespace fathom {
 struct DiagnosedCampaign {
   std::string name;  ///< of its folder
   std::vector<Observation> observations;
-  std::vector<std::string> clouds;  ///< of each observation one of its clouds, as a path from the report; may be empty
-  std::vector<std::string> notes;   ///< what limits the measurement or the model of it, one sentence each
+  ReportShots shots;               ///< of the observations; may be empty
+  std::vector<std::string> notes;  ///< what limits the measurement or the model of it, one sentence each
   Diagnosis diagnosis;
   std::string ray_traced_html;  ///< what ray tracing says of it; empty: few rays predicted all
 };

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "app/html.h"
+#include "app/observable_words.h"
 
 namespace fathom {
 namespace {
@@ -54,16 +55,38 @@ std::string link_to(std::string_view path) {
   return link;
 }
 
+/// The shot of an observation, if there is one.
+const ReportShot* shot_of(const DiagnosedCampaign& campaign, std::size_t row) {
+  const int number = row < campaign.shots.of.size() ? campaign.shots.of[row] : -1;
+  return number >= 0 ? &campaign.shots.shots[number] : nullptr;
+}
+
 std::string words_of(const DiagnosedCampaign& campaign, std::size_t row) {
   const Observation& o = campaign.observations[row];
   const Factors& f = o.factors;
+  const ReportShot* shot = shot_of(campaign, row);
   return fmt::format(
-      "{}{}, cup at ({:g}, {:g}) mm, {} of the cup\nsession {}, pour {}, placement {}\nmeasured {:.2f} mm; less the "
-      "model "
-      "{:+.2f} mm before, {:+.2f} mm after, ± {:.2f} mm (1 σ)",
-      f.liquid, f.fill_mm > 0.0 ? fmt::format(", {:g} mm", f.fill_mm) : "", f.lateral_mm, f.distance_mm, f.region,
-      f.session, f.pour, f.placement, o.value, campaign.diagnosis.before[row], campaign.diagnosis.after[row],
-      campaign.diagnosis.error[row]);
+      "{}, {} of the cup\nsession {}, pour {}, placement {}{}\nmeasured {:.2f} mm; less the model {:+.2f} mm before, "
+      "{:+.2f} mm after, ± {:.2f} mm (1 σ)",
+      condition_words(f), f.region, f.session, f.pour, f.placement, shot ? ", frame " + shot->frame : "", o.value,
+      campaign.diagnosis.before[row], campaign.diagnosis.after[row], campaign.diagnosis.error[row]);
+}
+
+/// What a click on a point shows: nothing of it is seen before.
+std::string shots_html(const ReportShots& shots) {
+  std::string html;
+  for (std::size_t i = 0; i < shots.shots.size(); ++i) {
+    const ReportShot& shot = shots.shots[i];
+    html += fmt::format(
+        "<figure class=\"shot\" id=\"shot-{}\"><figcaption>Frame {}: {}; <a href=\"{}\">its "
+        "cloud</a>{}</figcaption>\n",
+        i, html_escaped(shot.frame), html_escaped(shot.condition), link_to(shot.cloud),
+        shot.infrared.empty() ? "." : ", and the cup in infrared:");
+    if (!shot.infrared.empty())
+      html += html_picture(shot.infrared, fmt::format("Infrared image of frame {}", shot.frame));
+    html += "</figure>\n";
+  }
+  return html;
 }
 
 /// A name over each liquid's stretch, and a line between two.
@@ -117,23 +140,29 @@ std::string heights_chart(const DiagnosedCampaign& campaign) {
     const std::size_t row = rows[i];
     const double x = kLeft + step * (static_cast<double>(i) + 0.5), after = campaign.diagnosis.after[row],
                  error = campaign.diagnosis.error[row];
-    const bool has_cloud = row < campaign.clouds.size() && !campaign.clouds[row].empty();
-    if (has_cloud) svg += fmt::format("<a href=\"{}\">", link_to(campaign.clouds[row]));
+    const bool has_shot = shot_of(campaign, row) != nullptr;
+    if (has_shot) svg += fmt::format("<a href=\"#shot-{}\">", campaign.shots.of[row]);
     svg += fmt::format(
         "<g><title>{0}</title><line x1=\"{1:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{3:.1f}\" stroke=\"#0072B2\"/>"
         "<circle cx=\"{1:.1f}\" cy=\"{4:.1f}\" r=\"4\" fill=\"#D55E00\"/><circle cx=\"{1:.1f}\" cy=\"{5:.1f}\" r=\"4\" "
         "fill=\"#0072B2\"/></g>",
         html_escaped(words_of(campaign, row)), x, scale.y(after + error), scale.y(after - error),
         scale.y(campaign.diagnosis.before[row]), scale.y(after));
-    svg += has_cloud ? "</a>\n" : "\n";
+    svg += has_shot ? "</a>\n" : "\n";
   }
-  const bool has_clouds = std::any_of(campaign.clouds.begin(), campaign.clouds.end(),
-                                      [](const std::string& cloud) { return !cloud.empty(); });
-  return svg + fmt::format(
-                   "<text x=\"{}\" y=\"{}\">measured − model [mm], by liquid, fill and place: "
-                   "<tspan fill=\"#D55E00\">● before</tspan> <tspan fill=\"#0072B2\">● after, with 1 σ</tspan></text>\n"
-                   "</svg>\n<p>Hold the pointer over a point to read its condition{}.</p>\n",
-                   kLeft, kHeight - 8.0, has_clouds ? "; click it for its cloud" : "");
+  const std::vector<ReportShot>& shots = campaign.shots.shots;
+  const bool has_images =
+      std::any_of(shots.begin(), shots.end(), [](const ReportShot& shot) { return !shot.infrared.empty(); });
+  return svg +
+         fmt::format(
+             "<text x=\"{}\" y=\"{}\">measured − model [mm], by liquid, fill and place: "
+             "<tspan fill=\"#D55E00\">● before</tspan> <tspan fill=\"#0072B2\">● after, with 1 σ</tspan></text>\n"
+             "</svg>\n<p>Hold the pointer over a point to read its condition{}.</p>\n",
+             kLeft, kHeight - 8.0,
+             shots.empty() ? ""
+             : has_images  ? "; click it for its cloud and its infrared image"
+                           : "; click it for its cloud") +
+         shots_html(campaign.shots);
 }
 
 }  // namespace fathom

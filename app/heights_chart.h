@@ -1,4 +1,4 @@
-// The heights' residuals as a chart in a page: each point says its condition, and leads to its cloud.
+// The heights' residuals as a chart in a page: each point says its condition, and leads to its shot.
 #pragma once
 
 #include <string>

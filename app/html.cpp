@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/files.h"
+#include "core/image_file.h"
 #include "core/visible_text.h"
 
 namespace fathom {
@@ -14,6 +15,7 @@ h1 { font-size: 1.8rem; line-height: 1.2; } h2 { font-size: 1.25rem; margin-top:
 img { width: 100%; height: auto; margin: .4rem 0 .8rem; } .answer { font-size: 1.25rem; line-height: 1.45; }
 table { border-collapse: collapse; font-size: .88rem; margin: .6rem 0; } th { text-align: left; border-bottom: 2px solid #888; }
 th, td { padding: .28rem .9rem .28rem 0; vertical-align: top; } td { border-bottom: 1px solid #e4e4e4; }
+.shot:not(:target) { display: none; } .shot { margin: 0; } .shot img { width: 60%; image-rendering: pixelated; }
 .data td, .data th { text-align: right; font-variant-numeric: tabular-nums; } summary { cursor: pointer; color: #0072B2; }
 </style>)";
 
@@ -28,6 +30,10 @@ std::string base64(std::string_view bytes) {
     for (std::size_t j = 0; j < 4; ++j) text += i + j > bytes.size() ? '=' : kDigits[group >> (18 - 6 * j) & 63U];
   }
   return text;
+}
+
+std::string picture_of(std::string_view png, std::string_view alternative) {
+  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", html_escaped(alternative), base64(png));
 }
 
 std::string row_html(const std::vector<std::string>& cells, const char* tag) {
@@ -67,8 +73,11 @@ std::string html_page(std::string_view title, std::string_view body) {
 }
 
 std::string html_picture(const std::filesystem::path& png, std::string_view alternative) {
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", html_escaped(alternative),
-                     base64(read_text(png)));
+  return picture_of(read_text(png), alternative);
+}
+
+std::string html_picture(const Image<std::uint8_t>& grey, std::string_view alternative) {
+  return picture_of(png_bytes(grey), alternative);
 }
 
 std::string html_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,

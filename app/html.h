@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image.h"
 #include "core/table.h"
 
 namespace fathom {
@@ -18,6 +19,9 @@ std::string html_page(std::string_view title, std::string_view body);
 
 /// A PNG file inside the page.
 std::string html_picture(const std::filesystem::path& png, std::string_view alternative);
+
+/// An image inside the page.
+std::string html_picture(const Image<std::uint8_t>& grey, std::string_view alternative);
 
 /// Plain texts; columns of numbers are set right when `numbers`.
 std::string html_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,

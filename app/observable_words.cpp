@@ -1,5 +1,7 @@
 #include "app/observable_words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -41,6 +43,11 @@ constexpr std::array kWords{
 ObservableWords observable_words(std::string_view id) {
   const auto known = std::find_if(kWords.begin(), kWords.end(), [&](const ObservableWords& w) { return w.id == id; });
   return known != kWords.end() ? *known : ObservableWords{id, id, "", "larger", "smaller"};
+}
+
+std::string condition_words(const Factors& f) {
+  return fmt::format("{}{}, cup at ({:g}, {:g}) mm", f.liquid,
+                     f.fill_mm > 0.0 ? fmt::format(", {:g} mm", f.fill_mm) : "", f.lateral_mm, f.distance_mm);
 }
 
 }  // namespace fathom

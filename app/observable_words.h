@@ -1,8 +1,10 @@
-// What observables are called, and which way they may be off.
+// What observables and conditions are called, and which way observables may be off.
 #pragma once
 
 #include <string>
 #include <string_view>
+
+#include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
 
@@ -13,5 +15,8 @@ struct ObservableWords {
 
 /// Of an observable of diagnosis/measurement; of another its id, in no unit, "larger" or "smaller".
 ObservableWords observable_words(std::string_view id);
+
+/// "water, 20 mm, cup at (80, 200) mm"
+std::string condition_words(const Factors& factors);
 
 }  // namespace fathom

@@ -27,12 +27,18 @@ namespace fathom {
 namespace {
 
 template <class Pixel>
-void write_png_rows(const std::filesystem::path& path, const Image<Pixel>& image, std::uint32_t format) {
+png_image png_header(const Image<Pixel>& image, std::uint32_t format) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.width());
   header.height = static_cast<png_uint_32>(image.height());
   header.format = format;
+  return header;
+}
+
+template <class Pixel>
+void write_png_rows(const std::filesystem::path& path, const Image<Pixel>& image, std::uint32_t format) {
+  png_image header = png_header(image, format);
   write_atomically(path, [&](const std::filesystem::path& beside) {
     if (!png_image_write_to_file(&header, beside.c_str(), 0, image.pixels().data(), 0, nullptr))
       throw Error(path.string(), std::string("cannot write PNG: ") + header.message);
@@ -277,6 +283,16 @@ void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& gre
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey) { write_png_grey16(path, grey); }
 
 void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb) { write_png_rows(path, rgb, PNG_FORMAT_RGB); }
+
+std::string png_bytes(const Image<std::uint8_t>& grey) {
+  png_image header = png_header(grey, PNG_FORMAT_GRAY);
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, grey.pixels().data(), 0, nullptr))
+    throw std::runtime_error(std::string("cannot write PNG: ") + header.message);
+  bytes.resize(size);
+  return bytes;
+}
 
 Image<std::uint16_t> read_png_grey(const std::filesystem::path& path) {
   std::string content = read_text(path);

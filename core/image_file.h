@@ -36,6 +36,9 @@ void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& gre
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey);
 void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb);
 
+/// What such a file would hold.
+std::string png_bytes(const Image<std::uint8_t>& grey);
+
 /// 16-bit grey; 8-bit files are read as they are (0…255). Throws Error when the file is no grey PNG.
 Image<std::uint16_t> read_png_grey(const std::filesystem::path& path);
 

@@ -1,7 +1,9 @@
 #include "diagnosis/measurement/cup_in_sight.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/units.h"
 #include "detector/plane.h"
@@ -9,21 +11,45 @@
 
 namespace fathom {
 
-double share_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
+namespace {
+
+/// Points around foot and rim, in the camera's frame.
+std::vector<Eigen::Vector3d> foot_and_rim(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
   const Eigen::Isometry3d camera_from_desk =
       desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse();
   constexpr int kAround = 8;
-  int points = 0, seen = 0;
+  std::vector<Eigen::Vector3d> points;
   for (const double height : {0.0, rig.cup.height()})
-    for (int i = 0; i < kAround; ++i, ++points) {
+    for (int i = 0; i < kAround; ++i) {
       const double azimuth = 2.0 * std::numbers::pi * i / kAround, radius = rig.cup.outer_radius(height);
-      const Eigen::Vector3d point =
-          camera_from_desk * Eigen::Vector3d(cup.x() + 0.5 * rig.baseline_m + radius * std::cos(azimuth),
-                                             cup.y() + radius * std::sin(azimuth), height);
-      seen += point.z() > 0.0 && rig.focal_px * std::abs(point.x()) < 0.5 * kImageWidth_px * point.z() &&
-              rig.focal_px * std::abs(point.y()) < 0.5 * kImageHeight_px * point.z();
+      points.push_back(camera_from_desk * Eigen::Vector3d(cup.x() + 0.5 * rig.baseline_m + radius * std::cos(azimuth),
+                                                          cup.y() + radius * std::sin(azimuth), height));
     }
-  return static_cast<double>(seen) / points;
+  return points;
+}
+
+Eigen::Vector2d pixel(const Eigen::Vector3d& point, const LaboratoryRig& rig) {
+  return rig.focal_px / point.z() * point.head<2>() + 0.5 * Eigen::Vector2d(kImageWidth_px, kImageHeight_px);
+}
+
+}  // namespace
+
+Eigen::AlignedBox2d cup_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& point : foot_and_rim(cup, rig)) {
+    if (point.z() <= 0.0) return {};
+    box.extend(pixel(point, rig));
+  }
+  return box;
+}
+
+double share_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
+  const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(), Eigen::Vector2d(kImageWidth_px, kImageHeight_px));
+  const std::vector<Eigen::Vector3d> points = foot_and_rim(cup, rig);
+  const auto seen = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    return point.z() > 0.0 && image.contains(pixel(point, rig));
+  });
+  return static_cast<double>(seen) / static_cast<double>(points.size());
 }
 
 double pixels_in_sight(const Eigen::Vector2d& cup, double fill, const LaboratoryRig& rig) {

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "diagnosis/measurement/rig.h"
 
 namespace fathom {
 
-/// `cup` [m]: (lateral, distance) of its axis. Of its foot and its rim the share that is in the image.
+/// `cup` [m]: (lateral, distance) of its axis. The box about its foot and its rim [px] in an image of 640 x 480, which
+/// may reach beyond it; empty where some of the cup is behind the camera.
+Eigen::AlignedBox2d cup_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
+
+/// Of its foot and its rim the share that is in the image.
 double share_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
 
 /// Pixels in which camera and projector see what is looked at in the cup. A clear liquid lifts the bottom by a third of

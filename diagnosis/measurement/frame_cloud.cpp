@@ -12,20 +12,6 @@
 namespace fathom {
 namespace {
 
-/// [DN]: a 16-bit PNG, or an EXR of one channel.
-Image<float> read_infrared(const std::filesystem::path& file) {
-  if (file.extension() == ".exr") {
-    std::vector<ExrChannel> channels = read_exr(file);
-    if (channels.size() != 1)
-      throw Error(file.string(), fmt::format("must have one channel as an infrared image, has {}", channels.size()));
-    return std::move(channels.front().image);
-  }
-  const Image<std::uint16_t> counts = read_png_grey(file);
-  Image<float> image(counts.width(), counts.height());
-  std::copy(counts.pixels().begin(), counts.pixels().end(), image.pixels().begin());
-  return image;
-}
-
 void set_intensity(const Image<float>& infrared, const std::filesystem::path& file, Cloud& cloud) {
   if (cloud.height <= 1) throw Error(file.string(), "needs a cloud that keeps the camera's rows");
   const int scale = infrared.width() / cloud.width, first_row = (infrared.height() - scale * cloud.height) / 2;
@@ -45,6 +31,19 @@ void set_intensity(const Image<float>& infrared, const std::filesystem::path& fi
 }
 
 }  // namespace
+
+Image<float> read_infrared(const std::filesystem::path& file) {
+  if (file.extension() == ".exr") {
+    std::vector<ExrChannel> channels = read_exr(file);
+    if (channels.size() != 1)
+      throw Error(file.string(), fmt::format("must have one channel as an infrared image, has {}", channels.size()));
+    return std::move(channels.front().image);
+  }
+  const Image<std::uint16_t> counts = read_png_grey(file);
+  Image<float> image(counts.width(), counts.height());
+  std::copy(counts.pixels().begin(), counts.pixels().end(), image.pixels().begin());
+  return image;
+}
 
 Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder) {
   constexpr float kFarthest = 50.0f;  // [m] no sensor of this kind sees farther than 10

@@ -1,6 +1,7 @@
 // The cloud of one frame of a measurement, in metres.
 #pragma once
 
+#include "core/image.h"
 #include "detector/cloud.h"
 #include "diagnosis/measurement/frames.h"
 
@@ -15,5 +16,8 @@ Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& fo
 /// The same, naming the frame's row in the table besides.
 Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder, const Table& table,
                        std::size_t row);
+
+/// Counts [DN]: a 16-bit PNG, or an EXR of one channel. Throws Error naming the file when it is neither.
+Image<float> read_infrared(const std::filesystem::path& file);
 
 }  // namespace fathom

@@ -16,25 +16,29 @@ DiagnosedCampaign campaign() {
   height.factors.region = "centre";
   DiagnosedCampaign one;
   one.observations = {height};
-  one.clouds = {"../a b/javascript:x.pcd"};
+  one.shots = {{{"7", "tea", "../a b/javascript:x.pcd", Image<std::uint8_t>(2, 3)}}, {0}};
   one.diagnosis.before = {1.25};
   one.diagnosis.after = {-0.125};
   one.diagnosis.error = {0.25};
   return one;
 }
 
-TEST(HeightsChart, APointSaysItsConditionAndLeadsToItsCloud) {
+TEST(HeightsChart, APointSaysItsConditionAndLeadsToItsCloudAndInfraredImage) {
   const std::string svg = heights_chart(campaign());
   EXPECT_NE(svg.find("&lt;b&gt;tea &amp; milk, 20 mm, cup at (0, 300) mm, centre of the cup"), std::string::npos)
       << svg;
   EXPECT_NE(svg.find("+1.25 mm before, -0.12 mm after, ± 0.25 mm"), std::string::npos) << svg;
   EXPECT_EQ(svg.find("<b>"), std::string::npos);
+  EXPECT_NE(svg.find("placement 0, frame 7"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("href=\"#shot-0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("id=\"shot-0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos) << svg;
   EXPECT_NE(svg.find("href=\"../a%20b/javascript%3Ax.pcd\""), std::string::npos) << svg;
 }
 
 TEST(HeightsChart, WithoutACloudNothingLeadsAnywhere) {
   DiagnosedCampaign one = campaign();
-  one.clouds.clear();
+  one.shots = {};
   EXPECT_EQ(heights_chart(one).find("href"), std::string::npos);
   one.observations[0].observable = "desk_height_mm";
   EXPECT_EQ(heights_chart(one), "");
