@@ -59,7 +59,7 @@ class Skipped(unittest.TestCase):
             (root / "scripts" / name).chmod(0o755)
         for tests, code, closing in ((TESTS, 8, "1 tests failed out of 5"),
                                      (TESTS.replace('"false"', '"true"'), 0, "100% tests passed, 0 tests failed out of 5")):
-            (root / "build/ci/CTestTestfile.cmake").write_text(tests)
+            (root / "build/release/CTestTestfile.cmake").write_text(tests)
             run = subprocess.run(["scripts/test"], cwd=root, check=False, capture_output=True, text=True)
             self.assertEqual(run.returncode, code, run.stdout + run.stderr)
             self.assertIn(closing, run.stdout)
