@@ -4,7 +4,8 @@ add_test(NAME layers COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}
 add_test(NAME layers_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/layers_test.py)
 add_test(NAME skipped_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/skipped_test.py)
 add_test(NAME constants_page COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/constants_page.py)
-set_tests_properties(layers layers_test skipped_test constants_page PROPERTIES LABELS architecture)
+add_test(NAME links COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/links.py)
+set_tests_properties(layers layers_test skipped_test constants_page links PROPERTIES LABELS architecture)
 
 if(FATHOM_SIMULATOR)
   add_test(NAME effects_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/effects-page --check $<TARGET_FILE:fathom>)
@@ -25,7 +26,7 @@ if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
     -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
 endif()
 
-# Hostile inputs, kills and races; many more by hand (README.md).
+# Hostile inputs, kills and races; many more by hand (docs/testing.md).
 if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
   foreach(test "hostile --mutants 500 --quiet" "kills --kills 12" "races --races 8")
     separate_arguments(test)
