@@ -13,8 +13,8 @@ SEED, SETS = 9001, 90
 # Of the goals those that a diagnosis keeps by being silent where it knows nothing.
 SILENCE = ["names something on a null set", "… whose noise is mis-scaled or heavy-tailed", "calls a null set unknown",
            "confidently wrong"]
-# What it loses by being silent always. The bars are the lower ends of the 95 % intervals that 2,000 sets gave
-# (docs/blind.md), so that a diagnosis as good as that fails much less than once in forty. Too few are 6 of the 11 strong
+# What it loses by being silent always. The bars are the lower ends of the 95 % intervals that the 2,000 sets of seed 20007
+# gave, so that a diagnosis as good as that fails much less than once in forty. Too few are 6 of the 11 strong
 # single effects, 31 of the 41 sets with effects, 3 of the 9 unknown things, 2 of the 4 mistakes in the notes. One that is
 # silent always has none of any, and fails in all four.
 POWER = {"single effect first, s ≥ 8": 0.88, "truth in the ambiguity set": 0.89, "unknown flagged, escape ≥ 10": 0.75,
