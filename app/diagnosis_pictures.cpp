@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "app/fonts.h"
@@ -166,6 +167,59 @@ plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyl
                                      sector)
                        : "",
                    sector));
+  return true;
+}
+
+bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  constexpr double kPanel = 6.0, kBefore = 6.4;  // a cell is one wide
+  double width_mm = std::numeric_limits<double>::infinity();
+  for (const Observation& o : campaign.observations)
+    if (const auto& at = o.factors.within_mm)
+      for (const double along : {std::abs(at->x()), std::abs(at->y())})
+        if (along > 0.5) width_mm = std::min(width_mm, along);
+  Table cells({"x", "y", "mean_mm"});
+  std::vector<std::string> liquids;
+  double most = 1e-3;  // [mm] of the colours' range
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i) {
+    const Factors& f = campaign.observations[i].factors;
+    if (!f.within_mm) continue;
+    const auto known = std::find(liquids.begin(), liquids.end(), f.liquid);
+    const auto panel = static_cast<double>(known - liquids.begin());
+    if (known == liquids.end()) liquids.push_back(f.liquid);
+    for (const bool after : {false, true}) {
+      const double shown = after ? campaign.diagnosis.after[i] : campaign.diagnosis.before[i];
+      most = std::max(most, std::abs(shown));
+      cells.add({fmt::format("{:.2f}", kPanel * panel + f.within_mm->x() / width_mm),
+                 fmt::format("{:.2f}", (after ? 0.0 : kBefore) + f.within_mm->y() / width_mm),
+                 fmt::format("{:.2f}", shown)});
+    }
+  }
+  if (liquids.empty()) return false;
+  write_table(folder / "shape.csv", cells);
+  const auto label = [&](std::size_t panel, const std::string& text) {
+    return fmt::format("set label {} {} at {}, {} center noenhanced\n", panel + 1, gnuplot_text(text),
+                       kPanel * static_cast<double>(panel), kBefore + 3.2);
+  };
+  std::string labels, before_svg;
+  for (std::size_t panel = 0; panel < liquids.size(); ++panel) {
+    const std::string drawable = drawable_text(liquids[panel]);
+    labels += label(panel, drawable);
+    if (drawable != liquids[panel]) before_svg += label(panel, liquids[panel]);
+  }
+  draw(folder, "shape",
+       fmt::format(R"(
+set title 'Shape of what is seen in the cup, in mm: measured minus model'
+unset border; unset xtics; unset ytics; unset grid; unset key; unset colorbox
+set size ratio -1; set xrange [-4:{1}]; set yrange [-4:{2}]
+set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00'); set cbrange [-{0}:{0}]
+set label 100 'before' at -3.3, {3} center rotate by 90; set label 101 'after' at -3.3, 0 center rotate by 90
+set label 102 '↓ the sensor is on this side' at {4}, -3.4 center
+{5}
+plot 'shape.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb pale fillcolor palette, \
+     '' using 'x':'y':'mean_mm' with labels font ',8' textcolor rgb ink)",
+                   most, kPanel * static_cast<double>(liquids.size()) - 3.0, kBefore + 4.2, kBefore,
+                   0.5 * kPanel * static_cast<double>(liquids.size() - 1), labels),
+       before_svg);
   return true;
 }
 

@@ -14,4 +14,7 @@ bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& 
 /// map.png: mean residual in each region of the cup and of the desk. False when heights are all there is.
 bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 
+/// shape.png: residuals of the shape of what is seen in the cup, liquid by liquid. False where none was measured.
+bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
 }  // namespace fathom

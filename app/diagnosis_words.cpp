@@ -201,6 +201,11 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
   std::string text = fmt::format("{} is there that no effect in the list explains",
                                  diagnosis.effects.empty() ? "Something" : "Something else");
   if (diagnosis.excess.empty()) text += fmt::format(" (probability {:.3g})", diagnosis.probability_of_unknown);
+  if (!unknown.part.empty())
+    return text +
+           fmt::format(": {}, the part {} is {:.2g} mm {} beside the rest than the model has it. ",
+                       unknown.liquid == "empty" ? "in the empty cup" : "of what is seen in " + spaced(unknown.liquid),
+                       unknown.part, std::abs(unknown.higher_mm), unknown.higher_mm < 0.0 ? "lower" : "higher");
   if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
   if (!unknown.most_similar.empty())
     text +=

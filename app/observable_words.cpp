@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::array kWords{
     ObservableWords{"height_mm", "height in the cup", " mm", "higher", "lower"},
+    ObservableWords{"content_shape_mm", "shape of what is seen in the cup", " mm", "higher", "lower"},
     ObservableWords{"height_sd_mm", "scatter of the heights in the cup", " mm", "wider", "narrower"},
     ObservableWords{"log_brightness", "logarithm of the brightness in the cup", "", "higher", "lower"},
     ObservableWords{"log_ir_contrast", "logarithm of the contrast of the infrared's dots in the cup", "", "higher",

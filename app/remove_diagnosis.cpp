@@ -19,9 +19,11 @@ struct TableFile {
   const char* name;
   std::string_view columns;
 };
-constexpr std::array kTables{TableFile{"map_desk.csv", "x,y,mean_mm"}, TableFile{"map_cup.csv", "x,y,radius,from_deg"},
+constexpr std::array kTables{TableFile{"map_desk.csv", "x,y,mean_mm"},
+                             TableFile{"map_cup.csv", "x,y,radius,from_deg"},
                              TableFile{"map_unseen.csv", "x,y,radius,from_deg"},
                              TableFile{"heights.csv", "number,before_mm"},
+                             TableFile{"shape.csv", "x,y,mean_mm"},
                              TableFile{"residuals.csv", "observable,region"}};
 
 /// next_1.json and so on.
@@ -42,7 +44,7 @@ void remove_diagnosis(const fs::path& folder) {
     if (entry.is_regular_file() && is_campaign(entry.path().filename().string())) campaigns.push_back(entry.path());
   for (const fs::path& campaign : campaigns) fs::remove(campaign);
   fs::remove(folder / "next.json");
-  for (const char* name : {"map", "heights"}) remove_drawing(folder, name);
+  for (const char* name : {"map", "heights", "shape"}) remove_drawing(folder, name);
   for (const TableFile& table : kTables) remove_if_ours(folder / table.name, table.columns);
 }
 

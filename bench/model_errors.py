@@ -30,7 +30,7 @@ SHARED_BY = {"all": (), "region": ("region",), "liquid region": ("liquid", "regi
              "place region": (*PLACE, "region"), "condition": CONDITION, "condition region": (*CONDITION, "region"),
              "own": (*CONDITION, "region", "session", "pour", "placement")}
 LEVELS = {"height_mm": ("all", "liquid region", "place", "place region", "condition", "condition region", "own"),
-          "desk_residual_mm": ("all", "region", "own"),
+          "content_shape_mm": ("region", "liquid region"), "desk_residual_mm": ("all", "region", "own"),
           **{name: ("all", "place", "condition", "own")
              for name in ("cup_x_mm", "cup_y_mm", "cup_radius_mm", "desk_height_mm", "desk_pitch_deg", "desk_roll_deg")}}
 

@@ -1,6 +1,7 @@
 #include "diagnosis/decision/decide.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "diagnosis/decision/budget.h"
@@ -64,12 +65,17 @@ Rest rest_of(const Case& c, const Refit& fit) {
   return rest;
 }
 
+/// Whether something is there that no effect explains. Beside effects that surely are it takes the odds of an alarm.
+bool needs_unknown(const Shares& shares, bool names_any) {
+  return names_any ? (1.0 - shares.unknown) * kAlarmOdds < shares.unknown : shares.unknown > 0.5;
+}
+
 Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool names_all,
                    bool names_any) {
   const Verdict with_unknown = names_any ? Verdict::named_and_unknown : Verdict::unknown;
   if (is_excess) return with_unknown;
   if (kAlarmOdds * shares.nothing > 1.0) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
-  if (shares.unknown > 0.5) return with_unknown;
+  if (needs_unknown(shares, names_any)) return with_unknown;
   const AmbiguityClass& first = set.classes.front();
   const bool is_one = first.probability > kSure && first.options.size() == 1;
   return names_all && is_one ? Verdict::named : Verdict::ambiguous;
@@ -85,8 +91,9 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const Posterior posterior = posterior_of(c);
   const std::vector<int> kinds = kinds_of_candidates(evidence);
   const Shares shares = shares_of(posterior.options);
-  AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta);
   const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
+  const double doubt = needs_unknown(shares, sure.has_value()) ? 0.0 : std::log(kAlarmOdds);
+  AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, doubt);
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);
   diagnosis.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);

@@ -171,6 +171,10 @@ Json json_from(const Diagnosis& diagnosis) {
   json["unknown"] = {{"formula", diagnosis.unknown.formula},
                      {"most_similar", diagnosis.unknown.most_similar},
                      {"similarity", diagnosis.unknown.similarity}};
+  if (!diagnosis.unknown.part.empty())
+    json["unknown"]["shape"] = {{"liquid", diagnosis.unknown.liquid},
+                                {"part", diagnosis.unknown.part},
+                                {"higher_mm", diagnosis.unknown.higher_mm}};
   json["upper_limits"] = array_of(diagnosis.upper_limits);
   json["confusable"] = array_of(diagnosis.confusable);
   json["near_null"] = array_of(diagnosis.near_null);

@@ -37,9 +37,12 @@ std::vector<Term> term_library(const std::vector<Observation>& observations) {
   };
   std::vector<Term> library;
   const auto n = static_cast<Eigen::Index>(observations.size());
-  const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
-  const Groups liquids =
-      group_by(observations, [](const Observation& o) { return o.observable + " of " + o.factors.liquid; });
+  // Parts of the cup are means over all of these.
+  const Groups observables =
+      group_by(observations, [](const Observation& o) { return o.factors.within_mm ? std::string() : o.observable; });
+  const Groups liquids = group_by(observations, [](const Observation& o) {
+    return o.factors.within_mm ? std::string() : o.observable + " of " + o.factors.liquid;
+  });
   const auto add = [&](const std::string& where, const std::vector<Eigen::Index>& rows) {
     for (const Shape& shape : kShapes) {
       Eigen::VectorXd column = Eigen::VectorXd::Zero(n);
@@ -85,6 +88,23 @@ std::string sparse_formula(const Evidence& evidence, const Covariance& covarianc
   return formula;
 }
 
+/// Of the parts of cups the one that departs by most errors.
+void set_part(const Evidence& evidence, const Covariance& covariance, UnknownShape& shape) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Observation& o = evidence.observations[i];
+    if (!o.factors.within_mm) continue;
+    const double departure = o.value - evidence.predicted[row];
+    const double errors = std::abs(departure) / std::sqrt(covariance.total(row, row));
+    if (errors <= most) continue;
+    most = errors;
+    shape.liquid = o.factors.liquid;
+    shape.part = o.factors.region;
+    shape.higher_mm = departure;
+  }
+}
+
 }  // namespace
 
 UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covariance, const Problem& problem,
@@ -92,6 +112,7 @@ UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covari
                               const Eigen::MatrixXd& explained) {
   UnknownShape shape;
   shape.formula = sparse_formula(evidence, covariance, residual, explained);
+  if (is_shape(discrepancy, residual)) set_part(evidence, covariance, shape);
   const Eigen::MatrixXd signatures = without(problem.signatures, explained);
   const Eigen::VectorXd map = smooth_map(discrepancy, residual, explained);
   shape.map.assign(map.data(), map.data() + map.size());

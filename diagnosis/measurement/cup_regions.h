@@ -21,6 +21,25 @@ inline constexpr double kInteriorMargin = 0.010;  ///< [m] from the inner wall, 
 /// left of a cup that is narrower than the margin.
 inline double interior_radius(const CupProfile& cup) { return std::max(cup.narrowest() - kInteriorMargin, 0.0); }
 
+/// A raster of squares that covers the same disc, row by row from the near left: small enough for a bump.
+inline constexpr int kCupCellsAcross = 5;
+inline constexpr int kCupCells = kCupCellsAcross * kCupCellsAcross;
+
+/// Middle of a cell, in radii of the disc: to the right and far.
+inline Eigen::Vector2d middle_of_cell(int cell) {
+  constexpr double kWidth = 2.0 / kCupCellsAcross;
+  return {kWidth * (cell % kCupCellsAcross + 0.5) - 1.0, kWidth * (cell / kCupCellsAcross + 0.5) - 1.0};
+}
+
+/// The cell of a point `from_axis` [m] on the desk; -1 outside of the disc.
+inline int cup_cell_of(const Eigen::Vector2d& from_axis, double radius) {
+  if (!(from_axis.squaredNorm() < radius * radius)) return -1;
+  const auto part = [&](double along) {
+    return std::clamp(static_cast<int>(0.5 * kCupCellsAcross * (along / radius + 1.0)), 0, kCupCellsAcross - 1);
+  };
+  return kCupCellsAcross * part(from_axis.y()) + part(from_axis.x());
+}
+
 /// Thirds of the image, row by row.
 inline constexpr std::array<std::string_view, 9> kDeskRegionNames{
     "top left", "top", "top right", "left", "middle", "right", "bottom left", "bottom", "bottom right"};

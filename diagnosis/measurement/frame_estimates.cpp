@@ -119,6 +119,7 @@ void set_inside(std::span<const CupPoint> points, double radius, const FrameView
   const Eigen::Vector2d axis = middle_of_regions(estimates.outline);
   const double soft = view.soft_m, reach = radius + soft;
   std::array<std::vector<SharedHeight>, 5> height;
+  std::array<std::vector<SharedHeight>, kCupCells> cell_height;
   Sums interior, intensity;
   DotContrast dots;
   for (const CupPoint& p : points) {
@@ -131,11 +132,13 @@ void set_inside(std::span<const CupPoint> points, double radius, const FrameView
         height[i].push_back({p.height, static_cast<float>(p.weight * shares[i])});
         whole += shares[i];
       }
+    if (const int cell = cup_cell_of(from_axis, radius); cell >= 0) cell_height[cell].push_back({p.height, p.weight});
     interior.add(p.height, p.weight * whole);
     intensity.add(p.intensity, p.weight * whole);
     if (view.has_rows && whole > 0.0) dots.add(p.intensity, p.weight * whole);
   }
   for (std::size_t i = 0; i < height.size(); ++i) estimates.height[i] = region_mean(height[i]);
+  for (std::size_t i = 0; i < cell_height.size(); ++i) estimates.cell_height[i] = region_mean(cell_height[i]);
   estimates.interior = interior.estimate();
   estimates.interior_intensity = intensity.estimate();
   if (view.has_rows) estimates.interior_contrast = dots.contrast();

@@ -59,9 +59,10 @@ struct FrameEstimates {
   DeskBands desk_bands;
   RegionEstimate desk_intensity;  ///< [DN]
   std::array<RegionEstimate, 5>
-      height;                         ///< [m] above the fitted desk, by region of the cup; of what lies near the median
-  RegionEstimate interior;            ///< plain mean of all regions together
-  RegionEstimate interior_intensity;  ///< [DN]
+      height;  ///< [m] above the fitted desk, by region of the cup; of what lies near the median
+  std::array<RegionEstimate, kCupCells> cell_height;       ///< [m] the same of each cell of the raster (cup_regions.h)
+  RegionEstimate interior;                                 ///< plain mean of all regions together
+  RegionEstimate interior_intensity;                       ///< [DN]
   std::optional<double> desk_contrast, interior_contrast;  ///< of the infrared's dots (DotContrast); none without rows
   std::optional<CupOutline> outline;
   Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk

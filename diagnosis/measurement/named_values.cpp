@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "core/units.h"
 
@@ -53,7 +54,19 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     values.push_back({"comb_half", kDesk, estimates.coarse_combs[1]});
   }
   values.push_back({"millimetre_comb", kDesk, estimates.millimetre_comb});
+  for (int i = 0; i < kCupCells; ++i)
+    if (const RegionEstimate& cell = estimates.cell_height[i]; cell.weight >= kFewestInCell)
+      values.push_back({"cell_height_mm", name_of_cell(i), mm_from_metres(cell.mean), cell.weight});
   return values;
+}
+
+std::string_view name_of_cell(int cell) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (int i = 0; i < kCupCells; ++i) all.push_back("cell " + std::to_string(i));
+    return all;
+  }();
+  return names[cell];
 }
 
 }  // namespace fathom

@@ -35,6 +35,20 @@ std::vector<bool> see_through(const Predictor& predictor, const std::string& liq
   return see;
 }
 
+/// Shapes of what is seen in cups, and of which parts of them the heights of regions are means.
+void add_shapes(const Measurement& measurement, Predictor& predictor, Evidence& evidence) {
+  const double radius = interior_radius(measurement.rig.cup);
+  std::vector<ContentSight> sights = predictor.content_sights(measurement.observations);
+  for (const ContentSight& sight : sights)
+    for (const std::size_t row : predictor.conditions()[sight.condition].rows)
+      if (Observation& o = evidence.observations[row]; o.observable == "height_mm")
+        o.parts = parts_of_region(o.factors.region, sight.cells, radius);
+  for (ContentShape& shape : content_shapes(std::move(sights), radius)) {
+    evidence.observations.push_back(shape.observation);
+    predictor.add(std::move(shape));
+  }
+}
+
 }  // namespace
 
 Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
@@ -59,6 +73,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
     predictor->add(motion);
     evidence.observations.push_back(std::move(motion));
   }
+  add_shapes(measurement, *predictor, evidence);
   const Nuisance windows = usual_windows(*predictor);
   const Eigen::VectorXd middle = windows.sigma * windows.signature;
   evidence.predicted = predictor->predict({}) + middle;

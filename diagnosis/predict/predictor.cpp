@@ -194,10 +194,10 @@ std::optional<Predictor::UnitKnowledge> Predictor::unit_knowledge() const {
 
 Eigen::VectorXd Predictor::predict_from(
     const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+  Values values = no_values();
   const Look as_given = [&](const Setup&, const Condition& condition) { return estimates(condition); };
   for (const std::vector<std::size_t>& group : alike({}, all_conditions())) predict_alike(as_given, {}, group, values);
-  return values;
+  return with_shapes(std::move(values));
 }
 
 std::vector<std::size_t> Predictor::all_conditions() const {
@@ -237,6 +237,37 @@ void Predictor::add(const Observation& observation) {
   known->rows.push_back(observables_.size());
   observables_.push_back(observation.observable);
   regions_.push_back(observation.factors.region);
+}
+
+void Predictor::add(ContentShape shape) {
+  const std::size_t row = observables_.size();
+  add(shape.observation);
+  shapes_.emplace_back(row, std::move(shape));
+}
+
+std::vector<ContentSight> Predictor::content_sights(const std::vector<Observation>& observations) const {
+  constexpr double kMostInShadow = 0.05;  // of a cell
+  std::map<ConditionKey, CellHeights> measured;
+  for (const Observation& o : observations) {
+    if (o.observable != "cell_height_mm") continue;
+    const auto [known, is_new] = measured.try_emplace(key_of(o.factors));
+    if (is_new) known->second.fill(std::numeric_limits<double>::quiet_NaN());
+    for (int cell = 0; cell < kCupCells; ++cell)
+      if (o.factors.region == name_of_cell(cell)) known->second[cell] = o.value;
+  }
+  std::vector<ContentSight> sights;
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const Condition& condition = conditions_[i];
+    const auto own = measured.find(key_of(condition.factors));
+    if (own == measured.end() || !condition.nominal_estimates) continue;
+    const auto shadows = cells_near_shadows(*condition.nominal, model_.laboratory, condition.pixels);
+    ContentSight sight{i, condition.factors, own->second, cell_heights(*condition.nominal_estimates), {}};
+    for (int cell = 0; cell < kCupCells; ++cell)
+      sight.cells[cell] =
+          std::isfinite(sight.measured[cell]) && std::isfinite(sight.predicted[cell]) && shadows[cell] <= kMostInShadow;
+    sights.push_back(std::move(sight));
+  }
+  return sights;
 }
 
 void Predictor::keep(const std::vector<bool>& kept) {
@@ -292,11 +323,30 @@ std::vector<std::vector<std::size_t>> Predictor::alike(const Change& change,
 }
 
 void Predictor::predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
-                              Eigen::VectorXd& values) const {
+                              Values& values) const {
   const std::optional<Foreseen> foreseen = foresee(look, conditions_[conditions.front()], change);
-  for (const std::size_t i : conditions)
+  for (const std::size_t i : conditions) {
+    if (foreseen && !shapes_.empty()) values.cells[i] = cell_heights(foreseen->estimates);
     for (const std::size_t row : conditions_[i].rows)
-      values[row] = foreseen ? value_of(row, conditions_[i], *foreseen) : std::numeric_limits<double>::quiet_NaN();
+      values.of_rows[row] =
+          foreseen ? value_of(row, conditions_[i], *foreseen) : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+Predictor::Values Predictor::no_values() const {
+  Values values;
+  values.of_rows = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+  values.cells.resize(conditions_.size());
+  return values;
+}
+
+Eigen::VectorXd Predictor::with_shapes(Values values) const {
+  for (const auto& [row, shape] : shapes_)
+    values.of_rows[static_cast<Eigen::Index>(row)] = shape.predicted([&](std::size_t condition) {
+      const std::optional<CellHeights>& seen = values.cells[condition];
+      return seen ? &*seen : nullptr;
+    });
+  return values.of_rows;
 }
 
 Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::size_t>& conditions) const {
@@ -310,11 +360,11 @@ Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::
     return estimates_without(std::array{as_bias(*bias)}, frame, model_.laboratory, pixels);
   };
   const std::vector<std::vector<std::size_t>> groups = alike(change, conditions);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+  Values values = no_values();
   parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
     for (int group = begin; group < end; ++group) predict_alike(by_few_rays, change, groups[group], values);
   });
-  return values;
+  return with_shapes(std::move(values));
 }
 
 Eigen::VectorXd Predictor::predict_by(const Shoot& shoot, const Change& change,
@@ -326,9 +376,9 @@ Eigen::VectorXd Predictor::predict_by(const Shoot& shoot, const Change& change,
     if (bias) take_off(as_bias(*bias), model_.laboratory, points);
     return estimate_frame(points, model_.laboratory, view_of(condition.factors));
   };
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observables_.size()));
+  Values values = no_values();
   for (const std::vector<std::size_t>& group : alike(change, conditions)) predict_alike(look, change, group, values);
-  return values;
+  return values.of_rows;
 }
 
 Eigen::VectorXd Predictor::predict(const Change& change) const { return predict(change, all_conditions()); }

@@ -7,6 +7,7 @@
 
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/read_measurement.h"
+#include "diagnosis/predict/content_shape.h"
 #include "diagnosis/predict/nominal_model.h"
 #include "diagnosis/predict/surrogate.h"
 #include "sim/effects/effect.h"
@@ -70,8 +71,14 @@ class Predictor {
 
   /// One more observation, of a condition that it knows.
   void add(const Observation& observation);
+  /// The same of a shape, of conditions as content_sights() numbers them.
+  void add(ContentShape shape);
 
-  /// Forgets the other observations, and conditions of which none is left.
+  /// What placements show of their cups in cells clear of shadows. `observations` hold the cells' heights
+  /// ("cell_height_mm").
+  std::vector<ContentSight> content_sights(const std::vector<Observation>& observations) const;
+
+  /// Forgets the other observations, and conditions of which none is left; before shapes are added.
   void keep(const std::vector<bool>& kept);
 
   const std::vector<Condition>& conditions() const { return conditions_; }
@@ -86,6 +93,12 @@ class Predictor {
     std::vector<NamedValue> named;  ///< of the estimates
   };
 
+  /// Of all observations; and of the conditions that were looked at, the cells' heights.
+  struct Values {
+    Eigen::VectorXd of_rows;
+    std::vector<std::optional<CellHeights>> cells;
+  };
+
   void look_at_nominal();
   /// What would be learned of a unit without bias, were its desks as this change makes them.
   BiasField bias_by(const Change& change) const;
@@ -97,7 +110,10 @@ class Predictor {
   double value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const;
   /// Rows of conditions that are alike.
   void predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
-                     Eigen::VectorXd& values) const;
+                     Values& values) const;
+  /// Nothing predicted yet, and then all of it.
+  Values no_values() const;
+  Eigen::VectorXd with_shapes(Values values) const;
 
   NominalModel model_;
   Json model_effects_;
@@ -108,6 +124,7 @@ class Predictor {
   std::map<int, std::size_t> desk_of_session_;  ///< a condition that shows most of it
   std::vector<std::string> observables_, regions_;
   std::vector<Condition> conditions_;
+  std::vector<std::pair<std::size_t, ContentShape>> shapes_;  ///< with their rows
 };
 
 /// How clouds of a condition are looked at.

@@ -241,6 +241,38 @@ std::vector<SensedPoint> all_points(const SurrogateFrame& frame) {
   return points;
 }
 
+/// Of every part of the cup the share that lies in a shadow, or within a matcher's reach of one. `parts_of` gives the
+/// shares that a point has in the parts.
+template <std::size_t count, class PartsOf>
+std::array<double, count> parts_near_shadows(const SurrogateFrame& frame, const SampledPixels& pixels,
+                                             const PartsOf& parts_of) {
+  constexpr double kReach = 0.006;  // [m] half a window of 9 pixels, 0.75 m away
+  std::array<double, count> all{}, dark{};
+  const std::optional<CupOptics>& cup = frame.view.cup;
+  if (!cup || !pixels.view.cup || !frame.estimates) return all;
+  const double height = frame.estimates->interior.mean;  // where pixels seem to look
+  const Rig& sensor = frame.view.reader.rig();
+  const Eigen::Vector3d camera = sensor.camera_in_world(), projector = sensor.projector_in_world();
+  for (const Eigen::Vector2d& pixel : pixels.cup) {
+    const Ray sight{camera, sensor.direction_in_world(pixel.x(), pixel.y())};
+    if (sight.direction.z() >= 0.0) continue;
+    const Eigen::Vector3d point = camera + (height - camera.z()) / sight.direction.z() * sight.direction;
+    const Eigen::Vector2d from_axis = point.head<2>() - *pixels.view.cup;
+    const std::array<double, count> own = parts_of(from_axis);
+    for (std::size_t i = 0; i < count; ++i) all[i] += own[i];
+    if (look_into(*cup, sight, projector)) continue;
+    std::array<double, count> reached = own;
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const std::array<double, count> there =
+          parts_of(from_axis + kReach * direction_of(0.25 * std::numbers::pi * eighth));
+      for (std::size_t i = 0; i < count; ++i) reached[i] = std::max(reached[i], there[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) dark[i] += reached[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) dark[i] = all[i] > 0.0 ? dark[i] / all[i] : 1.0;
+  return dark;
+}
+
 }  // namespace
 
 SurrogateView surrogate_view(const Setup& setup) {
@@ -282,32 +314,19 @@ SampledPixels sample_pixels(const LaboratoryRig& rig, const FrameView& written) 
 
 std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
                                           const SampledPixels& pixels) {
-  constexpr double kReach = 0.006;  // [m] half a window of 9 pixels, 0.75 m away
-  std::array<double, 5> all{}, dark{};
-  const std::optional<CupOptics>& cup = frame.view.cup;
-  if (!cup || !pixels.view.cup || !frame.estimates) return all;
-  const double height = frame.estimates->interior.mean;  // where pixels seem to look
   const double radius = interior_radius(rig.cup);
-  const Rig& sensor = frame.view.reader.rig();
-  const Eigen::Vector3d camera = sensor.camera_in_world(), projector = sensor.projector_in_world();
-  for (const Eigen::Vector2d& pixel : pixels.cup) {
-    const Ray sight{camera, sensor.direction_in_world(pixel.x(), pixel.y())};
-    if (sight.direction.z() >= 0.0) continue;
-    const Eigen::Vector3d point = camera + (height - camera.z()) / sight.direction.z() * sight.direction;
-    const Eigen::Vector2d from_axis = point.head<2>() - *pixels.view.cup;
-    const std::array<double, 5> own = shares_of_regions(from_axis, radius, 0.0);
-    for (std::size_t i = 0; i < own.size(); ++i) all[i] += own[i];
-    if (look_into(*cup, sight, projector)) continue;
-    std::array<double, 5> reached = own;
-    for (int eighth = 0; eighth < 8; ++eighth) {
-      const Eigen::Vector2d beside = from_axis + kReach * direction_of(0.25 * std::numbers::pi * eighth);
-      const std::array<double, 5> there = shares_of_regions(beside, radius, 0.0);
-      for (std::size_t i = 0; i < own.size(); ++i) reached[i] = std::max(reached[i], there[i]);
-    }
-    for (std::size_t i = 0; i < own.size(); ++i) dark[i] += reached[i];
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) dark[i] = all[i] > 0.0 ? dark[i] / all[i] : 1.0;
-  return dark;
+  return parts_near_shadows<5>(
+      frame, pixels, [radius](const Eigen::Vector2d& from_axis) { return shares_of_regions(from_axis, radius, 0.0); });
+}
+
+std::array<double, kCupCells> cells_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
+                                                 const SampledPixels& pixels) {
+  const double radius = interior_radius(rig.cup);
+  return parts_near_shadows<kCupCells>(frame, pixels, [radius](const Eigen::Vector2d& from_axis) {
+    std::array<double, kCupCells> shares{};
+    if (const int cell = cup_cell_of(from_axis, radius); cell >= 0) shares[cell] = 1.0;
+    return shares;
+  });
 }
 
 double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {

@@ -69,5 +69,8 @@ double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const S
 /// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.
 std::array<double, 5> shares_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
                                           const SampledPixels& pixels);
+/// The same of the cells of its raster.
+std::array<double, kCupCells> cells_near_shadows(const SurrogateFrame& frame, const LaboratoryRig& rig,
+                                                 const SampledPixels& pixels);
 
 }  // namespace fathom

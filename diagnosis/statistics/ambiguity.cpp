@@ -35,14 +35,17 @@ void AmbiguitySet::put_unknown_first() {
                         [](const AmbiguityClass& one) { return one.options.front().has_unknown; });
 }
 
-AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta) {
-  std::stable_sort(options.begin(), options.end(),
-                   [](const Option& a, const Option& b) { return a.log_posterior > b.log_posterior; });
-  const double best = options.front().log_posterior;
+AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta,
+                           double doubt_of_unknown) {
+  const double best = likeliest(options).log_posterior;
+  const auto rank = [&](const Option& option) {
+    return option.log_posterior - (option.has_unknown ? doubt_of_unknown : 0.0);
+  };
+  std::stable_sort(options.begin(), options.end(), [&](const Option& a, const Option& b) { return rank(a) > rank(b); });
   AmbiguitySet set;
   double sum = 0.0;
   for (Option& option : options) {
-    if (option.log_posterior <= best - delta) break;
+    if (option.log_posterior <= best - delta) continue;
     const std::set<int> own = kinds_of(option, kinds);
     const auto belongs = [&](const auto& is_akin) {
       return std::find_if(set.classes.begin(), set.classes.end(), [&](const AmbiguityClass& one) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 #include "diagnosis/statistics/box_least_squares.h"
 #include "diagnosis/statistics/groups.h"
@@ -18,9 +20,11 @@ constexpr Eigen::Index kRank = 120;
 constexpr double kEnough = 1e-3;  // of the process's variance may be left out
 constexpr std::array<double, 8> kSizes{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};  // times the errors
 
+constexpr double kNarrowest_mm = 12.0;  // what is narrower, a matcher's window makes as wide: 9 px, 0.75 m away
+
 struct Place {
   int observable, liquid, region;
-  Eigen::Vector3d position;  ///< fill, distance, lateral over their ranges
+  Eigen::Vector3d position;  ///< fill, distance, lateral over their ranges; of parts of the cup, in narrowest shapes
   double size;
 };
 
@@ -38,10 +42,17 @@ std::vector<Place> places(const Evidence& evidence, const Eigen::VectorXd& error
   const Eigen::MatrixXd x = places_in_ranges(observations);
   const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
   const Groups liquids = group_by(observations, [](const Observation& o) { return "=" + o.factors.liquid; });
-  const Groups regions = group_by(observations, [](const Observation& o) { return "=" + o.factors.region; });
+  const Groups regions = group_by(
+      observations, [&](const Observation& o) { return o.factors.within_mm ? std::string() : "=" + o.factors.region; });
   std::vector<Place> result;
-  for (Eigen::Index i = 0; i < errors.size(); ++i)
-    result.push_back({observables.of[i], liquids.of[i], regions.of[i], x.row(i).transpose(), errors[i]});
+  for (Eigen::Index i = 0; i < errors.size(); ++i) {
+    Place place{observables.of[i], liquids.of[i], regions.of[i], {}, errors[i]};
+    if (const auto& within_mm = observations[i].factors.within_mm)
+      place.position << *within_mm / kNarrowest_mm, 0.0;
+    else
+      place.position = x.row(i);
+    result.push_back(std::move(place));
+  }
   return result;
 }
 
@@ -70,6 +81,34 @@ Eigen::MatrixXd smooth_factor(const std::vector<Place>& at, double shared) {
     ++rank;
   }
   return factor.leftCols(rank);
+}
+
+/// A smooth shape of what is seen in cups, half of it in all liquids: what it does to every observation that is of
+/// parts of the cup. Its standard deviation is one error of a part.
+Eigen::MatrixXd shape_factor(const std::vector<Observation>& observations, const Eigen::VectorXd& errors) {
+  const Groups liquids = group_by(observations, [](const Observation& o) { return "=" + o.factors.liquid; });
+  std::map<std::tuple<int, double, double>, std::size_t> numbers;
+  std::vector<Place> points;
+  const auto number_of = [&](std::size_t row, const SeenPart& part) {
+    const int liquid = liquids.of[row];
+    const auto [known, is_new] = numbers.try_emplace({liquid, part.at_mm.x(), part.at_mm.y()}, points.size());
+    if (is_new)
+      points.push_back({0, liquid, 0, {part.at_mm.x() / kNarrowest_mm, part.at_mm.y() / kNarrowest_mm, 0.0}, 1.0});
+    return static_cast<Eigen::Index>(known->second);
+  };
+  double size = 0.0, count = 0.0;
+  for (std::size_t row = 0; row < observations.size(); ++row) {
+    for (const SeenPart& part : observations[row].parts) number_of(row, part);
+    if (observations[row].factors.within_mm) size += errors[static_cast<Eigen::Index>(row)], ++count;
+  }
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(errors.size(), 0);
+  if (count == 0.0) return factor;
+  const Eigen::MatrixXd of_points = size / count * smooth_factor(points, 0.5);
+  factor.setZero(errors.size(), of_points.cols());
+  for (std::size_t row = 0; row < observations.size(); ++row)
+    for (const SeenPart& part : observations[row].parts)
+      factor.row(static_cast<Eigen::Index>(row)) += part.weight * of_points.row(number_of(row, part));
+  return factor;
 }
 
 /// The directions of some whitened columns, orthonormal, and the process's variance along each at size 1.
@@ -140,6 +179,32 @@ Eigen::ArrayXd squared_scores(const Eigen::MatrixXd& columns, const Eigen::Vecto
   return (columns.transpose() * residual).array().square() / squares.max(1e-12);
 }
 
+/// The process and size that a residual makes likeliest.
+struct Likeliest {
+  Eigen::MatrixXd columns;
+  bool is_shape = false;
+  double size = 0.0, log_evidence = -INFINITY;
+};
+
+Likeliest likeliest_of(const Discrepancy& discrepancy, const Eigen::VectorXd& residual) {
+  Likeliest best;
+  const auto consider = [&](const Eigen::MatrixXd& columns, bool is_shape) {
+    const Spectrum spectrum(columns);
+    for (const double size : kSizes)
+      if (const double evidence = spectrum.log_evidence(size, residual); evidence > best.log_evidence)
+        best = {columns, is_shape, size, evidence};
+  };
+  consider(discrepancy.smooth, false);
+  consider(discrepancy.apart, false);
+  if (discrepancy.shape.cols() > 0) consider(discrepancy.shape, true);
+  const Eigen::ArrayXd z2 = squared_scores(discrepancy.strata, residual);
+  if (Eigen::Index clearest = 0; z2.size() > 0) {
+    z2.maxCoeff(&clearest);
+    consider(discrepancy.strata.col(clearest), false);
+  }
+  return best;
+}
+
 }  // namespace
 
 Discrepancy discrepancy_of(const Evidence& evidence, const std::vector<Stratum>& strata, const Covariance& covariance) {
@@ -149,6 +214,7 @@ Discrepancy discrepancy_of(const Evidence& evidence, const std::vector<Stratum>&
   result.smooth_factor = smooth_factor(at, 0.5);
   result.smooth = covariance.whiten(result.smooth_factor);
   result.apart = covariance.whiten(smooth_factor(at, 0.0));
+  result.shape = covariance.whiten(shape_factor(evidence.observations, errors));
   std::vector<const Stratum*> main;
   for (const Stratum& stratum : strata)
     if (stratum.is_main) main.push_back(&stratum);
@@ -169,8 +235,11 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
       result.emplace_back(std::log(weight / static_cast<double>(kSizes.size())),
                           beside(spectrum, size, variances, effects));
   };
-  add(discrepancy.smooth, 0.25);
-  add(discrepancy.apart, 0.25);
+  const bool has_shapes = discrepancy.shape.cols() > 0;
+  const double each = 0.5 / (has_shapes ? 3.0 : 2.0);
+  add(discrepancy.smooth, each);
+  add(discrepancy.apart, each);
+  if (has_shapes) add(discrepancy.shape, each);
   const Eigen::MatrixXd explained = orthonormal(effects.jacobian);
   const Eigen::MatrixXd strata = without(discrepancy.strata, explained);
   const Eigen::ArrayXd z2 = squared_scores(strata, effects.response);
@@ -184,21 +253,12 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
 
 Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& x) {
-  const Eigen::ArrayXd z2 = squared_scores(discrepancy.strata, residual);
-  std::vector<Spectrum> spectra{Spectrum(discrepancy.smooth), Spectrum(discrepancy.apart)};
-  if (Eigen::Index clearest = 0; z2.size() > 0) {
-    z2.maxCoeff(&clearest);
-    spectra.emplace_back(discrepancy.strata.col(clearest));
-  }
-  double best = -INFINITY;
-  Eigen::MatrixXd result;
-  for (const Spectrum& spectrum : spectra)
-    for (const double size : kSizes)
-      if (const double evidence = spectrum.log_evidence(size, residual); evidence > best) {
-        best = evidence;
-        result = spectrum.whiten(size, x);
-      }
-  return result;
+  const Likeliest likeliest = likeliest_of(discrepancy, residual);
+  return Spectrum(likeliest.columns).whiten(likeliest.size, x);
+}
+
+bool is_shape(const Discrepancy& discrepancy, const Eigen::VectorXd& residual) {
+  return discrepancy.shape.cols() > 0 && likeliest_of(discrepancy, residual).is_shape;
 }
 
 Eigen::VectorXd smooth_map(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,

@@ -12,8 +12,9 @@
 
 namespace fathom {
 
-/// Two kinds, equally likely beforehand: a smooth departure over all places, and a shift of one stratum (by one factor:
-/// a liquid, a session, a region, a time), each stratum as likely as another. The size of either is a few errors of a
+/// Two kinds, equally likely beforehand: a smooth departure, over all places or of the shape of what is seen in cups
+/// alone, and a shift of one stratum (by one factor: a liquid, a session, a region, a time), each stratum as likely as
+/// another. The size of either is a few errors of a
 /// single observation.
 struct Discrepancy {
   /// n × r, its square is the smooth process's covariance: squared exponential in fill, distance and lateral (each over
@@ -21,6 +22,7 @@ struct Discrepancy {
   /// Cholesky (Harbrecht, Peters & Schneider 2012), r ≤ 120. Not whitened, and whitened.
   Eigen::MatrixXd smooth_factor, smooth;
   Eigen::MatrixXd apart;   ///< the same process with nothing shared, whitened
+  Eigen::MatrixXd shape;   ///< a smooth shape of what is seen in cups, whitened; no columns where none was measured
   Eigen::MatrixXd strata;  ///< n × strata, of one error's size, whitened
 };
 
@@ -48,6 +50,9 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
 /// Whitened columns once more, in units of errors and the discrepancy that is likeliest of a residual together.
 Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& x);
+
+/// Whether the likeliest discrepancy is one of the shape alone.
+bool is_shape(const Discrepancy& discrepancy, const Eigen::VectorXd& residual);
 
 /// The smooth process's mean given the residual, at its likeliest size, for each observation; not whitened.
 Eigen::VectorXd smooth_map(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,

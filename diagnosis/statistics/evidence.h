@@ -18,7 +18,14 @@ struct Factors {
   double stood_s = 0.0;  ///< since the first frame of its pour, mean of the repeats
   std::string liquid;    ///< "empty", "none" (bare desk), or a liquid of the rig
   double fill_mm = 0.0, distance_mm = 0.0, lateral_mm = 0.0;
-  std::string region;  ///< of the cup or of the desk around it
+  std::string region;                          ///< of the cup or of the desk around it
+  std::optional<Eigen::Vector2d> within_mm{};  ///< where a part of the cup lies from its middle: right, far
+};
+
+/// A point of the cup, from its middle: right, far; and how much of its height is in an observation.
+struct SeenPart {
+  Eigen::Vector2d at_mm;
+  double weight;
 };
 
 /// One number that a cloud gives, over the repeats (trials) of one placement.
@@ -28,8 +35,10 @@ struct Observation {
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
   int repeats = 1;
-  double pixels = 0.0;    ///< of one repeat, that the value is the mean of; 0: of no certain number
-  double rounding = 0.0;  ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  double pixels = 0.0;            ///< of one repeat, that the value is the mean of; 0: of no certain number
+  double rounding = 0.0;          ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  std::vector<SeenPart> parts{};  ///< of the cup, of whose heights it is the sum; none: of something else, or not known
+  bool has_all_errors = false;    ///< repeats are set-ups made anew, so that what they scatter by is all its error
   bool only_names =
       false;  ///< helps to name what makes a gap; that there is one, heights and shapes decide (decision/tiers.h)
 };

@@ -59,10 +59,11 @@ const std::vector<std::string>& factor_names() {
 
 std::string level(const Observation& o, const std::string& factor) {
   if (factor == "liquid") return o.factors.liquid;
+  if (factor == "region") return o.factors.region;
+  if (o.factors.within_mm) return {};  // a mean over all of these
   if (factor == "fill_mm") return fmt::format("{}", o.factors.fill_mm);
   if (factor == "distance_mm") return fmt::format("{}", o.factors.distance_mm);
   if (factor == "lateral_mm") return fmt::format("{}", o.factors.lateral_mm);
-  if (factor == "region") return o.factors.region;
   return session_key(o);
 }
 

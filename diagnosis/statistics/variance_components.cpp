@@ -183,7 +183,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
   budget.repeat_variance = repeat_variance;
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
-    if (rows.size() < kFewestRows) continue;
+    if (rows.size() < kFewestRows || evidence.observations[rows[0]].has_all_errors) continue;
     const MeanSpace means = mean_space(evidence, rows);
     const Eigen::MatrixXd& contrasts = means.contrasts;
     if (contrasts.cols() == 0) continue;

@@ -401,6 +401,68 @@ TEST(AmbiguitySet, IsInTheOrderOfProbabilities) {
   EXPECT_EQ(set.classes[1].options[0].effects, std::vector<int>{0});
 }
 
+/// Odds of 100 to 1 are asked for before something is said to be there besides what is named.
+TEST(AmbiguitySet, SomethingUnknownBesidesGoesWithAnEffectUntilTheOddsAreHigh) {
+  const auto option = [](std::vector<int> effects, bool has_unknown, double log_posterior) {
+    const auto count = static_cast<Eigen::Index>(effects.size());
+    return Option{std::move(effects), Eigen::VectorXd::Zero(count), has_unknown, log_posterior,
+                  Eigen::VectorXd::Constant(1, 9.0)};
+  };
+  const auto set = [&](double odds) {
+    return ambiguity_set({option({0}, true, std::log(odds)), option({0}, false, 0.0)}, {0}, 7.0, std::log(100.0));
+  };
+  ASSERT_EQ(set(20.0).classes.size(), 1U);
+  EXPECT_FALSE(set(20.0).classes[0].options[0].has_unknown);
+  EXPECT_NEAR(set(20.0).classes[0].alone, 1.0 / 21.0, 1e-12);
+  ASSERT_EQ(set(200.0).classes.size(), 2U);
+  EXPECT_TRUE(set(200.0).classes[0].options[0].has_unknown);
+}
+
+/// Parts of the cup beside a small campaign, with a bump so high on one of them.
+Evidence with_shape(Evidence evidence, double high_mm) {
+  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
+  for (int row = -2; row <= 2; ++row)
+    for (int column = -2; column <= 2; ++column) {
+      Observation o;
+      o.observable = "content_shape_mm";
+      o.factors.liquid = "water";
+      o.factors.region = std::to_string(column) + ", " + std::to_string(row);
+      o.factors.within_mm = Eigen::Vector2d(12.0 * column, 12.0 * row);
+      o.parts = {{*o.factors.within_mm, 1.0}};
+      const double off = std::hypot(column - 1.0, row - 1.0);
+      o.value = 0.1 * Rng(3, static_cast<std::uint64_t>(evidence.observations.size())).normal() +
+                high_mm * std::exp(-0.5 * off * off);
+      o.repeats = 12, o.repeat_sd = 0.1 * std::sqrt(12.0), o.has_all_errors = true;
+      evidence.observations.push_back(o);
+    }
+  const auto all = static_cast<Eigen::Index>(evidence.observations.size());
+  const auto longer = [&](Eigen::MatrixXd columns) {
+    columns.conservativeResize(all, columns.cols());
+    columns.bottomRows(all - n).setZero();
+    return columns;
+  };
+  evidence.predicted = longer(evidence.predicted);
+  if (evidence.numerical_sd.size() > 0) evidence.numerical_sd = longer(evidence.numerical_sd);
+  for (Nuisance& nuisance : evidence.nuisances) nuisance.signature = longer(nuisance.signature);
+  for (Candidate& candidate : evidence.candidates) candidate.signature = longer(candidate.signature);
+  for (SharedError& error : evidence.shared_errors) error.group_of.resize(static_cast<std::size_t>(all), -1);
+  return evidence;
+}
+
+TEST(Decide, ABumpThatOnlyTheShapeShowsIsUnknown) {
+  const World world(small_design());
+  const Predict predict = [&](const std::vector<EffectValue>& effects) {
+    Eigen::VectorXd values = world.predict()(effects);
+    values.conservativeResizeLike(Eigen::VectorXd::Zero(values.size() + 25));
+    return values;
+  };
+  EXPECT_EQ(decide(with_shape(world.measure({}, {}, 5), 0.0), predict).verdict, Verdict::none);
+  const Diagnosis bump = decide(with_shape(world.measure({}, {}, 5), 0.6), predict);
+  EXPECT_EQ(bump.verdict, Verdict::unknown);
+  ASSERT_FALSE(bump.where.empty());
+  EXPECT_EQ(bump.where[0].observable, "content_shape_mm");
+}
+
 TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {
   const World world(small_design());
   Evidence evidence = world.measure({{"radial_distortion", {1.5}}}, {0.0, false, true}, 1);
