@@ -231,6 +231,13 @@ std::string what_is_not_compared(const Diagnosis& diagnosis) {
   return "No height in a cup could be compared: what a liquid does to heights is not seen here.";
 }
 
+/// What is too unsure to be called, but likelier than a slip.
+std::string what_may_be_besides(const Diagnosis& diagnosis) {
+  constexpr double kWorthAWord = 0.2;
+  if (diagnosis.probability_of_unknown < kWorthAWord) return {};
+  return fmt::format(" Something else may be there as well (probability {:.2g}).", diagnosis.probability_of_unknown);
+}
+
 std::string answer_of_physics(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::none:
@@ -239,7 +246,7 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
       return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.missing, "and"));
     case Verdict::named:
       if (diagnosis.effects.empty()) return agreement(diagnosis);
-      return where_sentence(diagnosis) + named_sentence(diagnosis);
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + what_may_be_besides(diagnosis);
     case Verdict::ambiguous:
       return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
     case Verdict::unknown:

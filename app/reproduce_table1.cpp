@@ -13,7 +13,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kPaperDesks = 10;
+constexpr int kTableDesks = 10;
 
 /// A row of the printed table, each of 10.
 struct PrintedRow {
@@ -39,19 +39,19 @@ constexpr std::array<PrintedRow, 16> kPrinted{{{8, 1},
                                                {7, 7},
                                                {7, 7}}};
 
-constexpr std::array<std::string_view, 2> kMethods{"paper", "robust"};
+constexpr std::array<std::string_view, 2> kTableMethods{"paper", "robust"};
 
-struct Tally {
+struct RowTally {
   int cups = 0, recognised = 0, liquid = 0, unknown = 0;
 
-  void add(const Tally& other) {
+  void add(const RowTally& other) {
     cups += other.cups, recognised += other.recognised, liquid += other.liquid, unknown += other.unknown;
   }
   int sure() const { return recognised - unknown; }
 };
 
-Tally tally_of(const std::vector<TrialResult>& trials) {
-  Tally tally;
+RowTally row_tally_of(const std::vector<TrialResult>& trials) {
+  RowTally tally;
   for (const TrialResult& trial : trials)
     for (const TrialCup& cup : trial.cups) {
       ++tally.cups;
@@ -68,26 +68,26 @@ std::string label_of(const Json& filling) {
 }
 
 /// Of one kind of desk: the tally of each filling by each method.
-using Tallies = std::vector<std::array<Tally, kMethods.size()>>;
+using Tallies = std::vector<std::array<RowTally, kTableMethods.size()>>;
 
 Tallies fill_in(const ClutterSpec& clutter, int desks, std::uint64_t seed, Progress& progress) {
   Tallies tallies;
   for (std::size_t i = 0; i < clutter.fillings.size(); ++i) {
     ClutterSpec one = clutter;
     one.fillings = {clutter.fillings[i]};
-    const auto trials = search_desks(one, kMethods, desks, seed + i, progress);
-    tallies.push_back({tally_of(trials[0]), tally_of(trials[1])});
+    const auto trials = search_desks(one, kTableMethods, desks, seed + i, progress);
+    tallies.push_back({row_tally_of(trials[0]), row_tally_of(trials[1])});
   }
   return tallies;
 }
 
 void add_facts(const Tallies& tallies, std::size_t method, const std::string& words, std::vector<Fact>& facts) {
-  Tally all, filled;
+  RowTally all, filled;
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     all.add(tallies[i][method]);
     if (i > 0) filled.add(tallies[i][method]);
   }
-  const Tally& empty = tallies[0][method];
+  const RowTally& empty = tallies[0][method];
   facts.push_back({words + ": cups recognised", share_text(116, 160), share_text(all.recognised, all.cups)});
   facts.push_back({words + ": of the recognised filled ones called so", share_text(108, 108),
                    share_text(filled.liquid, filled.sure())});
@@ -99,7 +99,7 @@ void add_facts(const Tallies& tallies, std::size_t method, const std::string& wo
 }  // namespace
 
 Figure reproduce_table1(const ReproduceSettings& settings) {
-  const int desks = settings.trials.value_or(kPaperDesks);
+  const int desks = settings.trials.value_or(kTableDesks);
   const ClutterSpec crowd = changed_clutter("liquids.json", "{}"),
                     one = changed_clutter("liquids.json", R"({"objects": {"number": [1, 1]}})");
   if (crowd.fillings.size() != kPrinted.size())
@@ -123,11 +123,11 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
   for (std::size_t i = 0; i < kPrinted.size(); ++i) {
     const Json& filling = crowd.fillings[i];
     for (const bool many : {false, true})
-      for (std::size_t j = 0; j < kMethods.size(); ++j) {
-        const Tally& tally = (many ? among_many : beside_one)[i][j];
+      for (std::size_t j = 0; j < kTableMethods.size(); ++j) {
+        const RowTally& tally = (many ? among_many : beside_one)[i][j];
         figure.table.add({filling.value("liquid", "empty"), fmt::format("{:g}", filling.value("fill_mm", 0.0)), "10",
                           fmt::format("{}", kPrinted[i].recognised), fmt::format("{}", kPrinted[i].liquid),
-                          many ? "3 to 6" : "1", std::string(kMethods[j]), fmt::format("{}", tally.cups),
+                          many ? "3 to 6" : "1", std::string(kTableMethods[j]), fmt::format("{}", tally.cups),
                           fmt::format("{}", tally.recognised), fmt::format("{}", tally.liquid),
                           fmt::format("{}", tally.unknown)});
       }

@@ -16,7 +16,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kDistanceMm = 400.0;
+constexpr double kViewedMm = 400.0;
 constexpr double kSliceHalfMetres = 0.012;  // a few columns of the image, so that the walls do not hide the inside
 constexpr double kShownHalfMm = 75.0;       // of the picture's width
 
@@ -32,7 +32,7 @@ Table slice(const Image<CloudPoint>& cloud, const Rig& rig, const CupShape& cup)
   for (const CloudPoint& point : cloud.pixels()) {
     if (!(point.z > 0.0f)) continue;  // NaN: not measured
     const Eigen::Vector3d p = rig.world_from_camera * Eigen::Vector3d(point.x, point.y, point.z);
-    const double along = p.y() - metres_from_mm(kDistanceMm);
+    const double along = p.y() - metres_from_mm(kViewedMm);
     if (std::abs(p.x()) > kSliceHalfMetres || std::abs(along) > 0.09) continue;
     const bool inside = std::hypot(p.x(), along) < radius && p.z() < 0.06;
     table.add({fmt::format("{:.2f}", mm_from_metres(p.y())), fmt::format("{:.2f}", mm_from_metres(p.z())),
@@ -55,9 +55,9 @@ set label 1 'desk' at {far}-2,3 right textcolor rgb ink
 set label 2 {words} at {outer_far}+4,{bottom}+9 left textcolor rgb green
 set arrow 3 from {outer_far}+3.5,{bottom}+8 to {inner_far}-2,{bottom}+0.6 lw 1.5 lc rgb green head filled size 2,18 front
 )",
-                     fmt::arg("near", kDistanceMm - kShownHalfMm), fmt::arg("far", kDistanceMm + kShownHalfMm),
-                     fmt::arg("inner_near", kDistanceMm - inner), fmt::arg("inner_far", kDistanceMm + inner),
-                     fmt::arg("outer_near", kDistanceMm - outer), fmt::arg("outer_far", kDistanceMm + outer),
+                     fmt::arg("near", kViewedMm - kShownHalfMm), fmt::arg("far", kViewedMm + kShownHalfMm),
+                     fmt::arg("inner_near", kViewedMm - inner), fmt::arg("inner_far", kViewedMm + inner),
+                     fmt::arg("outer_near", kViewedMm - outer), fmt::arg("outer_far", kViewedMm + outer),
                      fmt::arg("words", gnuplot_text(fmt::format("true bottom {:g} mm", mm_from_metres(cup.bottom())))),
                      fmt::arg("bottom", mm_from_metres(cup.bottom())), fmt::arg("rim", mm_from_metres(cup.height())));
 }
@@ -71,8 +71,8 @@ set arrow 4 from {near},{surface} to {far},{surface} nohead lw 2.5 dt 2 lc rgb b
 set label 3 {words} at {outer}+4,{surface}+8 left textcolor rgb blue
 set arrow 5 from {outer}+3.5,{surface}+8 to {far}+0.5,{surface} lw 1.5 lc rgb blue head filled size 2,18 front
 )",
-      fmt::arg("near", kDistanceMm - inner), fmt::arg("far", kDistanceMm + inner),
-      fmt::arg("outer", kDistanceMm + outer), fmt::arg("bottom", bottom), fmt::arg("surface", bottom + filling.fill_mm),
+      fmt::arg("near", kViewedMm - inner), fmt::arg("far", kViewedMm + inner), fmt::arg("outer", kViewedMm + outer),
+      fmt::arg("bottom", bottom), fmt::arg("surface", bottom + filling.fill_mm),
       fmt::arg("words", gnuplot_text(fmt::format("true surface {:g} mm", bottom + filling.fill_mm))),
       fmt::arg("colour", filling.liquid == "water" ? "0xE3F1FA" : "0xF3E6D3"));
 }
@@ -83,13 +83,13 @@ std::string measured_plot(const View& view, double measured_mm, double bottom_mm
       fmt::format(R"(set label 4 {0} at {2}-37,{1}+10 left textcolor rgb red front
 set arrow 6 from {2}-5,{1}+7.5 to {2}+5,{1}+2 lw 1.5 lc rgb red head filled size 2,18 front
 )",
-                  gnuplot_text(fmt::format("{} {:.1f} mm", view.what, measured_mm)), measured_mm, kDistanceMm);
+                  gnuplot_text(fmt::format("{} {:.1f} mm", view.what, measured_mm)), measured_mm, kViewedMm);
   if (view.filling.liquid == "water")
     text += fmt::format(
         R"(set arrow 7 from {0}+20,{1}+0.4 to {0}+20,{2}-0.8 heads filled size 1.6,18 lw 1.8 lc rgb ink front
 set label 5 {3} at {0}+22,{1}+4.5 left textcolor rgb ink front
 )",
-        kDistanceMm, bottom_mm, measured_mm, gnuplot_text(fmt::format("+{:.1f} mm", measured_mm - bottom_mm)));
+        kViewedMm, bottom_mm, measured_mm, gnuplot_text(fmt::format("+{:.1f} mm", measured_mm - bottom_mm)));
   return text;
 }
 
@@ -119,11 +119,11 @@ wall = 0xF1ECE4)",
 }
 
 Figure reproduce_view(const View& view, const ReproduceSettings& settings) {
-  const Setup setup = paper_setup(view.filling, kDistanceMm);
+  const Setup setup = paper_setup(view.filling, kViewedMm);
   const CupShape& cup = std::get<CupShape>(setup.scene.cups.front().shape);
   Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, settings.seed);
   const Image<CloudPoint> cloud = camera.shoot(0).cloud;
-  const auto found = height_in_cup(cloud_from_image(cloud), paper_rig(setup), {0.0, metres_from_mm(kDistanceMm)});
+  const auto found = height_in_cup(cloud_from_image(cloud), paper_rig(setup), {0.0, metres_from_mm(kViewedMm)});
   const InteriorHeight* height = std::get_if<InteriorHeight>(&found);
   Figure figure{.name = view.name,
                 .title = view.title,
@@ -173,8 +173,8 @@ Figure reproduce_fig4(const ReproduceSettings& settings) {
       settings);
   const double raised_m = theory::raised_height_at(metres_from_mm(filling.fill_mm),
                                                    {.h = metres_from_mm(kPaperHeightMm - kPaperBottomMm),
-                                                    .b = paper_setup(filling, kDistanceMm).rig.sensor.baseline,
-                                                    .d = metres_from_mm(kDistanceMm),
+                                                    .b = paper_setup(filling, kViewedMm).rig.sensor.baseline,
+                                                    .d = metres_from_mm(kViewedMm),
                                                     .n = kPaperIndex});
   figure.facts.push_back({fmt::format("The true bottom ({:g} mm) and what Eq. 7 adds", kPaperBottomMm), "–",
                           fmt::format("{:.1f} mm", kPaperBottomMm + mm_from_metres(raised_m))});

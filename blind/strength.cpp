@@ -1,8 +1,6 @@
 #include "blind/strength.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "blind/match.h"
 #include "blind/unit.h"
+#include "core/dense.h"
 #include "core/estimate.h"
 
 namespace fathom::blind {
@@ -193,10 +192,10 @@ Strengths::Strengths(const Design& design, std::vector<Placement> placements, co
 
   Eigen::MatrixXd n(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) n.col(static_cast<Eigen::Index>(i)) = columns[i];
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(n.transpose() * n);
-  const Eigen::VectorXd squares = gram.eigenvalues();
+  const SymmetricEigen gram = symmetric_eigen(n.transpose() * n);
+  const Eigen::VectorXd squares = gram.values;
   const Eigen::Index kept = (squares.array() > 1e-9 * squares.maxCoeff()).count();
-  nuisance_axes_ = n * gram.eigenvectors().rightCols(kept) * squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  nuisance_axes_ = n * gram.vectors.rightCols(kept) * squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   nuisance_loss_ = 1.0 - (1.0 + squares.tail(kept).array()).sqrt().inverse();
 }
 
@@ -259,7 +258,7 @@ double Strengths::escape(const Eigen::MatrixXd& signature, std::span<const Hidde
   if (columns.empty()) return common_norm(signature);
   Eigen::MatrixXd span(signature.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) span.col(static_cast<Eigen::Index>(i)) = columns[i];
-  return common_norm(signature - span * span.colPivHouseholderQr().solve(signature));
+  return common_norm(signature - span * least_squares(span, signature));
 }
 
 std::map<std::string, double> Strengths::by_liquid(const Eigen::MatrixXd& signature) const {

@@ -40,6 +40,17 @@ endif()
 option(FATHOM_PRECOMPILE "Compile the headers of libraries once, not in every file" ON)
 set(FATHOM_PRECOMPILED <Eigen/Geometry> <filesystem> <fmt/format.h> <functional> <map> <nlohmann/json.hpp>)
 
+# What takes most of a file's time is not its own: templates of Eigen, nlohmann and GoogleTest that every file instantiates
+# again, even those that are pending in a precompiled header. So eight files are compiled as one.
+# Clang's presets compile each alone, and so find a file that forgets a header; who works on a file may do so as well.
+option(FATHOM_UNITY "Compile several files as one" ON)
+set(CMAKE_UNITY_BUILD ${FATHOM_UNITY})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+if(FATHOM_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # GCC takes a source that another one includes for a header.
+  target_compile_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-Wno-subobject-linkage>)
+endif()
+
 # fathom_precompiled(NAME [HEADERS...] [LINK targets...] [FOR_PROGRAMS]): what fathom_use_precompiled(TARGET NAME) shares.
 function(fathom_precompiled name)
   cmake_parse_arguments(ARG "FOR_PROGRAMS" "" "HEADERS;LINK" ${ARGN})

@@ -1,9 +1,9 @@
 #include "bench/baselines/diagnosis_baselines.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"
 
@@ -72,7 +72,7 @@ double bic(const Scaled& s, const std::vector<int>& effects) {
   double chi2 = s.residual.squaredNorm();
   if (!effects.empty()) {
     const Eigen::MatrixXd X = s.signatures(Eigen::all, effects);
-    chi2 = (s.residual - X * X.colPivHouseholderQr().solve(s.residual)).squaredNorm();
+    chi2 = (s.residual - X * least_squares(X, s.residual)).squaredNorm();
   }
   return chi2 + static_cast<double>(effects.size()) * std::log(static_cast<double>(s.residual.size()));
 }

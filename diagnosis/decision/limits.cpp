@@ -1,10 +1,10 @@
 #include "diagnosis/decision/limits.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/decision_settings.h"
 
 namespace fathom {
@@ -59,8 +59,7 @@ std::vector<ConfusablePair> confusable_pairs(const Evidence& evidence, const Pro
       const Eigen::MatrixXd& larger = bases[i].cols() >= bases[j].cols() ? bases[i] : bases[j];
       const Eigen::MatrixXd& smaller = bases[i].cols() >= bases[j].cols() ? bases[j] : bases[i];
       const Eigen::MatrixXd left = smaller - larger * (larger.transpose() * smaller);
-      const double sine =
-          std::sqrt((left.transpose() * left).eval().selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff());
+      const double sine = std::sqrt(symmetric_eigen(left.transpose() * left).values.maxCoeff());
       const double angle_deg = std::asin(std::min(1.0, sine)) * 180.0 / std::numbers::pi;
       if (angle_deg < kConfusable_deg)
         result.push_back({evidence.candidates[i].effect, evidence.candidates[j].effect, angle_deg});
@@ -82,13 +81,13 @@ std::vector<NearNullDirection> near_null_directions(const Evidence& evidence, co
   std::vector<NearNullDirection> result;
   if (columns.empty()) return result;
   const Eigen::MatrixXd unit = problem.signatures(Eigen::all, columns).colwise().normalized();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.transpose() * unit);
-  for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k) {
-    const double strength = std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
+  const SymmetricEigen eigen = symmetric_eigen(unit.transpose() * unit);
+  for (Eigen::Index k = 0; k < eigen.values.size(); ++k) {
+    const double strength = std::sqrt(std::max(0.0, eigen.values[k]));
     if (strength > kNearNull) break;
     NearNullDirection direction{{}, {}, strength};
     for (Eigen::Index i = 0; i < unit.cols(); ++i)
-      if (const double weight = eigen.eigenvectors()(i, k); std::abs(weight) > kPartOf) {
+      if (const double weight = eigen.vectors(i, k); std::abs(weight) > kPartOf) {
         direction.effects.push_back(names[i]);
         direction.weights.push_back(weight);
       }

@@ -1,12 +1,12 @@
 #include "diagnosis/decision/next_measurement.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "core/dense.h"
 #include "diagnosis/decision/explanations.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/leeway.h"
@@ -213,7 +213,7 @@ class Together {
 /// Norm of what columns cannot take from a difference, all whitened.
 double left(const Eigen::VectorXd& difference, const Eigen::MatrixXd& hiding) {
   if (hiding.isZero(0.0)) return difference.norm();  // effects that move nothing, or none
-  return (difference - hiding * hiding.colPivHouseholderQr().solve(difference)).norm();
+  return (difference - hiding * least_squares(hiding, difference)).norm();
 }
 
 bool includes(const Option& option, const Option& part) {

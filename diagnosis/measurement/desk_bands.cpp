@@ -9,7 +9,7 @@ namespace fathom {
 namespace {
 
 constexpr double kReference = 25600.0;  // pixels of a whole band of rows
-constexpr double kFewestPixels = 1000.0;
+constexpr double kFewestOfBand = 1000.0;
 constexpr double kOfPlane = 2.0;  // of a plane's three parameters, each kind of bands feels so many
 
 struct Pooled {
@@ -26,7 +26,7 @@ Pooled pooled(std::span<const DeskBands> trials, Bands DeskBands::*bands) {
     bool in_all = true;
     for (const DeskBands& trial : trials) {
       const RegionEstimate& band = (trial.*bands)[i];
-      in_all = in_all && band.weight >= kFewestPixels;
+      in_all = in_all && band.weight >= kFewestOfBand;
       weight += band.weight / n;
       mean += band.mean / n;
     }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
 constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
-constexpr double kFewestPixels = 100.0;
+constexpr double kFewestOfDesk = 100.0;
 // A plane of few codes, or of pixels at distances that are whole steps apart, has teeth of its own.
 constexpr double kManyCodes = 8.0;      // deviation
 constexpr double kTeethOfPlane = 0.25;  // a desk seen by all pixels has up to 0.15
@@ -59,7 +59,7 @@ std::optional<Plane> refit(std::span<const SensedPoint> points, const Plane& des
     uu += w * u * u, uv += w * u * v, vv += w * v * v, u1 += w * u, v1 += w * v, ww += w;
     uq += w * u * inverse, vq += w * v * inverse, qq += w * inverse;
   }
-  if (ww < kFewestPixels) return std::nullopt;
+  if (ww < kFewestOfDesk) return std::nullopt;
   Eigen::Matrix3d normal;
   normal << uu, uv, u1, uv, vv, v1, u1, v1, ww;
   const Eigen::Vector3d q = normal.ldlt().solve(Eigen::Vector3d(uq, vq, qq));

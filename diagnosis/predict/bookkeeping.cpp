@@ -22,18 +22,18 @@ namespace {
 using Reading = std::function<Factors(Factors)>;
 
 /// Session, liquid and fill [mm] as written down.
-using Filling = std::tuple<int, std::string, double>;
-Filling filling_of(const Factors& factors) { return {factors.session, factors.liquid, factors.fill_mm}; }
+using FillingKey = std::tuple<int, std::string, double>;
+FillingKey filling_of(const Factors& factors) { return {factors.session, factors.liquid, factors.fill_mm}; }
 int session_of(const Factors& factors) { return factors.session; }
 
 /// " of session 1" where all its fillings are, " of 2 and 4 mm" where other fillings of it are not, nothing where all
 /// are.
-std::string whose(const std::set<Filling>& wrong, const std::set<Filling>& all) {
+std::string whose(const std::set<FillingKey>& wrong, const std::set<FillingKey>& all) {
   if (wrong == all) return {};
   std::set<int> sessions;
   std::set<double> fills_mm;
   for (const auto& [session, liquid, fill_mm] : wrong) sessions.insert(session), fills_mm.insert(fill_mm);
-  const bool is_whole_sessions = std::all_of(all.begin(), all.end(), [&](const Filling& filling) {
+  const bool is_whole_sessions = std::all_of(all.begin(), all.end(), [&](const FillingKey& filling) {
     return wrong.contains(filling) || !sessions.contains(std::get<0>(filling));
   });
   return is_whole_sessions ? fmt::format(" of session {}", fmt::join(sessions, " and "))
@@ -58,20 +58,20 @@ class Heights {
   }
 
   /// The fillings whose heights another reading meets better, in sessions in which these together are met far better.
-  std::set<Filling> fillings_that_fit_far_better(const Reading& reading) const {
+  std::set<FillingKey> fillings_that_fit_far_better(const Reading& reading) const {
     std::map<int, Fit> better;
-    const std::map<Filling, Fit> fits = fits_by<Filling>(filling_of, reading);
+    const std::map<FillingKey, Fit> fits = fits_by<FillingKey>(filling_of, reading);
     for (const auto& [filling, fit] : fits)
       if (fit.after < fit.before) better[std::get<0>(filling)] += fit;
-    std::set<Filling> fillings;
+    std::set<FillingKey> fillings;
     for (const auto& [filling, fit] : fits)
       if (fit.after < fit.before && better[std::get<0>(filling)].is_far_better()) fillings.insert(filling);
     return fillings;
   }
 
   /// All with liquids.
-  std::set<Filling> fillings() const {
-    std::set<Filling> result;
+  std::set<FillingKey> fillings() const {
+    std::set<FillingKey> result;
     for (const Observation& row : rows_) result.insert(filling_of(row.factors));
     return result;
   }
@@ -152,7 +152,7 @@ void put_units_right(const Heights& heights, Measurement& measurement) {
       factors.fill_mm *= unit.mm;
       return factors;
     };
-    const std::set<Filling> wrong = heights.fillings_that_fit_far_better(in_unit);
+    const std::set<FillingKey> wrong = heights.fillings_that_fit_far_better(in_unit);
     if (wrong.empty()) continue;
     const Reading put_right = [&](const Factors& f) { return wrong.contains(filling_of(f)) ? in_unit(f) : f; };
     leave_out_walls_below(put_right, measurement);

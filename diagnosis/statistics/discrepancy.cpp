@@ -1,6 +1,5 @@
 #include "diagnosis/statistics/discrepancy.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/box_least_squares.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"
@@ -17,7 +17,7 @@ namespace fathom {
 namespace {
 
 constexpr Eigen::Index kRank = 120;
-constexpr double kEnough = 1e-3;  // of the process's variance may be left out
+constexpr double kEnoughVariance = 1e-3;  // of the process's variance may be left out
 constexpr std::array<double, 8> kSizes{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};  // times the errors
 
 constexpr double kNarrowest_mm = 12.0;  // what is narrower, a matcher's window makes as wide: 9 px, 0.75 m away
@@ -73,7 +73,7 @@ Eigen::MatrixXd smooth_factor(const std::vector<Place>& at, double shared) {
   Eigen::Index rank = 0;
   while (rank < factor.cols()) {
     Eigen::Index pivot = 0;
-    if (left.cwiseProduct(relative).maxCoeff(&pivot) < kEnough) break;
+    if (left.cwiseProduct(relative).maxCoeff(&pivot) < kEnoughVariance) break;
     for (Eigen::Index i = 0; i < n; ++i) factor(i, rank) = kernel(at[i], at[pivot], shared);
     factor.col(rank) -= factor.leftCols(rank) * factor.row(pivot).head(rank).transpose();
     factor.col(rank) /= std::sqrt(left[pivot]);
@@ -116,10 +116,10 @@ class Spectrum {
  public:
   explicit Spectrum(const Eigen::MatrixXd& columns) {
     constexpr double kNothing = 1e-9;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
-    const Eigen::Index count = (eigen.eigenvalues().array() > kNothing).count();
-    values_ = eigen.eigenvalues().tail(count);
-    to_weights_ = eigen.eigenvectors().rightCols(count) * values_.rsqrt().matrix().asDiagonal();
+    const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
+    const Eigen::Index count = (eigen.values.array() > kNothing).count();
+    values_ = eigen.values.tail(count);
+    to_weights_ = eigen.vectors.rightCols(count) * values_.rsqrt().matrix().asDiagonal();
     along_ = columns * to_weights_;
   }
 

@@ -1,8 +1,9 @@
 #include "diagnosis/statistics/leeway.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "core/dense.h"
 
 namespace fathom {
 
@@ -34,11 +35,10 @@ Leeway leeway_of(const Eigen::MatrixXd& errors, std::optional<double> grows_from
   constexpr double kNothing = 1e-9;  // of a residual's variance
   Leeway leeway{Eigen::MatrixXd(errors.rows(), 0), {}, grows_from};
   if (errors.cols() == 0) return leeway;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(errors.transpose() * errors);
-  const Eigen::Index count = (eigen.eigenvalues().array() > kNothing).count();  // they ascend
-  leeway.variance = eigen.eigenvalues().tail(count);
-  leeway.along =
-      errors * eigen.eigenvectors().rightCols(count) * leeway.variance.cwiseSqrt().cwiseInverse().asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen(errors.transpose() * errors);
+  const Eigen::Index count = (eigen.values.array() > kNothing).count();  // they ascend
+  leeway.variance = eigen.values.tail(count);
+  leeway.along = errors * eigen.vectors.rightCols(count) * leeway.variance.cwiseSqrt().cwiseInverse().asDiagonal();
   leeway.log_det = leeway.variance.array().log1p().sum();
   return leeway;
 }

@@ -1,11 +1,11 @@
 #include "diagnosis/statistics/posterior.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/screen.h"
 
@@ -99,7 +99,7 @@ void add_confusable(const Case& c, std::vector<Refit>& fits) {
       if (other.isZero(0.0)) continue;
       const std::vector<Eigen::Index>& columns = problem.columns[effect];
       const Eigen::VectorXd parameters =
-          other.colPivHouseholderQr().solve(change).cwiseMax(problem.lower(columns)).cwiseMin(problem.upper(columns));
+          least_squares(other, change).cwiseMax(problem.lower(columns)).cwiseMin(problem.upper(columns));
       const Eigen::VectorXd changes = other * parameters;
       if (const double cosine = changes.dot(change) / (changes.norm() * change.norm()); cosine > kLeastCosine)
         alike.emplace_back(cosine, with_effect(problem, others, effect, parameters));

@@ -9,7 +9,7 @@ namespace fathom {
 namespace {
 
 constexpr int kScoringSteps = 30;
-constexpr double kEnough = 1e-4;        // change of a variance, relative to all of them, at which scoring stops
+constexpr double kEnoughChange = 1e-4;  // change of a variance, relative to all of them, at which scoring stops
 constexpr double kSmallestStep = 0.25;  // of a variance with a prior, which is never 0
 
 /// First derivatives of the log likelihood by the variances, and minus the expectation of the second ones.
@@ -78,7 +78,7 @@ VarianceFit fit_variances(const Eigen::VectorXd& contrasts, const Eigen::MatrixX
     Eigen::VectorXd next = variances + information.completeOrthogonalDecomposition().solve(score);
     for (Eigen::Index k = 0; k < count; ++k)
       next[k] = std::max(next[k], scaled[k].dof > 0.0 ? kSmallestStep * variances[k] : 0.0);
-    const bool is_done = (next - variances).norm() <= kEnough * (next.norm() + 1e-300);
+    const bool is_done = (next - variances).norm() <= kEnoughChange * (next.norm() + 1e-300);
     variances = next;
     if (is_done) break;
   }

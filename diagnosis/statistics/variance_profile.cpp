@@ -1,9 +1,9 @@
 #include "diagnosis/statistics/variance_profile.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/shared_errors.h"
 
@@ -28,11 +28,11 @@ Eigen::MatrixXd columns_of(const VarianceComponent& component, double of_varianc
 }  // namespace
 
 void VarianceProfile::add(const Eigen::MatrixXd& columns, double prior_dof, double most) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
-  const Eigen::Index count = (eigen.eigenvalues().array() > kLeastShare).count();
+  const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
+  const Eigen::Index count = (eigen.values.array() > kLeastShare).count();
   if (count == 0) return;
-  const Eigen::VectorXd shares = eigen.eigenvalues().tail(count);
-  parts_.push_back({columns * eigen.eigenvectors().rightCols(count) * shares.cwiseSqrt().cwiseInverse().asDiagonal(),
+  const Eigen::VectorXd shares = eigen.values.tail(count);
+  parts_.push_back({columns * eigen.vectors.rightCols(count) * shares.cwiseSqrt().cwiseInverse().asDiagonal(),
                     shares.array().min(1.0), prior_dof, most});
 }
 

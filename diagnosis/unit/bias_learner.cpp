@@ -1,10 +1,10 @@
 #include "diagnosis/unit/bias_learner.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "core/dense.h"
 #include "core/error.h"
 
 namespace fathom {
@@ -171,14 +171,14 @@ std::vector<BiasField> BiasLearner::error_modes(int count, std::span<const BiasP
   if (rows.empty()) return {};
   Eigen::MatrixXd points(rows.front().size(), static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = rows[i];
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(points.transpose() * points);
+  const SymmetricEigen eigen = symmetric_eigen(points.transpose() * points);
   const int half = cosines_.size();
   const Eigen::Index shared = shared_variance_.size();
   std::vector<BiasField> modes;
   for (Eigen::Index i = points.cols() - 1; i >= 0 && static_cast<int>(modes.size()) < count; --i) {
-    const double squared = solver.eigenvalues()[i];
-    if (squared <= 1e-12 * solver.eigenvalues()[points.cols() - 1] || squared <= 0.0) break;
-    const Eigen::VectorXd white = points * solver.eigenvectors().col(i) / std::sqrt(squared);
+    const double squared = eigen.values[i];
+    if (squared <= 1e-12 * eigen.values[points.cols() - 1] || squared <= 0.0) break;
+    const Eigen::VectorXd white = points * eigen.vectors.col(i) / std::sqrt(squared);
     Solution mode;
     mode.shared = precision_.matrixU().solve(white.head(shared));
     if (has_states_)

@@ -13,7 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr int kMostSteps = 24;
-constexpr double kEnough = 0.05;  ///< change of an amplitude, of the largest one's, at which the search ends
+constexpr double kEnoughChange = 0.05;  ///< change of an amplitude, of the largest one's, at which the search ends
 constexpr double kMost_px = 0.3, kNegligible_px = 0.002;
 constexpr std::size_t kFewestViews = 3;
 constexpr std::size_t kMostViews = 24;  ///< that are looked at, evenly: a covariance has few numbers
@@ -58,7 +58,7 @@ BiasPrior learned_bias_prior(std::span<const BiasView> views) {
   BiasPrior prior = wide_prior(static_cast<int>(states.size()));
   for (int step = 0; step < kMostSteps; ++step) {
     const BiasPrior before = std::exchange(prior, BiasLearner(some, prior).improved());
-    if (change(before, prior) < kEnough) break;
+    if (change(before, prior) < kEnoughChange) break;
   }
   for (BiasAmplitudes* amplitudes : {&prior.reference_px, &prior.camera_px, &prior.state_px})
     for (double& amplitude : *amplitudes)

@@ -10,7 +10,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // [1/px] The shortest reach is 30 px: such a field has 4 % of its greatest spectral density there, and less beyond.
 constexpr double kShortestWave = 0.085;
-constexpr double kWidth = Cosines::kRight_px - Cosines::kLeft_px, kHeight = Cosines::kBottom_px - Cosines::kTop_px;
+constexpr double kFieldWidth = Cosines::kRight_px - Cosines::kLeft_px,
+                 kFieldHeight = Cosines::kBottom_px - Cosines::kTop_px;
 
 Eigen::VectorXd cosines(double from_border, double length, int count) {
   Eigen::VectorXd values(count);
@@ -20,23 +21,25 @@ Eigen::VectorXd cosines(double from_border, double length, int count) {
 }
 
 double squared_wave_number(const std::pair<int, int>& wave) {
-  return std::pow(wave.first * kPi / kWidth, 2.0) + std::pow(wave.second * kPi / kHeight, 2.0);
+  return std::pow(wave.first * kPi / kFieldWidth, 2.0) + std::pow(wave.second * kPi / kFieldHeight, 2.0);
 }
 
 }  // namespace
 
 Cosines::Cosines() {
-  for (int i = 0; i * kPi / kWidth <= kShortestWave; ++i)
-    for (int j = 0; j * kPi / kHeight <= kShortestWave; ++j)
+  for (int i = 0; i * kPi / kFieldWidth <= kShortestWave; ++i)
+    for (int j = 0; j * kPi / kFieldHeight <= kShortestWave; ++j)
       if (squared_wave_number({i, j}) <= kShortestWave * kShortestWave) {
         waves_.emplace_back(i, j);
         across_ = std::max(across_, i + 1), down_ = std::max(down_, j + 1);
       }
 }
 
-Eigen::VectorXd Cosines::along_row(double column_px) const { return cosines(column_px - kLeft_px, kWidth, across_); }
+Eigen::VectorXd Cosines::along_row(double column_px) const {
+  return cosines(column_px - kLeft_px, kFieldWidth, across_);
+}
 
-Eigen::VectorXd Cosines::along_column(double row_px) const { return cosines(row_px - kTop_px, kHeight, down_); }
+Eigen::VectorXd Cosines::along_column(double row_px) const { return cosines(row_px - kTop_px, kFieldHeight, down_); }
 
 Eigen::VectorXd Cosines::at(double column_px, double row_px) const {
   const Eigen::VectorXd x = along_row(column_px), y = along_column(row_px);

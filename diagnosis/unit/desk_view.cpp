@@ -8,7 +8,7 @@
 namespace fathom {
 namespace {
 
-constexpr int kColumns = static_cast<int>(640 / kBiasCell_px), kRows = static_cast<int>(480 / kBiasCell_px);
+constexpr int kCellColumns = static_cast<int>(640 / kBiasCell_px), kCellRows = static_cast<int>(480 / kBiasCell_px);
 constexpr double kFromMean_px = 0.4;  ///< four times a pixel's noise and the steps of 1/8 px
 constexpr double kLeastFilled = 0.35, kLeastDesk = 0.6;
 constexpr std::size_t kFewestCells = 20;
@@ -25,10 +25,10 @@ std::vector<Pixel> pixels_of(std::span<const Points> clouds, const DeviceScale& 
     for (const Eigen::Vector3f& point : points) {
       if (!point.allFinite() || !(point.z() > 0.0f)) continue;
       const Eigen::Vector2d at = (scale.pixel_px(point) / kBiasCell_px).array().floor();  // may be beyond any int
-      const bool inside = at.x() >= 0.0 && at.x() < kColumns && at.y() >= 0.0 && at.y() < kRows;
+      const bool inside = at.x() >= 0.0 && at.x() < kCellColumns && at.y() >= 0.0 && at.y() < kCellRows;
       pixels.push_back({static_cast<double>(point.x()) / point.z(), static_cast<double>(point.y()) / point.z(),
                         scale.disparity_px(point.z()),
-                        inside ? static_cast<int>(at.y()) * kColumns + static_cast<int>(at.x()) : -1});
+                        inside ? static_cast<int>(at.y()) * kCellColumns + static_cast<int>(at.x()) : -1});
     }
   return pixels;
 }
@@ -47,19 +47,19 @@ Eigen::Vector3d fit(const std::vector<Pixel>& pixels, const Eigen::Vector3d& fro
 }
 
 struct Sums {
-  std::vector<double> seen = std::vector<double>(kColumns * kRows), desk = seen, error = seen, disparity = seen;
+  std::vector<double> seen = std::vector<double>(kCellColumns * kCellRows), desk = seen, error = seen, disparity = seen;
 };
 
 /// Mean error of a cell and its neighbours, of those that hold desk.
 std::vector<double> means_about(const Sums& sums) {
   std::vector<double> means(sums.desk.size());
-  for (int y = 0; y < kRows; ++y)
-    for (int x = 0; x < kColumns; ++x) {
+  for (int y = 0; y < kCellRows; ++y)
+    for (int x = 0; x < kCellColumns; ++x) {
       double error = 0.0, weight = 0.0;
-      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, kRows - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, kColumns - 1); ++u)
-          error += sums.error[v * kColumns + u], weight += sums.desk[v * kColumns + u];
-      means[y * kColumns + x] = weight > 0.0 ? error / weight : 0.0;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, kCellRows - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, kCellColumns - 1); ++u)
+          error += sums.error[v * kCellColumns + u], weight += sums.desk[v * kCellColumns + u];
+      means[y * kCellColumns + x] = weight > 0.0 ? error / weight : 0.0;
     }
   return means;
 }
@@ -88,7 +88,7 @@ std::optional<CalibrationView> desk_view(std::span<const Points> clouds, const P
   Eigen::Vector3d plane = -guess.normal / guess.offset * product;
   constexpr double kWithin_px = 0.6;
   for (const double within_px : {2.0, 1.0, kWithin_px, kWithin_px, kWithin_px}) plane = fit(pixels, plane, within_px);
-  Sums sums = sums_of(pixels, plane, std::vector<double>(kColumns * kRows), kWithin_px);
+  Sums sums = sums_of(pixels, plane, std::vector<double>(kCellColumns * kCellRows), kWithin_px);
   for (int again = 0; again < 2; ++again) sums = sums_of(pixels, plane, means_about(sums), kFromMean_px);
 
   // A thinned cloud has fewer points in every cell.
@@ -99,10 +99,10 @@ std::optional<CalibrationView> desk_view(std::span<const Points> clouds, const P
   const auto most = filled.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(filled.size()));
   std::nth_element(filled.begin(), most, filled.end());
   CalibrationView result;
-  for (int cell = 0; cell < kColumns * kRows; ++cell) {
+  for (int cell = 0; cell < kCellColumns * kCellRows; ++cell) {
     if (sums.desk[cell] < kLeastFilled * *most || sums.desk[cell] < kLeastDesk * sums.seen[cell]) continue;
     const double points = sums.desk[cell];
-    result.view.cells.push_back({(cell % kColumns + 0.5) * kBiasCell_px, (cell / kColumns + 0.5) * kBiasCell_px,
+    result.view.cells.push_back({(cell % kCellColumns + 0.5) * kBiasCell_px, (cell / kCellColumns + 0.5) * kBiasCell_px,
                                  sums.disparity[cell] / points - product / kReferenceDistance_m,
                                  std::min(points / *most, 1.0) * kBiasCell_px * kBiasCell_px});
     result.view.errors_px.push_back(sums.error[cell] / points);

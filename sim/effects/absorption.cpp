@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_absorption(Setup& setup, const EffectSetting& setting) {
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     filling.medium.absorption = std::max(filling.medium.absorption + per_metre_from_per_mm(setting.values[0]), 0.0);
   });
@@ -26,7 +26,7 @@ Effect absorption() {
           .citation = "Kou, Labrie & Chylek 1993, Applied Optics 32, 3531: water's absorption in the near infrared",
           .twins = {"wall_albedo"},
           .discriminated_by = "two fills of the same liquid: absorption grows with the path, an albedo does not",
-          .apply = apply,
+          .apply = apply_absorption,
           .of_liquids = true};
 }
 

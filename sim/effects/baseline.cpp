@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_baseline(Setup& setup, const EffectSetting& setting) {
   const double more = metres_from_mm(setting.values[0]);
   keep_calibration(setup.rig.sensor);
   setup.rig.sensor.baseline += more;
@@ -24,7 +24,7 @@ Effect baseline() {
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: baseline among the calibration parameters",
           .twins = {"focal_length", "disparity_offset"},
           .discriminated_by = "other distances of the desk: an error of scale vanishes at the reference plane",
-          .apply = apply};
+          .apply = apply_baseline};
 }
 
 }  // namespace fathom::effects

@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_colour_registration(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] >= 0.5) setup.processing.colour_view = true;
 }
 
@@ -20,7 +20,7 @@ Effect colour_registration() {
       .citation = "OpenNI's depth-to-colour registration",
       .twins = {"cup_placement", "principal_point"},
       .discriminated_by = "shadows of things on the desk: 75 mm of baseline on one side, or 50 and 25 mm on two",
-      .apply = apply};
+      .apply = apply_colour_registration};
 }
 
 }  // namespace fathom::effects

@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_concave_bottom(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] == 0.0) return;
   constexpr int kRings = 16;
   const double depth = metres_from_mm(setting.values[0]);
@@ -42,7 +42,7 @@ Effect concave_bottom() {
           .citation = "Hara et al. 2014 take the bottom as flat; pressed cups are not",
           .twins = {"meniscus"},
           .discriminated_by = "the empty cup by regions, and turned by a quarter",
-          .apply = apply};
+          .apply = apply_concave_bottom};
 }
 
 }  // namespace fathom::effects

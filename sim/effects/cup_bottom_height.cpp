@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_cup_bottom_height(Setup& setup, const EffectSetting& setting) {
   const double more = metres_from_mm(setting.values[0]);
   for_each_cup(setup, [&](Cup&, CupShape& shape) {
     for (Eigen::Vector2d& point : shape.inner)
@@ -28,7 +28,7 @@ Effect cup_bottom_height() {
       .citation = "Hara et al. 2014 do not give the cup's bottom; 7 mm is assumed",
       .twins = {"fill_offset", "sensor_height"},
       .discriminated_by = "the empty cup: a fill cannot move its bottom",
-      .apply = apply};
+      .apply = apply_cup_bottom_height};
 }
 
 }  // namespace fathom::effects

@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_cup_placement(Setup& setup, const EffectSetting& setting) {
   for (Cup& cup : setup.scene.cups)
     cup.position += Eigen::Vector2d(metres_from_mm(setting.values[0]), metres_from_mm(setting.values[1]));
 }
@@ -21,7 +21,7 @@ Effect cup_placement() {
           .citation = "Hara et al. 2014 place cups by hand at marks on the desk",
           .twins = {"sensor_pitch", "sensor_roll"},
           .discriminated_by = "the cup's outline in the cloud",
-          .apply = apply};
+          .apply = apply_cup_placement};
 }
 
 }  // namespace fathom::effects

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kCodePx = 0.125;
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_depth_quantization(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] >= 0.5) setup.rig.sensor.quantized = true;
   setup.rig.sensor.codes_per_step =
       std::max(setup.rig.sensor.codes_per_step, static_cast<int>(std::lround(setting.values[1] / kCodePx)));
@@ -26,7 +26,7 @@ Effect depth_quantization() {
           .citation = "OpenNI's shift-to-depth table; the law holds for every point of recorded frames",
           .twins = {"disparity_offset"},
           .discriminated_by = "the comb of the fractional disparities of any cloud",
-          .apply = apply};
+          .apply = apply_depth_quantization};
 }
 
 }  // namespace fathom::effects

@@ -4,7 +4,9 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) { setup.rig.sensor.step_phase += setting.values[0]; }
+void apply_depth_step_phase(Setup& setup, const EffectSetting& setting) {
+  setup.rig.sensor.step_phase += setting.values[0];
+}
 
 }  // namespace
 
@@ -16,7 +18,7 @@ Effect depth_step_phase() {
           .citation = "two tables are in use, half a step apart: libfreenect and OpenNI, and the vendor's SDK",
           .twins = {"disparity_offset"},
           .discriminated_by = "the comb of the fractional disparities of any cloud",
-          .apply = apply};
+          .apply = apply_depth_step_phase};
 }
 
 }  // namespace fathom::effects

@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_depth_truncation(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] >= 0.5) setup.rig.sensor.cut = kMetresPerMm;
 }
 
@@ -19,7 +19,7 @@ Effect depth_truncation() {
           .citation = "OpenNI's shift-to-depth table holds whole millimetres",
           .twins = {"disparity_offset", "sensor_height"},
           .discriminated_by = "the comb of the depths themselves",
-          .apply = apply};
+          .apply = apply_depth_truncation};
 }
 
 }  // namespace fathom::effects

@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_depth_wander(Setup& setup, const EffectSetting& setting) {
   UnitModel& unit = setup.rig.sensor.unit;
   unit.wander_px = std::hypot(unit.wander_px, setting.values[0]);
   unit.on_for_s = setup.circumstances.time_s;
@@ -24,7 +24,7 @@ Effect depth_wander() {
       .citation = "an empty pot's floor over three Kinect scenes: 0.6 mm where independent points would give 0.04 mm",
       .twins = {"thermal_drift"},
       .discriminated_by = "many trials without touching anything: the desk itself moves from frame to frame",
-      .apply = apply,
+      .apply = apply_depth_wander,
       .of_time = true};
 }
 

@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_disparity_offset(Setup& setup, const EffectSetting& setting) {
   setup.rig.sensor.unit.disparity_offset_px += setting.values[0];
 }
 
@@ -22,7 +22,7 @@ Effect disparity_offset() {
           "Khoshelham & Elberink 2012, Sensors 12, 1437: the linear normalisation of the raw disparity has an offset",
       .twins = {"baseline", "focal_length", "sensor_height", "thermal_drift"},
       .discriminated_by = "other heights of the sensor above the bare desk",
-      .apply = apply};
+      .apply = apply_disparity_offset};
 }
 
 }  // namespace fathom::effects

@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_evaporation(Setup& setup, const EffectSetting& setting) {
   constexpr double kSecondsPerHour = 3600.0;
   const double fallen = metres_from_mm(setting.values[0]) * setup.circumstances.stood_s / kSecondsPerHour;
   for_each_filling(setup, setting,
@@ -25,7 +25,7 @@ Effect evaporation() {
           .citation = "Sartori 2000, Solar Energy 68, 77: tenths of a millimetre an hour from water at rest",
           .twins = {"thermal_drift", "fill_offset"},
           .discriminated_by = "the same pour when it is fresh and after it has stood",
-          .apply = apply,
+          .apply = apply_evaporation,
           .of_liquids = true,
           .of_time = true};
 }

@@ -8,7 +8,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_fill_offset(Setup& setup, const EffectSetting& setting) {
   for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
     filling.depth = std::clamp(filling.depth + metres_from_mm(setting.values[0]), 0.0, cup_depth(cup));
   });
@@ -26,7 +26,7 @@ Effect fill_offset() {
           .citation = "Hara et al. 2014 pour to marks of 10, 20 and 30 mm",
           .twins = {"cup_bottom_height", "foam", "subsurface_scattering"},
           .discriminated_by = "weighing the cup, or an empty cup beside it",
-          .apply = apply,
+          .apply = apply_fill_offset,
           .of_liquids = true};
 }
 

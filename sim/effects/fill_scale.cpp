@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_fill_scale(Setup& setup, const EffectSetting& setting) {
   for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
     filling.depth = std::clamp(filling.depth * (1.0 + setting.values[0]), 0.0, cup_depth(cup));
   });
@@ -26,7 +26,7 @@ Effect fill_scale() {
           .citation = "Hara et al. 2014 pour to marks of 10, 20 and 30 mm",
           .twins = {"refractive_index", "unit_error"},
           .discriminated_by = "weighing the cup at two fills",
-          .apply = apply,
+          .apply = apply_fill_scale,
           .of_liquids = true};
 }
 

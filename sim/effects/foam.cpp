@@ -8,7 +8,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_foam(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] == 0.0) return;
   for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
     const double room = cup_depth(cup) - filling.depth;
@@ -30,7 +30,7 @@ Effect foam() {
       .citation = "Vera & Durian 1996, Physical Review E 53, 3215: foam scatters within a few bubbles, so it is opaque",
       .twins = {"fill_offset", "evaporation"},
       .discriminated_by = "the same pour after the foam has gone",
-      .apply = apply,
+      .apply = apply_foam,
       .of_liquids = true};
 }
 

@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_focal_length(Setup& setup, const EffectSetting& setting) {
   keep_calibration(setup.rig.sensor);
   setup.rig.sensor.focal_px += setting.values[0];
 }
@@ -21,7 +21,7 @@ Effect focal_length() {
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: focal length among the calibration parameters",
           .twins = {"baseline", "disparity_offset"},
           .discriminated_by = "a gauge of known width across the image: only the focal length scales it",
-          .apply = apply};
+          .apply = apply_focal_length};
 }
 
 }  // namespace fathom::effects

@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_label_swap(Setup& setup, const EffectSetting& setting) {
   const std::vector<Medium>& liquids = setup.circumstances.liquids;
   if (setting.values[0] < 0.5 || liquids.size() < 2) return;
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
@@ -27,7 +27,7 @@ Effect label_swap() {
               "and 722)",
           .twins = {"subsurface_scattering", "refractive_index"},
           .discriminated_by = "looking into the cups",
-          .apply = apply};
+          .apply = apply_label_swap};
 }
 
 }  // namespace fathom::effects

@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_meniscus(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] == 90.0) return;
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     filling.form.wetting = Wetting{radians_from_deg(setting.values[0]), metres_from_mm(2.73)};
@@ -22,7 +22,7 @@ Effect meniscus() {
           .citation = "Landau & Lifshitz, Fluid Mechanics, section 61; capillary length of water 2.73 mm",
           .twins = {"concave_bottom"},
           .discriminated_by = "ring regions against the centre, and an opaque liquid, whose surface is seen itself",
-          .apply = apply,
+          .apply = apply_meniscus,
           .of_liquids = true};
 }
 

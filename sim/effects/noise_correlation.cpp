@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_noise_correlation(Setup& setup, const EffectSetting& setting) {
   MatcherModel& matcher = setup.rig.sensor.matcher;
   const int more = 2 * static_cast<int>(std::lround(0.5 * setting.values[0]));
   matcher.window_columns += more;
@@ -23,7 +23,7 @@ Effect noise_correlation() {
           .citation = "PrimeSense's blocks of 9 x 9 pixels; errors of measured desks go together over 8 px along rows",
           .twins = {"window_averaging"},
           .discriminated_by = "the correlation of what a bare desk leaves of its plane",
-          .apply = apply};
+          .apply = apply_noise_correlation};
 }
 
 }  // namespace fathom::effects

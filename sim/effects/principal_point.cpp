@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_principal_point(Setup& setup, const EffectSetting& setting) {
   keep_calibration(setup.rig.sensor);
   setup.rig.sensor.principal_px += Eigen::Vector2d(setting.values[0], setting.values[1]);
 }
@@ -19,7 +19,7 @@ Effect principal_point() {
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: principal point among the calibration parameters",
           .twins = {"sensor_pitch", "sensor_roll"},
           .discriminated_by = "a target of known places on the desk",
-          .apply = apply};
+          .apply = apply_principal_point};
 }
 
 }  // namespace fathom::effects

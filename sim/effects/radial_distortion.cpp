@@ -4,7 +4,9 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) { setup.rig.sensor.optics.camera_k1 += setting.values[0]; }
+void apply_radial_distortion(Setup& setup, const EffectSetting& setting) {
+  setup.rig.sensor.optics.camera_k1 += setting.values[0];
+}
 
 }  // namespace
 
@@ -16,7 +18,7 @@ Effect radial_distortion() {
           .citation = "Brown 1966, Photogrammetric Engineering 32, 444",
           .twins = {"principal_point"},
           .discriminated_by = "the residual of the bare desk by image region",
-          .apply = apply};
+          .apply = apply_radial_distortion};
 }
 
 }  // namespace fathom::effects

@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_reference_residue(Setup& setup, const EffectSetting& setting) {
   double& residue_px = setup.rig.sensor.unit.residue_px;
   residue_px = std::hypot(residue_px, setting.values[0]);
 }
@@ -22,7 +22,7 @@ Effect reference_residue() {
       .citation = "what nine measured desks have in common beside their planes: 0.68 steps of 1/8 px over 70 px",
       .twins = {"radial_distortion"},
       .discriminated_by = "the residual of the bare desk by image region",
-      .apply = apply};
+      .apply = apply_reference_residue};
 }
 
 }  // namespace fathom::effects

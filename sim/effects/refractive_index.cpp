@@ -9,7 +9,7 @@ namespace {
 /// Of liquids only fluorinated ones bend light less.
 constexpr double kLeastIndex = 1.28;
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_refractive_index(Setup& setup, const EffectSetting& setting) {
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     Medium& medium = filling.medium;
@@ -35,7 +35,7 @@ Effect refractive_index() {
           "Daimon & Masumura 2007, Applied Optics 46, 3811: water at 830 nm has 1.328, not the 1.333 of visible light",
       .twins = {"fill_scale", "fill_offset"},
       .discriminated_by = "several distances and fills of the same liquid: the index acts on depth times obliqueness",
-      .apply = apply,
+      .apply = apply_refractive_index,
       .of_liquids = true};
 }
 

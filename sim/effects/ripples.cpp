@@ -22,7 +22,7 @@ Ripple wave_at(double time_s, double mean_square_slope) {
           .phase = 2.0 * std::numbers::pi * rng.uniform()};
 }
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_ripples(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] == 0.0) return;
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     filling.form.ripples.push_back(wave_at(setup.circumstances.time_s, setting.values[0]));
@@ -42,7 +42,7 @@ Effect ripples() {
           "by their mean square slope",
       .twins = {"refractive_index", "fill_scale"},
       .discriminated_by = "how trials scatter: no two shots see waves alike; trials spread over time: they die out",
-      .apply = apply,
+      .apply = apply_ripples,
       .of_liquids = true};
 }
 

@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_sensor_height(Setup& setup, const EffectSetting& setting) {
   setup.rig.world_from_camera.translation().z() += metres_from_mm(setting.values[0]);
 }
 
@@ -21,7 +21,7 @@ Effect sensor_height() {
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
           .twins = {"cup_bottom_height", "sensor_pitch"},
           .discriminated_by = "bare-desk views: the fitted desk lies lower",
-          .apply = apply};
+          .apply = apply_sensor_height};
 }
 
 }  // namespace fathom::effects

@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_sensor_pitch(Setup& setup, const EffectSetting& setting) {
   const Eigen::AngleAxisd down(-radians_from_deg(setting.values[0]), Eigen::Vector3d::UnitX());
   turn_camera(setup.rig, down.toRotationMatrix());
 }
@@ -22,7 +22,7 @@ Effect sensor_pitch() {
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
           .twins = {"sensor_height", "principal_point"},
           .discriminated_by = "bare-desk views: the fitted desk is pitched",
-          .apply = apply};
+          .apply = apply_sensor_pitch};
 }
 
 }  // namespace fathom::effects

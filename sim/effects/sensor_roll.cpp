@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_sensor_roll(Setup& setup, const EffectSetting& setting) {
   const Eigen::Vector3d sight = setup.rig.world_from_camera.linear().col(2);
   turn_camera(setup.rig, Eigen::AngleAxisd(radians_from_deg(setting.values[0]), sight).toRotationMatrix());
 }
@@ -22,7 +22,7 @@ Effect sensor_roll() {
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
           .twins = {"surface_tilt"},
           .discriminated_by = "bare-desk views: the fitted desk is rolled",
-          .apply = apply};
+          .apply = apply_sensor_roll};
 }
 
 }  // namespace fathom::effects

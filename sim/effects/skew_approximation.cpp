@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_skew_approximation(Setup& setup, const EffectSetting& setting) {
   setup.processing.bisector = std::max(setup.processing.bisector, setting.values[0]);
 }
 
@@ -20,7 +20,7 @@ Effect skew_approximation() {
           .citation = "Hara et al. 2014, Eq. 3 to 7: both rays at one incidence, the sensor's height for the point's",
           .twins = {"refractive_index"},
           .discriminated_by = "clouds instead of tables of reduced heights",
-          .apply = apply};
+          .apply = apply_skew_approximation};
 }
 
 }  // namespace fathom::effects

@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_specular_ghost(Setup& setup, const EffectSetting& setting) {
   setup.light.mirrored = std::max(setup.light.mirrored, setting.values[0]);
 }
 
@@ -20,7 +20,7 @@ Effect specular_ghost() {
           .citation = "Born & Wolf, Principles of Optics, section 1.5: 2 % at normal incidence, 6 % at 60 degrees",
           .twins = {"wall_multipath"},
           .discriminated_by = "the sensor at another distance: mirror images move, the bottom does not",
-          .apply = apply};
+          .apply = apply_specular_ghost};
 }
 
 }  // namespace fathom::effects

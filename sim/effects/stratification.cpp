@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_stratification(Setup& setup, const EffectSetting& setting) {
   const double wavelength_nm = setup.rig.sensor.wavelength_nm;
   std::vector<Cup> layers;
   for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
@@ -30,7 +30,7 @@ Effect stratification() {
           .citation = "Born & Wolf, Principles of Optics, section 3.2: rays in stratified media",
           .twins = {"refractive_index"},
           .discriminated_by = "the same pour before and after stirring",
-          .apply = apply,
+          .apply = apply_stratification,
           .of_liquids = true};
 }
 

@@ -5,7 +5,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_subsurface_scattering(Setup& setup, const EffectSetting& setting) {
   if (setting.values[0] > 0.0) setup.light.thrown_on = 1.0;  // direct light ends at a turbid liquid's surface
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     Medium& medium = filling.medium;
@@ -26,7 +26,7 @@ Effect subsurface_scattering() {
           .citation = "Wang & Jacques 1995, Applied Optics 34, 2362: oblique-incidence reflectometry",
           .twins = {"fill_offset"},
           .discriminated_by = "several distances: the shift goes with the cosine of the line of sight",
-          .apply = apply,
+          .apply = apply_subsurface_scattering,
           .of_liquids = true};
 }
 

@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_surface_tilt(Setup& setup, const EffectSetting& setting) {
   const Eigen::Vector2d slope(std::tan(radians_from_deg(setting.values[0])),
                               std::tan(radians_from_deg(setting.values[1])));
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
@@ -29,7 +29,7 @@ Effect surface_tilt() {
           .citation = "Hara et al. 2014 take the surface as level; a desk that leans by as much does the same",
           .twins = {"sensor_roll", "sensor_pitch"},
           .discriminated_by = "the cup's sectors against each other; a spirit level on the desk",
-          .apply = apply,
+          .apply = apply_surface_tilt,
           .of_liquids = true};
 }
 

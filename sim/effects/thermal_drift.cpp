@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_thermal_drift(Setup& setup, const EffectSetting& setting) {
   UnitModel& unit = setup.rig.sensor.unit;
   unit.warm_up_px += setting.values[0];
   unit.on_for_s = setup.circumstances.time_s;
@@ -25,7 +25,7 @@ Effect thermal_drift() {
           .citation = "one Kinect v1, measured: 8 mm in 6 min at 2.5 m; unit_model.h",
           .twins = {"disparity_offset", "evaporation"},
           .discriminated_by = "the same bare desk at the beginning and the end of a session",
-          .apply = apply,
+          .apply = apply_thermal_drift,
           .of_time = true};
 }
 

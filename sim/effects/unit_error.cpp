@@ -7,7 +7,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_unit_error(Setup& setup, const EffectSetting& setting) {
   for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
     filling.depth = std::min(filling.depth * setting.values[0], cup_depth(cup));
   });
@@ -26,7 +26,7 @@ Effect unit_error() {
               "and 722)",
           .twins = {"fill_scale"},
           .discriminated_by = "reading the marks again",
-          .apply = apply,
+          .apply = apply_unit_error,
           .of_liquids = true};
 }
 

@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_wall_albedo(Setup& setup, const EffectSetting& setting) {
   for_each_cup(setup,
                [&](Cup&, CupShape& shape) { shape.albedo = std::clamp(shape.albedo + setting.values[0], 0.0, 1.0); });
 }
@@ -23,7 +23,7 @@ Effect wall_albedo() {
           .citation = "Hara et al. 2014 do not give the cup's colour; 0.70 is assumed",
           .twins = {"absorption", "wall_multipath"},
           .discriminated_by = "the empty cup's brightness beside the desk's",
-          .apply = apply};
+          .apply = apply_wall_albedo};
 }
 
 }  // namespace fathom::effects

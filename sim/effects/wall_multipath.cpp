@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_wall_multipath(Setup& setup, const EffectSetting& setting) {
   setup.light.thrown_on = std::max(setup.light.thrown_on, setting.values[0]);
 }
 
@@ -20,7 +20,7 @@ Effect wall_multipath() {
           .citation = "Gupta et al. 2011, CVPR: structured light under global illumination",
           .twins = {"wall_albedo"},
           .discriminated_by = "the projector's picture with a mask that lights the bottom alone; a black cup",
-          .apply = apply};
+          .apply = apply_wall_multipath};
 }
 
 }  // namespace fathom::effects

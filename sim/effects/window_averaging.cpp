@@ -6,7 +6,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_window_averaging(Setup& setup, const EffectSetting& setting) {
   setup.processing.window_px = std::max(setup.processing.window_px, setting.values[0]);
 }
 
@@ -20,7 +20,7 @@ Effect window_averaging() {
           .citation = "PrimeSense's window of 9 x 9 pixels; Scharstein & Szeliski 2002, IJCV 47, 7",
           .twins = {"concave_bottom", "meniscus"},
           .discriminated_by = "a step of known height: windows round it off",
-          .apply = apply};
+          .apply = apply_window_averaging};
 }
 
 }  // namespace fathom::effects

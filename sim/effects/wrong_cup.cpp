@@ -4,7 +4,7 @@
 namespace fathom::effects {
 namespace {
 
-void apply(Setup& setup, const EffectSetting& setting) {
+void apply_wrong_cup(Setup& setup, const EffectSetting& setting) {
   for_each_cup(setup, [&](Cup&, CupShape& shape) {
     for (Eigen::Vector2d& point : shape.inner) point *= 1.0 + setting.values[0];
     for (Eigen::Vector2d& point : shape.outer) point *= 1.0 + setting.values[0];
@@ -24,7 +24,7 @@ Effect wrong_cup() {
           "722)",
       .twins = {"cup_bottom_height"},
       .discriminated_by = "a ruler",
-      .apply = apply};
+      .apply = apply_wrong_cup};
 }
 
 }  // namespace fathom::effects

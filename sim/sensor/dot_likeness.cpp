@@ -12,12 +12,12 @@ namespace fathom {
 namespace {
 
 /// Odd columns from one on and the even ones after them, of kDotRows rows.
-struct Dots {
+struct DotRows {
   const float *odd, *even;
   std::ptrdiff_t stride;
 };
 
-inline __attribute__((always_inline)) void load_row(const Dots& dots, int y, Float8& columns) {
+inline __attribute__((always_inline)) void load_row(const DotRows& dots, int y, Float8& columns) {
   static_assert(kDotColumns == 8);
   std::memcpy(&columns, dots.odd + y * dots.stride, sizeof(columns) / 2);
   std::memcpy(reinterpret_cast<float*>(&columns) + kDotColumns / 2, dots.even + y * dots.stride, sizeof(columns) / 2);
@@ -30,7 +30,7 @@ inline __attribute__((always_inline)) float sum_of(const Float8& lanes) {
 }
 
 FATHOM_SIMD_CLONES
-Likeness likeness(const Dots& live, const Dots& value, const Dots& slope, float rest_px) {
+Likeness likeness(const DotRows& live, const DotRows& value, const DotRows& slope, float rest_px) {
   constexpr float kCount = kDotColumns * kDotRows;
   Float8 seen{}, expected{}, seen_seen{}, both{}, expected_expected{};
   for (int y = 0; y < kDotRows; ++y) {
@@ -58,7 +58,7 @@ Likeness dot_likeness(const SensorModel& sensor, const SplitColumns<float>& pair
   if (reference_column < 0 || reference_column + kDotColumns > reference.value[0].width()) return {};
   const auto dots = [&](const Image<float>& odd_columns, int first_odd, const Image<float>& even_columns,
                         int first_even) {
-    return Dots{odd_columns.row(row) + first_odd, even_columns.row(row) + first_even + 1, even_columns.width()};
+    return DotRows{odd_columns.row(row) + first_odd, even_columns.row(row) + first_even + 1, even_columns.width()};
   };
   const auto shifted = [&](const std::array<Image<float>, kPhases>& phases) {
     return dots(phases[odd.phase], column + reference.margin_px + odd.whole, phases[even.phase], reference_column);

@@ -12,7 +12,7 @@
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
-namespace {
+namespace campaign_test {
 
 namespace fs = std::filesystem;
 
@@ -369,5 +369,5 @@ TEST_F(CampaignCommand, AsksBeforeItWritesMoreThanTwentyGigabytes) {
   EXPECT_FALSE(fs::exists(folder / "truth.json"));
 }
 
-}  // namespace
+}  // namespace campaign_test
 }  // namespace fathom

@@ -11,7 +11,7 @@
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
-namespace {
+namespace check_test {
 
 constexpr const char* kHeader = "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,";
 
@@ -122,5 +122,5 @@ TEST_F(CheckCommand, MeasureKeepsTheHeightsOfATableWithoutClouds) {
   EXPECT_NE(read_text(folder / "heights.csv").find("1,0,1,1,0,9,water,20,300,0,9.2,"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace fathom

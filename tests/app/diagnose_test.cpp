@@ -21,7 +21,7 @@
 #include "theory/raised_bottom.h"
 
 namespace fathom {
-namespace {
+namespace diagnose_test {
 
 // Geometric captures with the device's noise: thirty milliseconds each. The paint shows its surface: with water alone
 // more of it and more refraction look alike.
@@ -439,5 +439,5 @@ TEST_F(DiagnoseCommand, RefusesWhatIsNoMeasurement) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-}  // namespace
+}  // namespace diagnose_test
 }  // namespace fathom

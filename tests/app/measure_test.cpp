@@ -10,7 +10,7 @@
 #include "tests/detector/synthetic.h"
 
 namespace fathom {
-namespace {
+namespace measure_test {
 
 namespace fs = std::filesystem;
 
@@ -109,5 +109,5 @@ TEST_F(MeasureCommand, MistakesNameTheLineAndTheColumn) {
                 ": must be in metres: most of its points lie more than 50 away\n");
 }
 
-}  // namespace
+}  // namespace measure_test
 }  // namespace fathom

@@ -12,7 +12,7 @@
 #include "tests/detector/why_no_desk.h"
 
 namespace fathom {
-namespace {
+namespace paper_test {
 
 using synthetic::cast;
 using synthetic::OpenCup;
@@ -202,5 +202,5 @@ TEST(Methods, AnUnknownNameListsTheChoices) {
   }
 }
 
-}  // namespace
+}  // namespace paper_test
 }  // namespace fathom

@@ -13,7 +13,7 @@
 #include "tests/detector/why_no_desk.h"
 
 namespace fathom {
-namespace {
+namespace robust_test {
 
 using synthetic::cast;
 using synthetic::OpenCup;
@@ -255,5 +255,5 @@ TEST(Robust, ADeskAloneHasNoCups) {
   EXPECT_EQ(result.segments, 0);
 }
 
-}  // namespace
+}  // namespace robust_test
 }  // namespace fathom

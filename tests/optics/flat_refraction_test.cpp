@@ -9,7 +9,7 @@
 #include "theory/triangulation.h"
 
 namespace fathom {
-namespace {
+namespace flat_refraction_test {
 
 constexpr double kWater = 1.3281;
 
@@ -94,5 +94,5 @@ TEST(FlatRefraction, StraightDownTheBottomIsLitAsIfItWereAtItsApparentDepth) {
   EXPECT_NEAR(flat_spreading(crossing, 0.6, 0.04, 1.0, kWater) * apparent * apparent, 1.0, 1e-14);  // roundings
 }
 
-}  // namespace
+}  // namespace flat_refraction_test
 }  // namespace fathom

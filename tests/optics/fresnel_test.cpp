@@ -8,7 +8,7 @@
 #include "core/units.h"
 
 namespace fathom {
-namespace {
+namespace fresnel_test {
 
 constexpr double kWater = 1.328;
 
@@ -74,5 +74,5 @@ TEST(Fresnel, HemisphericalReflectanceIsTheIntegralFromBothSides) {
   }
 }
 
-}  // namespace
+}  // namespace fresnel_test
 }  // namespace fathom

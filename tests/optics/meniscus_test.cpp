@@ -9,7 +9,7 @@
 #include "core/units.h"
 
 namespace fathom {
-namespace {
+namespace meniscus_test {
 
 constexpr double kWater = 2.73e-3;  // capillary length [m]
 
@@ -64,5 +64,5 @@ TEST(Meniscus, IsATenthOfAMillimetreHighEightAndAHalfFromTheGlaze) {
   EXPECT_NEAR(mm_from_metres(Meniscus(radians_from_deg(30.0), kWater).at(8.5e-3).height), 0.1, 0.01);
 }
 
-}  // namespace
+}  // namespace meniscus_test
 }  // namespace fathom

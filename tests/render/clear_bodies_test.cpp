@@ -11,7 +11,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace clear_bodies_test {
 
 constexpr double kIndex = 1.3281, kGlass = 1.51, kLevel = kPaperCupBottom + 0.030;
 const Eigen::Vector3d kAxis(0.0, 0.300, 0.0);
@@ -351,5 +351,5 @@ TEST(LiquidsAboveEachOther, BothBendTheLight) {
   EXPECT_GE(lit, 5);
 }
 
-}  // namespace
+}  // namespace clear_bodies_test
 }  // namespace fathom

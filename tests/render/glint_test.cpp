@@ -11,7 +11,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace glint_test {
 
 constexpr double kLevel = kPaperCupBottom + 0.030, kIndex = 1.3281;
 const Eigen::Vector3d kMiddle(0.0, 0.300, kLevel);
@@ -114,5 +114,5 @@ TEST(Glint, IsTheSameFromTheOtherEnd) {
   }
 }
 
-}  // namespace
+}  // namespace glint_test
 }  // namespace fathom

@@ -9,7 +9,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace irradiance_test {
 
 constexpr double kFill = 0.030, kLevel = kPaperCupBottom + kFill;
 
@@ -106,5 +106,5 @@ TEST(Radiance, ThroughTheSurfaceLosesTheFresnelPartAndSpreadsByTheIndexSquared) 
   EXPECT_NEAR(seen->transmittance, through / (1.3281 * 1.3281), 1e-15);
 }
 
-}  // namespace
+}  // namespace irradiance_test
 }  // namespace fathom

@@ -8,7 +8,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace mirror_image_test {
 
 constexpr double kLevel = kPaperCupBottom + 0.030;
 
@@ -113,5 +113,5 @@ TEST(Oven, GlassAndWavyLiquidsHideAndAddNothing) {
   }
 }
 
-}  // namespace
+}  // namespace mirror_image_test
 }  // namespace fathom

@@ -12,7 +12,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace mirrored_light_test {
 
 constexpr double kIndex = 1.3281, kLevel = kPaperCupBottom + 0.030;
 const Eigen::Vector3d kAxis(0.0, 0.300, 0.0);
@@ -163,5 +163,5 @@ TEST(Mirrored, LightOfAGlassIsAllThatItsFacesReflect) {
   expect_same(found, thrown(scene, around), 0.015);
 }
 
-}  // namespace
+}  // namespace mirrored_light_test
 }  // namespace fathom

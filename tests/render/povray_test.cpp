@@ -17,7 +17,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace povray_test {
 
 using Pixel = std::pair<int, int>;  ///< column, row
 
@@ -181,5 +181,5 @@ INSTANTIATE_TEST_SUITE_P(
                     LiquidSurface{"paraboloid", "", "#declare CurvaturePerMm = 0.009;", 3e-4, 0.009}),
     [](const auto& instance) { return instance.param.name; });
 
-}  // namespace
+}  // namespace povray_test
 }  // namespace fathom

@@ -10,7 +10,7 @@
 #include "tests/scene/vessels.h"
 
 namespace fathom {
-namespace {
+namespace cavity_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.040, kFloor = 0.007, kRim = 0.087;
@@ -297,5 +297,5 @@ TEST(Cavity, SmallCupsAreMeasuredAsWellAsLargeOnes) {
   }
 }
 
-}  // namespace
+}  // namespace cavity_test
 }  // namespace fathom

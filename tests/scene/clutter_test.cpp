@@ -14,7 +14,7 @@
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
-namespace {
+namespace clutter_test {
 
 constexpr double kRounding = 1e-6;  // [m] of places in scene files, and of hulls that were simplified alike
 
@@ -153,5 +153,5 @@ TEST(Clutter, WrongSpecsSayWhatIsWrong) {
   expect_error([&] { random_scene(crowded, 1, 0); }, {"scene 0: has no room for up to 1 cups and 30 objects"});
 }
 
-}  // namespace
+}  // namespace clutter_test
 }  // namespace fathom

@@ -13,7 +13,7 @@
 #include "tests/core/expect_error.h"
 
 namespace fathom {
-namespace {
+namespace object_test {
 
 Object object(const char* text) {
   const Json json = Json::parse(text);
@@ -96,5 +96,5 @@ TEST(Object, WrongSolidsSayWhatIsWrong) {
     expect_error([&, text = text] { object(text); }, {"scene.json: ", message});
 }
 
-}  // namespace
+}  // namespace object_test
 }  // namespace fathom

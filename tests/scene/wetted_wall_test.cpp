@@ -10,7 +10,7 @@
 #include "tests/scene/vessels.h"
 
 namespace fathom {
-namespace {
+namespace wetted_wall_test {
 
 constexpr double kRadius = 0.040, kOuter = 0.043, kFloor = 0.007, kRim = 0.087;
 
@@ -147,5 +147,5 @@ TEST(MeshTopology, PatchesEndWhereThreeTrianglesMeet) {
   EXPECT_NE(patch[2], patch[3]);
 }
 
-}  // namespace
+}  // namespace wetted_wall_test
 }  // namespace fathom

@@ -10,7 +10,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace accuracy_test {
 
 struct Plane {
   Eigen::Vector3d normal;  ///< camera frame, towards the sensor
@@ -160,5 +160,5 @@ TEST(Capture, GeometricDepthIsTheExactDepthOnTheDevicesLaw) {
   EXPECT_LT(different, 30);  // disparities are float: 1 in 1e5 may fall over the edge of a step
 }
 
-}  // namespace
+}  // namespace accuracy_test
 }  // namespace fathom

@@ -8,7 +8,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace depth_test {
 
 SensorModel sensor_named(const std::string& name) {
   const Json json = {{"model", name}, {"height_mm", 650}, {"pitch_deg", 60}};
@@ -124,5 +124,5 @@ TEST(Cloud, PointsLieOnTheirPixelsRays) {
   EXPECT_EQ(cloud(1, 0).intensity, 7.0f);
 }
 
-}  // namespace
+}  // namespace depth_test
 }  // namespace fathom

@@ -9,7 +9,7 @@
 #include "tests/render/scenes.h"
 
 namespace fathom {
-namespace {
+namespace device_outputs_test {
 
 SensorModel sensor_named(const std::string& name) {
   const Json json = {{"model", name}, {"height_mm", 650}, {"pitch_deg", 60}};
@@ -52,5 +52,5 @@ TEST(Shift, SaysWhereNothingIsMeasured) {
   EXPECT_EQ(shifts(1, 0), 2047);
 }
 
-}  // namespace
+}  // namespace device_outputs_test
 }  // namespace fathom

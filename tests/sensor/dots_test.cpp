@@ -9,7 +9,7 @@
 #include "tests/sensor/sparse_dots.h"
 
 namespace fathom {
-namespace {
+namespace dots_test {
 
 /// What a cup stands in front of the sensor with: its distance, and 30 mm of water that absorbs so much.
 struct Condition {
@@ -55,5 +55,5 @@ INSTANTIATE_TEST_SUITE_P(Conditions, Dots,
                                               1e4 * condition.absorption_per_mm);
                          });
 
-}  // namespace
+}  // namespace dots_test
 }  // namespace fathom

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace fathom::theory {
-namespace {
+namespace raised_bottom_test {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kWater = 1.333;
@@ -126,5 +126,5 @@ TEST(RaisedBottom, RefusesNonsense) {
   EXPECT_THROW(skew_at_field_edge(0.075, 0.0, 0.5), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace raised_bottom_test
 }  // namespace fathom::theory

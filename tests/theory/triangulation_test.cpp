@@ -11,7 +11,7 @@
 #include "theory/raised_bottom.h"
 
 namespace fathom::theory {
-namespace {
+namespace triangulation_test {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 // Z = b / disparity turns a rounding of the disparity (1e-16) into Z² / b times as much, here 1e-15 m; 10 of them.
@@ -199,5 +199,5 @@ TEST(Triangulation, RefusesNonsense) {
   EXPECT_THROW(fill_from_height(0.01, good, 0.0), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace triangulation_test
 }  // namespace fathom::theory

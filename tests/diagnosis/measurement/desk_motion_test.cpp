@@ -14,7 +14,7 @@
 #include "tests/diagnosis/measurement/tilted_desk.h"
 
 namespace fathom {
-namespace {
+namespace desk_motion_test {
 
 const LaboratoryRig kRig = laboratory();
 
@@ -145,5 +145,5 @@ TEST(DeskBands, OneFrameTellsNothing) {
   EXPECT_FALSE(scatter_of(one).has_value());
 }
 
-}  // namespace
+}  // namespace desk_motion_test
 }  // namespace fathom

@@ -12,7 +12,7 @@
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
-namespace {
+namespace places_test {
 
 constexpr double kHeight = 0.650, kFocal = 570.342, kPitchDeg = 58.4, kHalfBaseline = 0.0375;
 constexpr double kRim = 0.087, kInner = 0.040, kOuter = 0.043, kBottom = 0.007;  // [m] the paper's cup
@@ -129,5 +129,5 @@ TEST_F(Places, WhatIsNoMistakeOfAllIsNotPutRight) {
   EXPECT_TRUE(read().mistakes.empty());
 }
 
-}  // namespace
+}  // namespace places_test
 }  // namespace fathom

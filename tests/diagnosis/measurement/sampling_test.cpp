@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace fathom {
-namespace {
+namespace sampling_test {
 
 constexpr double kFocal_px = 570.0;
 constexpr int kLeft = 280, kRight = 360, kTop = 200, kBottom = 280;  ///< [px] of what a cup covers
@@ -53,5 +53,5 @@ TEST(Sampling, KnowsPointsThatNoImageHas) {
   EXPECT_LE(thinned_evenly(points, kFocal_px).size(), points.size());
 }
 
-}  // namespace
+}  // namespace sampling_test
 }  // namespace fathom

@@ -10,7 +10,7 @@
 #include "tests/diagnosis/measurement/tilted_desk.h"
 
 namespace fathom {
-namespace {
+namespace unit_bias_test {
 
 const LaboratoryRig kRig = laboratory();
 
@@ -104,5 +104,5 @@ TEST(UnitBias, ItsPlanesTurnTheDeskAsFarAsAFieldOfThatReachDoes) {
   EXPECT_NEAR(std::sqrt(variance), 0.03, 0.015);
 }
 
-}  // namespace
+}  // namespace unit_bias_test
 }  // namespace fathom

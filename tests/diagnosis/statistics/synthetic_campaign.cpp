@@ -1,11 +1,11 @@
 #include "tests/diagnosis/statistics/synthetic_campaign.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 
+#include "core/dense.h"
 #include "core/rng.h"
 
 namespace fathom {
@@ -300,7 +300,7 @@ Eigen::VectorXd World::escaping(double escape, std::uint64_t seed) const {
   for (Eigen::Index k = 0; k < signatures.cols(); ++k) signatures.col(k) = nominal_.candidates[k].signature.col(0);
   const Eigen::MatrixXd spanned = factor_.matrixL().solve(signatures);
   const Eigen::VectorXd whitened = factor_.matrixL().solve(change);
-  const double outside = (whitened - spanned * spanned.colPivHouseholderQr().solve(whitened)).norm();
+  const double outside = (whitened - spanned * least_squares(spanned, whitened)).norm();
   return change * (escape / outside);
 }
 

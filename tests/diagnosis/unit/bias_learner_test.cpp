@@ -9,7 +9,7 @@
 #include "core/rng.h"
 
 namespace fathom {
-namespace {
+namespace bias_learner_test {
 
 constexpr double kBias_px = 0.1, kReach_px = 70.0;
 
@@ -257,5 +257,5 @@ TEST(BiasLearner, ADeviceThatWarmsUpDoesNotMove) {
   EXPECT_EQ(views[2].state, 1);
 }
 
-}  // namespace
+}  // namespace bias_learner_test
 }  // namespace fathom

@@ -12,7 +12,7 @@
 #include "diagnosis/unit/warm_up.h"
 
 namespace fathom {
-namespace {
+namespace desk_view_test {
 
 constexpr DeviceScale kExact{.focal_px = 570.342, .baseline_m = 0.075, .camera_m = 0.0, .cut_m = 0.0};
 constexpr int kWidth = 640, kHeight = 480;
@@ -194,5 +194,5 @@ TEST(WarmUp, ARecordingThatBeginsWhenTheDeviceIsWarmSaysNothingOfACold) {
   EXPECT_LE(found, 1);
 }
 
-}  // namespace
+}  // namespace desk_view_test
 }  // namespace fathom

@@ -12,7 +12,7 @@
 #include "diagnosis/unit/desk_view.h"
 
 namespace fathom {
-namespace {
+namespace real_desks_test {
 
 constexpr DeviceScale kKinect{.focal_px = 575.816, .baseline_m = 0.075, .camera_m = 0.025, .cut_m = 1e-3};
 constexpr int kWidth = 640, kHeight = 480;
@@ -159,5 +159,5 @@ TEST(RealDesks, ABiasLearnedOnSomeDesksIsTakenOffOthers) {
   EXPECT_LE(share, by_mean);
 }
 
-}  // namespace
+}  // namespace real_desks_test
 }  // namespace fathom

@@ -1,0 +1,18 @@
+// Decompositions of matrices of any size, compiled once: Eigen's own take 7 to 10 s in every file that asks for one.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fathom {
+
+struct SymmetricEigen {
+  Eigen::VectorXd values;   ///< ascending
+  Eigen::MatrixXd vectors;  ///< columns
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+
+/// The parameters with which the columns come nearest to the data; of several data side by side, a column for each.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data);
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& data);
+
+}  // namespace fathom
