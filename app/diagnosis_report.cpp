@@ -240,9 +240,10 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
     html += html_picture(folder / "map.png", "Mean difference by region") +
             paragraph("A grey part has no height: the cup's wall hides it from the camera or from the projector.");
   if (draw_shape(folder, campaign))
-    html +=
-        html_picture(folder / "shape.png", "Shape of what is seen in the cup, by liquid") +
-        paragraph("Each square is a mean over all places of the cup, by how much it is higher than the other squares.");
+    html += html_picture(folder / "shape.png", "Shape of what is seen in the cup, by liquid") +
+            paragraph(
+                "Each square says by how much a part of the cup is higher than the mean of the squares, over all "
+                "places of the cup.");
   if (!diagnosis.effects.empty()) html += heading("What the model lacked") + effects_html(diagnosis);
   html += heading("Before and after");
   if (draw_heights(folder, campaign)) html += heights_chart(campaign);

@@ -235,7 +235,7 @@ std::string what_is_not_compared(const Diagnosis& diagnosis) {
 std::string what_may_be_besides(const Diagnosis& diagnosis) {
   constexpr double kWorthAWord = 0.2;
   if (diagnosis.probability_of_unknown < kWorthAWord) return {};
-  return fmt::format(" Something else may be there as well (probability {:.2g}).", diagnosis.probability_of_unknown);
+  return fmt::format("Something else may be there as well (probability {:.2g}). ", diagnosis.probability_of_unknown);
 }
 
 std::string answer_of_physics(const Diagnosis& diagnosis) {

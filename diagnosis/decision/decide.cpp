@@ -70,12 +70,12 @@ bool needs_unknown(const Shares& shares, bool names_any) {
   return names_any ? (1.0 - shares.unknown) * kAlarmOdds < shares.unknown : shares.unknown > 0.5;
 }
 
-Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool names_all,
-                   bool names_any) {
+Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool is_unknown,
+                   bool names_all, bool names_any) {
   const Verdict with_unknown = names_any ? Verdict::named_and_unknown : Verdict::unknown;
   if (is_excess) return with_unknown;
   if (kAlarmOdds * shares.nothing > 1.0) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
-  if (needs_unknown(shares, names_any)) return with_unknown;
+  if (is_unknown) return with_unknown;
   const AmbiguityClass& first = set.classes.front();
   const bool is_one = first.probability > kSure && first.options.size() == 1;
   return names_all && is_one ? Verdict::named : Verdict::ambiguous;
@@ -92,13 +92,13 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const std::vector<int> kinds = kinds_of_candidates(evidence);
   const Shares shares = shares_of(posterior.options);
   const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
-  const double doubt = needs_unknown(shares, sure.has_value()) ? 0.0 : std::log(kAlarmOdds);
-  AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, doubt);
+  const bool is_unknown = needs_unknown(shares, sure.has_value());
+  AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);
   diagnosis.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
-  diagnosis.verdict = verdict_of(c, set, shares, !diagnosis.excess.empty(), names_all, sure.has_value());
+  diagnosis.verdict = verdict_of(c, set, shares, !diagnosis.excess.empty(), is_unknown, names_all, sure.has_value());
   if (!diagnosis.excess.empty()) set.put_unknown_first();
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.probability_of_none = shares.nothing;

@@ -107,7 +107,7 @@ struct UnknownShape {
   std::string most_similar;  ///< candidate
   double similarity = 0.0;   ///< cosine of the whitened signatures
   std::vector<double> map;   ///< smooth part of every observation's residual, in the observable's unit
-  /// Where the shape of what is seen in cups departs, and nothing else: the part that does so most, and by how much.
+  /// Of a shape of what is seen in cups: the part that departs most, and by how much. Empty where it is none.
   std::string liquid, part;
   double higher_mm = 0.0;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "core/dense.h"
@@ -181,7 +182,7 @@ Eigen::ArrayXd squared_scores(const Eigen::MatrixXd& columns, const Eigen::Vecto
 
 /// The process and size that a residual makes likeliest.
 struct Likeliest {
-  Eigen::MatrixXd columns;
+  std::optional<Spectrum> process;
   bool is_shape = false;
   double size = 0.0, log_evidence = -INFINITY;
 };
@@ -189,10 +190,11 @@ struct Likeliest {
 Likeliest likeliest_of(const Discrepancy& discrepancy, const Eigen::VectorXd& residual) {
   Likeliest best;
   const auto consider = [&](const Eigen::MatrixXd& columns, bool is_shape) {
-    const Spectrum spectrum(columns);
+    Likeliest own{Spectrum(columns), is_shape};
     for (const double size : kSizes)
-      if (const double evidence = spectrum.log_evidence(size, residual); evidence > best.log_evidence)
-        best = {columns, is_shape, size, evidence};
+      if (const double evidence = own.process->log_evidence(size, residual); evidence > own.log_evidence)
+        own.size = size, own.log_evidence = evidence;
+    if (own.log_evidence > best.log_evidence) best = std::move(own);
   };
   consider(discrepancy.smooth, false);
   consider(discrepancy.apart, false);
@@ -254,7 +256,7 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
 Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& x) {
   const Likeliest likeliest = likeliest_of(discrepancy, residual);
-  return Spectrum(likeliest.columns).whiten(likeliest.size, x);
+  return likeliest.process->whiten(likeliest.size, x);
 }
 
 bool is_shape(const Discrepancy& discrepancy, const Eigen::VectorXd& residual) {

@@ -12,10 +12,9 @@
 
 namespace fathom {
 
-/// Two kinds, equally likely beforehand: a smooth departure, over all places or of the shape of what is seen in cups
-/// alone, and a shift of one stratum (by one factor: a liquid, a session, a region, a time), each stratum as likely as
-/// another. The size of either is a few errors of a
-/// single observation.
+/// Two kinds, equally likely beforehand: a smooth departure, over all places or within the cup, and a shift of one
+/// stratum (by one factor: a liquid, a session, a region, a time), each as likely as another. The size of either is a
+/// few errors of a single observation.
 struct Discrepancy {
   /// n × r, its square is the smooth process's covariance: squared exponential in fill, distance and lateral (each over
   /// the length of its range), half shared between liquids and between regions, apart for each observable. Pivoted
@@ -51,7 +50,7 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
 Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& x);
 
-/// Whether the likeliest discrepancy is one of the shape alone.
+/// Whether the likeliest discrepancy is a shape of what is seen in cups.
 bool is_shape(const Discrepancy& discrepancy, const Eigen::VectorXd& residual);
 
 /// The smooth process's mean given the residual, at its likeliest size, for each observation; not whitened.
