@@ -189,9 +189,10 @@ std::string excess_sentences(const Diagnosis& diagnosis) {
                           excess.level, words.name, excess.size, words.unit, excess.sigma);
       continue;
     }
-    text += fmt::format("In {} {} the {} is {:.2g}{} {} than in the others ({:.0f} σ), more than {}s should differ. ",
-                        excess.level, excess.group, words.name, std::abs(excess.size), words.unit,
-                        excess.size < 0 ? words.less : words.more, std::abs(excess.size) / excess.sigma, excess.level);
+    text += fmt::format(
+        "In {} {} the {}{}{} is {:.2g}{} {} than in the others ({:.0f} σ), more than {}s should differ. ", excess.level,
+        excess.group, words.name, excess.part.empty() ? "" : " ", excess.part, std::abs(excess.size), words.unit,
+        excess.size < 0 ? words.less : words.more, std::abs(excess.size) / excess.sigma, excess.level);
   }
   return text;
 }

@@ -67,7 +67,8 @@ Json json_from(const Explanation& explanation) {
 
 Json json_from(const Excess& excess) {
   return {{"level", excess.level}, {"group", excess.group}, {"observable", excess.observable},
-          {"size", excess.size},   {"sigma", excess.sigma}, {"p", excess.p}};
+          {"part", excess.part},   {"size", excess.size},   {"sigma", excess.sigma},
+          {"p", excess.p}};
 }
 
 Json json_from(const StratumGap& stratum) {

@@ -1,5 +1,7 @@
 #include "diagnosis/decision/excess.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -65,7 +67,7 @@ void add_sessions(const std::vector<Observation>& observations, std::vector<Cont
     for (std::size_t s = first_of(sessions); s < sessions.names.size(); ++s) {
       Eigen::VectorXd weights = Eigen::VectorXd::Constant(count, -1.0 / static_cast<double>(count - 1));
       weights[static_cast<Eigen::Index>(s)] = 1.0;
-      contrasts.push_back({{"session", sessions.names[s], sessions.observable}, columns, std::move(weights)});
+      contrasts.push_back({{"session", sessions.names[s], sessions.observable, ""}, columns, std::move(weights)});
     }
   }
 }
@@ -76,7 +78,7 @@ void add_trials(const std::vector<Observation>& observations, std::vector<Contra
     return o.observable.ends_with("_motion_deg") ? o.observable : std::string();
   });
   for (const auto& rows : motions.members())
-    contrasts.push_back({{"trial", "", observations[rows[0]].observable},
+    contrasts.push_back({{"trial", "", observations[rows[0]].observable, ""},
                          indicators({rows}, static_cast<Eigen::Index>(observations.size())),
                          Eigen::VectorXd::Ones(1),
                          true});
@@ -98,8 +100,19 @@ std::vector<Excess> scatter_beyond(const StatedScatter& stated, const ErrorBudge
       const double dof = std::clamp(2.0 * std::pow(variance / of_variance, 2.0), 1.0, groups.count - 1.0);
       const double p = chi_squared_tail(dof * (1.0 + variance / (most * most)), dof);
       result.push_back(
-          {name_of(level), "", observable, std::sqrt(variance), 0.5 * of_variance / std::sqrt(variance), p});
+          {name_of(level), "", observable, "", std::sqrt(variance), 0.5 * of_variance / std::sqrt(variance), p});
     }
+  return result;
+}
+
+/// Parts of a session's desk. Each stands for all that were looked at with it.
+std::vector<Excess> odd_parts(const std::vector<OddDesk>& desks) {
+  std::vector<Excess> result;
+  for (const OddDesk& desk : desks) {
+    const double p = std::erfc(std::abs(desk.higher_mm) / desk.sigma_mm / std::sqrt(2.0));
+    result.push_back({"session", fmt::format("{}", desk.session), "desk_residual_mm", desk.part, desk.higher_mm,
+                      desk.sigma_mm, std::min(1.0, static_cast<double>(desk.looks) * p)});
+  }
   return result;
 }
 
@@ -111,6 +124,7 @@ std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covari
   add_sessions(evidence.observations, contrasts);
   add_trials(evidence.observations, contrasts);
   std::vector<Excess> looked_at = scatter_beyond(evidence.stated, covariance.errors);
+  for (Excess& part : odd_parts(evidence.odd_desks)) looked_at.push_back(std::move(part));
   for (const Contrast& contrast : contrasts) {
     const Eigen::MatrixXd columns = without(covariance.whiten(contrast.columns), explained);
     const Eigen::VectorXd weights = columns * (columns.transpose() * columns).ldlt().solve(contrast.weights);

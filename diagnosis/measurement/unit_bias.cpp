@@ -81,6 +81,12 @@ UnitBias::UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated)
 UnitBias::UnitBias(Views views)
     : views_(std::move(views)), learner_(views_.views, views_.prior), field_(learner_.learn()) {}
 
+std::vector<DeskDifference> UnitBias::session_differences() const {
+  std::map<int, BiasView> views;
+  for (std::size_t i = 0; i < views_.views.size(); ++i) views[views_.sessions[i]] = views_.views[i];
+  return desk_differences(views);
+}
+
 UnitBias UnitBias::with_bare_desks() const {
   Views all = views_;
   for (BiasView& view : all.views) {

@@ -7,6 +7,7 @@
 
 #include "diagnosis/measurement/desk_cells.h"
 #include "diagnosis/unit/bias_learner.h"
+#include "diagnosis/unit/desk_difference.h"
 
 namespace fathom {
 
@@ -29,6 +30,9 @@ class UnitBias {
   const BiasField& field() const { return field_; }
   /// What would be learned from a model's desks, given by session: the same operator.
   BiasField learn(const std::map<int, DeskError>& desks) const;
+
+  /// Where sessions read their desk otherwise than the others, of one desk in all.
+  std::vector<DeskDifference> session_differences() const;
 
   /// What would be known, were the whole desk seen bare in every session.
   UnitBias with_bare_desks() const;

@@ -1,5 +1,7 @@
 #include "diagnosis/predict/physics.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <memory>
 
@@ -49,6 +51,23 @@ void add_shapes(const Measurement& measurement, Predictor& predictor, Evidence& 
   }
 }
 
+std::vector<OddDesk> odd_desks(const Measurement& measurement) {
+  std::vector<OddDesk> result;
+  if (!measurement.unit) return result;
+  const LaboratoryRig& rig = measurement.rig;
+  const double of_inverse = rig.focal_px * rig.baseline_m;  // [px m] disparity times depth
+  for (const DeskDifference& found : measurement.unit->session_differences()) {
+    const double depth_m = of_inverse / (found.nearer_px + of_inverse / kReferenceDistance_m);
+    const double mm_per_px = mm_from_metres(depth_m * rig.height_m / of_inverse);  // above the desk
+    const Eigen::Vector2d last_px = found.first_px + found.size_px;
+    result.push_back({found.session,
+                      fmt::format("in columns {:.0f} to {:.0f} and rows {:.0f} to {:.0f} of the image",
+                                  found.first_px.x(), last_px.x(), found.first_px.y(), last_px.y()),
+                      mm_per_px * found.bias_px, mm_per_px * found.sigma_px, found.looks});
+  }
+  return result;
+}
+
 }  // namespace
 
 Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
@@ -60,6 +79,7 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.stated = {mm_from_metres(rig.session_m), deg_from_radians(rig.session_rad), mm_from_metres(rig.fill_sigma_m),
                      mm_from_metres(rig.placement_sigma_m)};
   evidence.is_calibrated = rig.unit.map != nullptr;
+  evidence.odd_desks = odd_desks(measurement);
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor =
       std::make_shared<Predictor>(measurement.rig, observations, model_effects, file, measurement.unit);

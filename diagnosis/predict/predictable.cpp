@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <cmath>
+#include <map>
 #include <string_view>
 #include <tuple>
 
@@ -30,23 +31,46 @@ bool has_whole_millimetres(const std::vector<Observation>& observations) {
                       [](const Observation& o) { return o.observable == "millimetre_comb" && o.value < kWhole; });
 }
 
+/// What the placements of a session say of its desk: their mean, and as its error how they scatter. A single placement
+/// has none of its own; it has that of others.
+Observation mean_over_placements(const std::vector<const Observation*>& placements) {
+  Observation mean = *placements.front();
+  const auto count = static_cast<Eigen::Index>(placements.size());
+  Eigen::VectorXd values(count);
+  for (Eigen::Index k = 0; k < count; ++k) values[k] = placements[k]->value;
+  mean.value = values.mean();
+  mean.repeats = static_cast<int>(count);
+  mean.repeat_sd = count > 1 ? (values.array() - mean.value).matrix().norm() / std::sqrt(double(count - 1)) : 0.0;
+  return mean;
+}
+
 }  // namespace
 
 std::vector<Observation> predictable(const std::vector<Observation>& observations) {
-  std::set<std::tuple<int, bool, std::string, std::string>> seen;
+  using SessionDesk = std::tuple<int, bool, std::string, std::string>;
+  const auto desk_of = [](const Observation& o) {
+    return SessionDesk(o.factors.session, o.factors.liquid == "none", o.observable, o.factors.region);
+  };
+  const auto is_in = [](const Observation& o, const auto& names) {
+    return std::find(names.begin(), names.end(), o.observable) != names.end();
+  };
+  std::map<SessionDesk, std::vector<const Observation*>> desks;
+  bool is_repeated = false;
+  for (const Observation& observation : observations) {
+    if (!is_in(observation, kOfSessions)) continue;
+    std::vector<const Observation*>& placements = desks[desk_of(observation)];
+    placements.push_back(&observation);
+    is_repeated |= placements.size() > 1;
+  }
   const bool has_law = has_whole_millimetres(observations);
   std::vector<Observation> result;
   for (const Observation& observation : observations) {
-    const auto is_in = [&](const auto& names) {
-      return std::find(names.begin(), names.end(), observation.observable) != names.end();
-    };
     if (is_comb(observation) && !has_law) continue;
-    const Factors& f = observation.factors;
-    const bool is_new_in_session =
-        is_in(kOfSessions) && seen.emplace(f.session, f.liquid == "none", observation.observable, f.region).second;
-    if (!is_new_in_session && !is_in(kOfPlacements)) continue;
-    result.push_back(observation);
-    result.back().only_names = is_in(kOnlyName);
+    const bool is_of_session = is_in(observation, kOfSessions);
+    if (is_of_session ? desks[desk_of(observation)].front() != &observation : !is_in(observation, kOfPlacements))
+      continue;
+    result.push_back(is_of_session && is_repeated ? mean_over_placements(desks[desk_of(observation)]) : observation);
+    result.back().only_names = is_in(observation, kOnlyName);
   }
   return result;
 }

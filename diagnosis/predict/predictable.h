@@ -6,11 +6,11 @@
 namespace fathom {
 
 /// Heights by region, the brightness and the dots' contrast inside and the desk's height in every placement; how the
-/// desk lies and looks once in a session, with bare desk and with a cup: it stays where it is, so that every placement
-/// says the same of it, with the same errors. Left out are spreads and valid fractions, which walls, scattering and
-/// matching decide, and the combs where depths were recorded in other units than the device's whole millimetres. Those
-/// of the combs, the infrared image and the liquid's motion only help to name (`only_names`): they depend on what a
-/// device's and a laboratory's processing does besides measuring.
+/// desk lies and looks once in a session, with bare desk and with a cup: it stays where it is, so that the placements
+/// of a session are repeats of it, and what they scatter by is its error. Left out are spreads and valid fractions,
+/// which walls, scattering and matching decide, and the combs where depths were recorded in other units than the
+/// device's whole millimetres. Those of the combs, the infrared image and the liquid's motion only help to name
+/// (`only_names`): they depend on what a device's and a laboratory's processing does besides measuring.
 std::vector<Observation> predictable(const std::vector<Observation>& observations);
 
 }  // namespace fathom

@@ -112,6 +112,14 @@ struct StatedScatter {
   double fill_mm = kAny, placement_mm = kAny;    ///< fills of pours, places of cups; heights differ by no more
 };
 
+/// Of a session, the part of its desk that differs most from what the other sessions show there.
+struct OddDesk {
+  int session = 0;
+  std::string part;  ///< "in columns 480 to 560 and rows 64 to 144 of the image"
+  double higher_mm = 0.0, sigma_mm = 0.0;
+  std::size_t looks = 0;  ///< parts that were looked at
+};
+
 struct Evidence {
   std::vector<Observation> observations;
   Eigen::VectorXd predicted;  ///< by the nominal model, one for each observation
@@ -121,6 +129,7 @@ struct Evidence {
   std::vector<SharedError> shared_errors{};  ///< of the predictions, too
   std::vector<Mistake> mistakes{};           ///< put right in the observations
   StatedScatter stated{};
+  std::vector<OddDesk> odd_desks{};
   bool is_calibrated = false;  ///< the sensor's own errors were learned from other views, as far as they can be
 };
 

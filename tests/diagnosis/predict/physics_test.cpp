@@ -11,6 +11,7 @@
 #include "core/rng.h"
 #include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/predictable.h"
+#include "diagnosis/statistics/variance_components.h"
 #include "sim/effects/registry.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 #include "tests/diagnosis/predict/paper_measurement.h"
@@ -44,6 +45,29 @@ TEST(Predictable, StepsAreComparedWhereDepthsAreWholeMillimetres) {
   // Steps of 1/8 px that nobody cut; no steps at all.
   EXPECT_EQ(compared(-1.0, -0.06), std::vector<std::string>{"desk_height_mm"});
   EXPECT_EQ(compared(0.0, 0.0), std::vector<std::string>{"desk_height_mm"});
+}
+
+TEST(Predictable, PlacementsAreRepeatsOfASessionsDesk) {
+  std::vector<Observation> observations;
+  for (const double roll : {0.1, 0.3, 0.2}) {
+    Observation& o = observations.emplace_back();
+    o.observable = "desk_roll_deg";
+    o.factors.liquid = "water";
+    o.factors.placement = static_cast<int>(observations.size());
+    o.value = roll;
+    o.repeat_sd = 0.001;
+    o.repeats = 5;
+  }
+  observations.push_back(observations.front());
+  observations.back().factors.liquid = "none";
+  const std::vector<Observation> kept = predictable(observations);
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_NEAR(kept[0].value, 0.2, 1e-12);
+  EXPECT_NEAR(kept[0].repeat_sd, 0.1, 1e-12);  // of the placements, a hundred times that of a placement's trials
+  EXPECT_EQ(kept[0].repeats, 3);
+  // One view of the bare desk cannot say how far another would be off. That of the others is taken for it.
+  EXPECT_EQ(kept[1].repeats, 1);
+  EXPECT_NEAR(repeat_variances(kept)[1], 0.01, 1e-12);
 }
 
 TEST(Nuisances, ARecordWithoutBrightnessIsTwoSigmaFromALinearOne) {

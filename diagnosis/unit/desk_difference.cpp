@@ -1,0 +1,166 @@
+#include "diagnosis/unit/desk_difference.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "core/median.h"
+
+namespace fathom {
+namespace {
+
+constexpr Eigen::Index kMapColumns = CellMap::ColsAtCompileTime, kMapRows = CellMap::RowsAtCompileTime;
+
+/// What a view of a desk has of its own: alike down the image's columns, and in patches. Of scenes that one Kinect saw
+/// from the same pose no size of rectangle differs by more than two such views, things on the desks apart
+/// (tests/diagnosis/unit/real_desks_test.cpp): squares of 64 px by 0.034 px, of 256 px by 0.015 px, and strips of 64 px
+/// that are 256 px tall by 0.034 px.
+constexpr double kOfColumns_px = 0.027, kOfPatches_px = 0.01, kReach_px = 30.0;
+constexpr std::array<Eigen::Index, 4> kPartSides{4, 8, 16, 32};  ///< cells; smaller squares hold an edge now and then
+constexpr double kMostlySeen = 0.75;  ///< of as many cells as rectangles usually show: clouds may be thinned
+
+CellMap nothing_seen() { return CellMap::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
+CellMap map_of(const BiasView& view, std::span<const double> values) {
+  CellMap map = nothing_seen();
+  for (std::size_t i = 0; i < view.cells.size(); ++i)
+    map(static_cast<Eigen::Index>(view.cells[i].row_px / kBiasCell_px),
+        static_cast<Eigen::Index>(view.cells[i].column_px / kBiasCell_px)) = values[i];
+  return map;
+}
+
+std::vector<double> nearer_px(const BiasView& view) {
+  std::vector<double> values;
+  for (const BiasCell& cell : view.cells) values.push_back(cell.nearer_px);
+  return values;
+}
+
+/// Of the cells that were seen.
+template <typename Cells>
+double mean_of(const Cells& cells) {
+  return cells.isNaN().select(0.0, cells).sum() / static_cast<double>((!cells.isNaN()).count());
+}
+
+void take_off_plane(CellMap& map) {
+  Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const auto at = [](Eigen::Index row, Eigen::Index column) {
+    return Eigen::Vector3d(1.0, 2.0 * static_cast<double>(column) / kMapColumns - 1.0,
+                           2.0 * static_cast<double>(row) / kMapRows - 1.0);
+  };
+  for (Eigen::Index row = 0; row < kMapRows; ++row)
+    for (Eigen::Index column = 0; column < kMapColumns; ++column)
+      if (!std::isnan(map(row, column))) {
+        normal += at(row, column) * at(row, column).transpose();
+        right += map(row, column) * at(row, column);
+      }
+  const Eigen::Vector3d plane = normal.ldlt().solve(right);
+  for (Eigen::Index row = 0; row < kMapRows; ++row)
+    for (Eigen::Index column = 0; column < kMapColumns; ++column) map(row, column) -= plane.dot(at(row, column));
+}
+
+/// 1 σ of a cell beside its neighbours, from second differences along rows.
+double own_error(const CellMap& map) {
+  std::vector<double> differences;
+  for (Eigen::Index row = 0; row < kMapRows; ++row)
+    for (Eigen::Index column = 1; column + 1 < kMapColumns; ++column)
+      if (const double d = map(row, column - 1) - 2.0 * map(row, column) + map(row, column + 1); !std::isnan(d))
+        differences.push_back(std::abs(d));
+  constexpr double kOfMedian = 0.6745;  // of a normal distribution, in σ
+  return differences.empty() ? 0.0 : median(differences) / kOfMedian / std::sqrt(6.0);
+}
+
+/// A rectangle of the image and what is seen in it.
+struct Part {
+  Eigen::Index row, column, height, width;
+  double cells;  ///< with desk
+  double mean_px;
+
+  double share() const { return cells / static_cast<double>(height * width); }
+};
+
+/// Mean over all pairs of a part's cells of how the errors of one view go together [px²].
+double covariance_within(const CellMap& map, const Part& part) {
+  std::vector<Eigen::Array2d> cells;
+  for (Eigen::Index row = part.row; row < part.row + part.height; ++row)
+    for (Eigen::Index column = part.column; column < part.column + part.width; ++column)
+      if (!std::isnan(map(row, column))) cells.emplace_back(static_cast<double>(column), static_cast<double>(row));
+  double sum = 0.0;
+  for (const Eigen::Array2d& one : cells)
+    for (const Eigen::Array2d& other : cells) {
+      const Eigen::Array2d alike = (-0.5 * (kBiasCell_px / kReach_px * (one - other)).square()).exp();
+      sum += alike.x() * (kOfColumns_px * kOfColumns_px + kOfPatches_px * kOfPatches_px * alike.y());
+    }
+  return sum / static_cast<double>(cells.size() * cells.size());
+}
+
+/// All rectangles that are desk for the most part, each half over its neighbours.
+std::vector<Part> parts_of(const CellMap& map) {
+  std::vector<Part> parts;
+  for (const Eigen::Index height : kPartSides)
+    for (const Eigen::Index width : kPartSides)
+      for (Eigen::Index row = 0; row + height <= kMapRows; row += height / 2)
+        for (Eigen::Index column = 0; column + width <= kMapColumns; column += width / 2) {
+          const auto seen = map.block(row, column, height, width);
+          const auto cells = static_cast<double>((!seen.isNaN()).count());
+          if (cells > 0.0) parts.push_back({row, column, height, width, cells, mean_of(seen)});
+        }
+  std::vector<double> shares;
+  for (const Part& part : parts) shares.push_back(part.share());
+  const double least = shares.empty() ? 0.0 : kMostlySeen * median(shares);
+  std::erase_if(parts, [&](const Part& part) { return part.share() < least; });
+  return parts;
+}
+
+}  // namespace
+
+CellMap desk_beside_others(const std::map<int, BiasView>& views, int session) {
+  CellMap sum = CellMap::Zero(), count = CellMap::Zero(), own = nothing_seen();
+  for (const auto& [of, view] : views) {
+    const CellMap errors = map_of(view, view.errors_px);
+    if (of == session) {
+      own = errors;
+      continue;
+    }
+    sum += errors.isNaN().select(0.0, errors);
+    count += errors.isNaN().select(CellMap::Zero(), CellMap::Ones());
+  }
+  CellMap map = own - sum / count;  // 0 / 0 where no other session shows it
+  take_off_plane(map);
+  return map;
+}
+
+std::vector<DeskDifference> desk_parts(const std::map<int, BiasView>& views, int session) {
+  const CellMap map = desk_beside_others(views, session);
+  const CellMap nearer = map_of(views.at(session), nearer_px(views.at(session)));
+  const double of_cell = std::pow(own_error(map), 2.0);
+  const double views_in_difference = 1.0 + 1.0 / static_cast<double>(views.size() - 1);
+  const auto corner = [](Eigen::Index column, Eigen::Index row) -> Eigen::Vector2d {
+    return kBiasCell_px * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
+  };
+  std::vector<DeskDifference> result;
+  for (const Part& part : parts_of(map))
+    result.push_back({session, corner(part.column, part.row), corner(part.width, part.height), part.mean_px,
+                      std::sqrt(of_cell / part.cells + views_in_difference * covariance_within(map, part)),
+                      mean_of(nearer.block(part.row, part.column, part.height, part.width)), 1});
+  return result;
+}
+
+std::vector<DeskDifference> desk_differences(const std::map<int, BiasView>& views) {
+  std::vector<DeskDifference> result;
+  if (views.size() < 2) return result;
+  for (auto view = views.size() == 2 ? std::next(views.begin()) : views.begin(); view != views.end(); ++view) {
+    const std::vector<DeskDifference> parts = desk_parts(views, view->first);
+    const auto most = std::ranges::max_element(
+        parts, {}, [](const DeskDifference& part) { return std::abs(part.bias_px) / part.sigma_px; });
+    if (most == parts.end()) continue;
+    result.push_back(*most);
+    result.back().looks = parts.size();
+  }
+  return result;
+}
+
+}  // namespace fathom
