@@ -65,9 +65,10 @@ Rest rest_of(const Case& c, const Refit& fit) {
   return rest;
 }
 
-/// Whether something is there that no effect explains. Beside effects that surely are it takes the odds of an alarm.
-bool needs_unknown(const Shares& shares, bool names_any) {
-  return names_any ? (1.0 - shares.unknown) * kAlarmOdds < shares.unknown : shares.unknown > 0.5;
+/// Whether something is there that no effect explains. Where an effect surely is, whichever, it takes the odds of an
+/// alarm.
+bool needs_unknown(const Shares& shares) {
+  return shares.effects > kSure ? (1.0 - shares.unknown) * kAlarmOdds < shares.unknown : shares.unknown > 0.5;
 }
 
 Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool is_unknown,
@@ -92,7 +93,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const std::vector<int> kinds = kinds_of_candidates(evidence);
   const Shares shares = shares_of(posterior.options);
   const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
-  const bool is_unknown = needs_unknown(shares, sure.has_value());
+  const bool is_unknown = needs_unknown(shares);
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);

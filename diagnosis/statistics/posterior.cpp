@@ -245,8 +245,9 @@ Shares shares_of(const std::vector<Option>& options) {
     sum += weight;
     if (o.has_unknown) shares.unknown += weight;
     if (o.is_nothing()) shares.nothing += weight;
+    if (!o.effects.empty()) shares.effects += weight;
   }
-  return {shares.nothing / sum, shares.unknown / sum};
+  return {shares.nothing / sum, shares.unknown / sum, shares.effects / sum};
 }
 
 double probability_of(int effect, const std::vector<Option>& options, const std::vector<int>& kinds) {

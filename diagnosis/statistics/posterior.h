@@ -27,6 +27,7 @@ Posterior posterior_of(const Case& c);
 struct Shares {
   double nothing = 0.0;  ///< probability of the model as it is
   double unknown = 0.0;  ///< that there is a discrepancy, with effects or without
+  double effects = 0.0;  ///< that there is an effect, whichever, with a discrepancy or without
 };
 Shares shares_of(const std::vector<Option>& options);
 

@@ -26,7 +26,7 @@ void apply_concave_bottom(Setup& setup, const EffectSetting& setting) {
       }
     shape.inner.erase(shape.inner.begin(), shape.inner.begin() + pieces + 1);
     shape.inner.insert(shape.inner.begin(), bowl.begin(), bowl.end());
-    if (cup.filling && depth > 0.0) cup.filling->depth += depth;  // a ruler stands at the wall
+    if (cup.filling) cup.filling->depth = std::max(cup.filling->depth + depth, 0.0);  // a ruler stands at the wall
   });
 }
 
