@@ -171,7 +171,9 @@ plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyl
 }
 
 bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
-  constexpr double kPanel = 6.0, kBefore = 6.4;  // a cell is one wide
+  constexpr double kPanel = 6.0;  // a cell is one wide
+  const bool has_after = !campaign.diagnosis.effects.empty();
+  const double before_at = has_after ? 6.4 : 0.0;
   double width_mm = std::numeric_limits<double>::infinity();
   for (const Observation& o : campaign.observations)
     if (const auto& at = o.factors.within_mm)
@@ -186,11 +188,11 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
     const auto known = std::find(liquids.begin(), liquids.end(), f.liquid);
     const auto panel = static_cast<double>(known - liquids.begin());
     if (known == liquids.end()) liquids.push_back(f.liquid);
-    for (const bool after : {false, true}) {
+    for (int after = 0; after <= static_cast<int>(has_after); ++after) {
       const double shown = after ? campaign.diagnosis.after[i] : campaign.diagnosis.before[i];
       most = std::max(most, std::abs(shown));
       cells.add({fmt::format("{:.2f}", kPanel * panel + f.within_mm->x() / width_mm),
-                 fmt::format("{:.2f}", (after ? 0.0 : kBefore) + f.within_mm->y() / width_mm),
+                 fmt::format("{:.2f}", (after ? 0.0 : before_at) + f.within_mm->y() / width_mm),
                  fmt::format("{:.2f}", shown)});
     }
   }
@@ -198,7 +200,7 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
   write_table(folder / "shape.csv", cells);
   const auto label = [&](std::size_t panel, const std::string& text) {
     return fmt::format("set label {} {} at {}, {} center noenhanced\n", panel + 1, gnuplot_text(text),
-                       kPanel * static_cast<double>(panel), kBefore + 3.2);
+                       kPanel * static_cast<double>(panel), before_at + 3.2);
   };
   std::string labels, before_svg;
   for (std::size_t panel = 0; panel < liquids.size(); ++panel) {
@@ -211,14 +213,19 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
 set title 'Shape of what is seen in the cup, in mm: measured minus model'
 unset border; unset xtics; unset ytics; unset grid; unset key; unset colorbox
 set size ratio -1; set xrange [-4:{1}]; set yrange [-4:{2}]
-set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00'); set cbrange [-{0}:{0}]
-set label 100 'before' at -3.3, {3} center rotate by 90; set label 101 'after' at -3.3, 0 center rotate by 90
-set label 102 '↓ the sensor is on this side' at {4}, -3.4 center
+set palette defined (0 '#7DB9DC', 0.5 '#FFFFFF', 1 '#F0A57A'); set cbrange [-{0}:{0}]
 {5}
+set label 102 '↓ the sensor is on this side' at {3}, -3.4 center
+{4}
 plot 'shape.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb pale fillcolor palette, \
      '' using 'x':'y':'mean_mm' with labels font ',8' textcolor rgb ink)",
-                   most, kPanel * static_cast<double>(liquids.size()) - 3.0, kBefore + 4.2, kBefore,
-                   0.5 * kPanel * static_cast<double>(liquids.size() - 1), labels),
+                   most, kPanel * static_cast<double>(liquids.size()) - 3.0, before_at + 4.2,
+                   0.5 * kPanel * static_cast<double>(liquids.size() - 1), labels,
+                   has_after
+                       ? fmt::format("set label 100 'before' at -3.3, {} center rotate by 90; set label 101 'after' "
+                                     "at -3.3, 0 center rotate by 90",
+                                     before_at)
+                       : ""),
        before_svg);
   return true;
 }

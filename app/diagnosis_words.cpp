@@ -66,6 +66,8 @@ std::string third_words(std::string_view stratum) {
 std::string where_sentence(const Diagnosis& diagnosis) {
   if (diagnosis.where.empty()) return {};
   const GapLocation& where = diagnosis.where.front();
+  // Of a shape that nothing explains, unknown_sentence() says where it is.
+  if (where.observable == "content_shape_mm" && !diagnosis.unknown.part.empty()) return {};
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
   return capitalised(fmt::format("{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ",
@@ -204,9 +206,10 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
   if (diagnosis.excess.empty()) text += fmt::format(" (probability {:.3g})", diagnosis.probability_of_unknown);
   if (!unknown.part.empty())
     return text +
-           fmt::format(": {}, the part {} is {:.2g} mm {} beside the rest than the model has it. ",
-                       unknown.liquid == "empty" ? "in the empty cup" : "of what is seen in " + spaced(unknown.liquid),
-                       unknown.part, std::abs(unknown.higher_mm), unknown.higher_mm < 0.0 ? "lower" : "higher");
+           fmt::format(": in {}, what is seen {} is {:.2g} mm {}, beside the rest of the cup, than the model has it. ",
+                       unknown.liquid == "empty" ? "the empty cup" : spaced(unknown.liquid),
+                       unknown.part == "middle" ? "in the middle" : unknown.part, std::abs(unknown.higher_mm),
+                       unknown.higher_mm < 0.0 ? "lower" : "higher");
   if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
   if (!unknown.most_similar.empty())
     text +=

@@ -27,14 +27,14 @@ double above_mean(const CellHeights& heights, const CupCells& cells, int cell) {
   return heights[cell] - sum / static_cast<double>(cells.count());
 }
 
-/// "12 mm right, 24 mm near", "middle".
+/// "12 mm right of and 24 mm before the middle", as the sensor sees it; "middle".
 std::string words_at(const Eigen::Vector2d& at_mm) {
-  const auto along = [](double mm, const char* more, const char* less) {
-    return std::abs(mm) < 0.5 ? std::string() : fmt::format("{:.0f} mm {}", std::abs(mm), mm > 0.0 ? more : less);
-  };
-  const std::string across = along(at_mm.x(), "right", "left"), away = along(at_mm.y(), "far", "near");
-  if (across.empty() && away.empty()) return "middle";
-  return across + (across.empty() || away.empty() ? "" : ", ") + away;
+  std::vector<std::string> steps;
+  if (std::abs(at_mm.x()) >= 0.5)
+    steps.push_back(fmt::format("{:.0f} mm {} of", std::abs(at_mm.x()), at_mm.x() > 0.0 ? "right" : "left"));
+  if (std::abs(at_mm.y()) >= 0.5)
+    steps.push_back(fmt::format("{:.0f} mm {}", std::abs(at_mm.y()), at_mm.y() > 0.0 ? "beyond" : "before"));
+  return steps.empty() ? "middle" : fmt::format("{} the middle", fmt::join(steps, " and "));
 }
 
 /// What the model no longer sees changes as the rest does.

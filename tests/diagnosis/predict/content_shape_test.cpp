@@ -45,7 +45,7 @@ TEST(ContentShape, ShowsABumpThatPoursAndPlacesHide) {
     EXPECT_NEAR(o.repeat_sd, 0.19, 0.1);  // 3 σ of a scatter of twelve
     EXPECT_NEAR(o.value, shape.cell == kBumpAt ? 1.8 : -0.2, 4.0 * 0.2 / std::sqrt(12.0));
   }
-  EXPECT_EQ(shapes[8].observation.factors.region, "12 mm right, 12 mm far");
+  EXPECT_EQ(shapes[8].observation.factors.region, "12 mm right of and 12 mm beyond the middle");
   EXPECT_EQ(shapes[2].observation.factors.region, "middle");
 }
 
