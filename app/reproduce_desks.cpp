@@ -5,8 +5,8 @@
 #include "app/clutter_templates.h"
 #include "app/detector_options.h"
 #include "core/files.h"
+#include "core/proportion.h"
 #include "core/rng.h"
-#include "core/wilson.h"
 
 namespace fathom {
 

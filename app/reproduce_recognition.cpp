@@ -8,7 +8,7 @@
 #include "app/gnuplot_text.h"
 #include "app/reproduce.h"
 #include "app/reproduce_desks.h"
-#include "core/wilson.h"
+#include "core/proportion.h"
 
 namespace fathom {
 namespace {

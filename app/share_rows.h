@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/proportion.h"
 #include "core/rows.h"
-#include "core/wilson.h"
 
 namespace fathom {
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/special_functions/beta.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 
 #include "bench/baselines/diagnosis_baselines.h"
 #include "core/median.h"
+#include "core/proportion.h"
 #include "core/rng.h"
 #include "diagnosis/decision/decide.h"
 #include "tests/diagnosis/statistics/synthetic_campaign.h"
@@ -32,10 +32,9 @@ struct Share {
   }
   std::string text() const {
     if (trials == 0) return "–";
-    const double k = hits, n = trials;
-    const double low = hits == 0 ? 0.0 : boost::math::ibeta_inv(k, n - k + 1.0, 0.025);
-    const double high = hits == trials ? 1.0 : boost::math::ibeta_inv(k + 1.0, n - k, 0.975);
-    return fmt::format("{}/{} = {:.1f} % [{:.1f}, {:.1f}]", hits, trials, 100.0 * k / n, 100.0 * low, 100.0 * high);
+    const auto [low, high] = clopper_pearson_95(hits, trials);
+    return fmt::format("{}/{} = {:.1f} % [{:.1f}, {:.1f}]", hits, trials, 100.0 * hits / trials, 100.0 * low,
+                       100.0 * high);
   }
 };
 

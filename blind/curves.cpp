@@ -6,7 +6,7 @@
 #include <array>
 #include <map>
 
-#include "blind/clopper_pearson.h"
+#include "core/proportion.h"
 
 namespace fathom::blind {
 namespace {
@@ -17,7 +17,7 @@ struct Count {
   int hits = 0, trials = 0;
   void add(bool hit) { ++trials, hits += hit; }
   double share() const { return trials > 0 ? static_cast<double>(hits) / trials : 0.0; }
-  ShareInterval interval() const { return clopper_pearson_95(hits, trials); }
+  Interval interval() const { return clopper_pearson_95(hits, trials); }
 };
 
 std::vector<const Judged*> most_confident_first(std::span<const Judged> judged) {

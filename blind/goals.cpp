@@ -7,9 +7,9 @@
 #include <functional>
 #include <limits>
 
-#include "blind/clopper_pearson.h"
 #include "blind/settle.h"
 #include "core/estimate.h"
+#include "core/proportion.h"
 
 namespace fathom::blind {
 namespace {
@@ -29,7 +29,7 @@ Goal share(std::string metric, std::span<const Judged> judged, const Is& counts,
     ++goal.trials;
     goal.hits += is_answered(one) ? hits(one) : want == Want::at_most;
   }
-  const ShareInterval interval = clopper_pearson_95(goal.hits, goal.trials);
+  const Interval interval = clopper_pearson_95(goal.hits, goal.trials);
   goal.low = interval.low;
   goal.high = interval.high;
   goal.value = goal.trials > 0 ? static_cast<double>(goal.hits) / goal.trials : 0.0;
@@ -104,7 +104,7 @@ Goal coverage(std::span<const Judged> judged) {
       goal.hits += value >= estimate->second.low && value <= estimate->second.high;
     }
   }
-  const ShareInterval interval = clopper_pearson_95(goal.hits, goal.trials);
+  const Interval interval = clopper_pearson_95(goal.hits, goal.trials);
   goal.low = interval.low;
   goal.high = interval.high;
   goal.value = goal.trials > 0 ? static_cast<double>(goal.hits) / goal.trials : 0.0;

@@ -38,7 +38,7 @@ BORDERS = {
     "PCL": ["detector/*.cpp", "tests/*.cpp", "bench/*.cpp"],
     "tinygltf": ["sim/scene/*.cpp"],
     "Boost.Geometry": ["sim/scene/*.cpp"],
-    "Boost.Math": ["blind/*.cpp", "diagnosis/statistics/*.cpp", "bench/*.cpp"],
+    "Boost.Math": ["core/*.cpp", "blind/*.cpp", "diagnosis/statistics/*.cpp", "bench/*.cpp"],
     "OpenEXR": ["core/*.cpp"],
     "libpng": ["core/*.cpp"],
     "OpenSSL": ["core/*.cpp"],

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "blind/clopper_pearson.h"
 #include "blind/curves.h"
 #include "blind/goals.h"
 #include "blind/settle.h"
@@ -13,15 +12,6 @@ namespace fathom::blind {
 namespace {
 
 namespace fs = std::filesystem;
-
-TEST(ClopperPearson, GivesThePublishedIntervals) {
-  // 0 of 10: 1 − 0.025^(1/10); by symmetry 10 of 10. 5 of 10: 0.187 to 0.813 (Clopper & Pearson's chart).
-  EXPECT_NEAR(clopper_pearson_95(0, 10).high, 1.0 - std::pow(0.025, 0.1), 1e-9);
-  EXPECT_NEAR(clopper_pearson_95(10, 10).low, std::pow(0.025, 0.1), 1e-9);
-  EXPECT_NEAR(clopper_pearson_95(5, 10).low, 0.187, 5e-4);
-  EXPECT_NEAR(clopper_pearson_95(5, 10).high, 0.813, 5e-4);
-  EXPECT_EQ(clopper_pearson_95(0, 0).high, 1.0);
-}
 
 Answer answer_of(const std::string& json, const std::string& next = "[]") {
   const fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
