@@ -4,11 +4,14 @@
 Judges the diagnosis in a world that is not Fathom's own: has WORLD write one measurement after the other, diagnoses each,
 removes its clouds, and scores the answers. WORLD is povray (POV-Ray's rays, OpenCV's matches) or second_laboratory, which
 needs the programs of ../shared/second_world. out/blind/WORLD-SEED/ holds truth, answers and score; it goes on where it was
-stopped. `page` prints the scores of several worlds as one table, the worst on its first line.
+stopped. `page` prints the scores of several worlds as one table, the worst on its first line, and of each what was found by what was hidden.
 Needs Debian's python3-numpy, python3-scipy; the world of POV-Ray also povray and python3-opencv."""
 import argparse
+import collections
 import concurrent.futures
+import csv
 import fcntl
+import itertools
 import json
 import os
 import shutil
@@ -140,11 +143,12 @@ def score(pack, world):
     (pack / "score").mkdir(exist_ok=True)
     (pack / "score" / "score.json").write_text(json.dumps({"pack": pack.name, "world": world, "sets": len(judged), "goals": result}, indent=1) + "\n")
     with open(pack / "score" / "sets.csv", "w", encoding="utf-8") as table:
-        table.write("set,class,hidden,verdict,named,first,probability,right,confidently_wrong\n")
+        table.write("set,class,hidden,verdict,named,first,probability,right,not_told,confidently_wrong\n")
         for one in judged:
             first = one.entries[0] if one.entries else ([frozenset()], [], 0)
             table.write(",".join([one.name, one.kind, "+".join(sorted(one.truth)) or "none", one.verdict, "+".join(sorted(one.named)),
-                                  "+".join(sorted(first[0][0])), f"{first[2]:.2f}", str(int(one.right())), str(int(one.confidently_wrong()))]) + "\n")
+                                  "+".join(sorted(first[0][0])), f"{first[2]:.2f}", str(int(one.right())), str(int(one.right() or one.first_holds_truth())),
+                                  str(int(one.confidently_wrong()))]) + "\n")
     for goal in result:
         if goal["trials"]:
             print(f"{goal['metric']:46} {goal['hits']:4} of {goal['trials']:4}  {100 * goal['ci95'][0]:5.1f} to {100 * goal['ci95'][1]:5.1f} %  {goal['verdict']}")
@@ -160,6 +164,22 @@ def page(files):
     for one in scores:
         cells = {goal["metric"]: f"{goal['hits']}/{goal['trials']}" for goal in one["goals"]}
         print(f"| {one['pack']} | " + " | ".join(cells.get(metric, "") for metric in metrics) + " |")
+    for file, one in zip(files, map(json.loads, (Path(file).read_text() for file in files))):
+        by_hidden(one["pack"], Path(file).with_name("sets.csv"))
+
+
+def by_hidden(pack, file):
+    """What of each kind was found, and what was said where it was not."""
+    with open(file, encoding="utf-8") as table:
+        rows = [row for row in csv.DictReader(table) if row["class"] != "null"]
+    rows.sort(key=lambda row: (["single", "pair", "unknown"].index(row["class"]), row["hidden"]))
+    print(f"\n| {pack}: hidden | right | right, or not told from what is | said in its place |\n|---|---|---|---|")
+    for (kind, hidden), group in itertools.groupby(rows, lambda row: (row["class"], row["hidden"])):
+        group = list(group)
+        said = collections.Counter(row["named"] if "named" in row["verdict"] else row["verdict"] for row in group if row["not_told"] == "0")
+        counts = [f"{sum(row[key] == '1' for row in group)}/{len(group)}" for key in ("right", "not_told")]
+        words = ", ".join(name.replace("_", " ").replace("+", " and ") + (f" ({count})" if count > 1 else "") for name, count in said.most_common())
+        print(f"| {hidden.replace('_', ' ').replace('+', ' and ')}{' (unknown)' if kind == 'unknown' else ''} | {counts[0]} | {counts[1]} | {words} |")
 
 
 def main():
