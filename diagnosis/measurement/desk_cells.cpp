@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/median.h"
-
 namespace fathom {
 namespace {
 
@@ -63,21 +61,6 @@ BiasView DeskCells::view() const {
     view.errors_px.push_back(static_cast<double>(cell.error_px / cell.pixels));
   }
   return view;
-}
-
-double DeskCells::own_error_px(const BiasView& view) {
-  constexpr double kLeast_px = 0.003;  // what rounding to whole millimetres leaves in a cell
-  std::vector<double> differences;
-  const auto follows = [&](std::size_t i) {
-    return view.cells[i + 1].row_px == view.cells[i].row_px &&
-           view.cells[i + 1].column_px == view.cells[i].column_px + kBiasCell_px;
-  };
-  for (std::size_t i = 0; i + 2 < view.cells.size(); ++i)
-    if (follows(i) && follows(i + 1))
-      differences.push_back(std::abs(view.errors_px[i] - 2.0 * view.errors_px[i + 1] + view.errors_px[i + 2]));
-  if (differences.empty()) return kLeast_px;
-  const double deviation = median(differences) / 0.6745;  // of a normal from its median
-  return std::max(kLeast_px, deviation / std::sqrt(6.0));
 }
 
 }  // namespace fathom

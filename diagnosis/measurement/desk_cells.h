@@ -18,9 +18,6 @@ class DeskCells {
 
   /// The cells that are mostly desk in any of the clouds; empty where there are none.
   BiasView view() const;
-  /// 1 σ of a whole cell's mean that its neighbours do not share [px]: the median second difference along rows, as of
-  /// normal errors. A smooth bias has next to none.
-  static double own_error_px(const BiasView& view);
 
  private:
   struct Cell {

@@ -8,11 +8,6 @@
 namespace fathom {
 namespace {
 
-/// 1, column and row of the image, each from −1 to 1.
-Eigen::Vector3d plane_at(const Eigen::Vector2d& pixel_px) {
-  return {1.0, 2.0 * pixel_px.x() / kImageWidth_px - 1.0, 2.0 * pixel_px.y() / kImageHeight_px - 1.0};
-}
-
 double covariance(const BiasPrior& prior, double distance_px) {
   double sum = 0.0;
   for (std::size_t i = 0; i < kBiasReaches_px.size(); ++i) {
@@ -70,7 +65,7 @@ UnitBias::UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated)
         for (const auto& [session, cells] : desks) {
           BiasView view = cells.view();
           if (view.cells.empty()) continue;
-          own_errors.push_back(DeskCells::own_error_px(view));
+          own_errors.push_back(own_error_px(view));
           all.sessions.push_back(session);
           all.views.push_back(std::move(view));
         }
@@ -91,14 +86,7 @@ UnitBias UnitBias::with_bare_desks() const {
   Views all = views_;
   for (BiasView& view : all.views) {
     // A desk's disparity is linear over the image.
-    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (const BiasCell& cell : view.cells) {
-      const Eigen::Vector3d at = plane_at({cell.column_px, cell.row_px});
-      normal += at * at.transpose();
-      right += cell.nearer_px * at;
-    }
-    const Eigen::Vector3d nearer = normal.ldlt().solve(right);
+    const Eigen::Vector3d nearer = plane_through(view.cells, nearer_px(view.cells));
     view = {.cells = {}, .errors_px = {}, .state = view.state};
     for (double row = 0.5 * kBiasCell_px; row < kImageHeight_px; row += kBiasCell_px)
       for (double column = 0.5 * kBiasCell_px; column < kImageWidth_px; column += kBiasCell_px) {

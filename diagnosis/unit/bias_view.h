@@ -2,6 +2,7 @@
 // cell by cell of the image.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct BiasCell {
   double column_px, row_px;
   double nearer_px;  ///< disparity minus that of the reference plane: the pixel is compared with the column − nearer_px
   double pixels;     ///< of desk in the square, mean over the view's clouds
+
+  Eigen::Vector2d pixel_px() const { return {column_px, row_px}; }
 };
 
 /// Two views are of one state when the device did the same to both beside what it does to all: one session, one pose.
@@ -24,6 +27,21 @@ struct BiasView {
   std::vector<double> errors_px;  ///< of each cell: mean disparity measured minus that of the fitted plane
   int state = kNoState;
 };
+
+/// 1, column and row of the depth image, these from −1 to 1.
+inline Eigen::Vector3d plane_at(const Eigen::Vector2d& pixel_px) {
+  return {1.0, pixel_px.x() / 320.0 - 1.0, pixel_px.y() / 240.0 - 1.0};
+}
+
+/// The plane, as coefficients of plane_at(), that is nearest to a value of each cell; cells count by their pixels.
+Eigen::Vector3d plane_through(std::span<const BiasCell> cells, std::span<const double> values);
+
+/// What each cell has of `nearer_px`.
+std::vector<double> nearer_px(std::span<const BiasCell> cells);
+
+/// 1 σ of a whole cell's mean that its neighbours do not share [px]: the median second difference along rows, as of
+/// normal errors. A smooth bias has next to none.
+double own_error_px(const BiasView& view);
 
 /// How far the disparities of two desks may lie apart in one pose: all alike, and in each corner of the image beside
 /// that.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -159,18 +158,14 @@ Scenes merged(const std::vector<Reading>& readings) {
 
 /// Errors of a view less the field, its plane apart: sum of squares over its cells.
 double squares_left(const BiasView& view, const BiasField& field, int state) {
-  const auto count = static_cast<Eigen::Index>(view.cells.size());
-  Eigen::MatrixXd plane(count, 3);
-  Eigen::VectorXd left(count), weight(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const BiasCell& cell = view.cells[i];
-    plane.row(i) << 1.0, cell.column_px / 320.0 - 1.0, cell.row_px / 240.0 - 1.0;
-    weight[i] = cell.pixels;
-    left[i] = view.errors_px[i] - field.at({{cell.column_px, cell.row_px}, cell.nearer_px, state});
-  }
-  const Eigen::MatrixXd weighted = weight.asDiagonal() * plane;
-  left -= plane * (plane.transpose() * weighted).ldlt().solve(weighted.transpose() * left).eval();
-  return left.squaredNorm();
+  std::vector<double> left;
+  for (std::size_t i = 0; i < view.cells.size(); ++i)
+    left.push_back(view.errors_px[i] - field.at({view.cells[i].pixel_px(), view.cells[i].nearer_px, state}));
+  const Eigen::Vector3d plane = plane_through(view.cells, left);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    sum += std::pow(left[i] - plane.dot(plane_at(view.cells[i].pixel_px())), 2.0);
+  return sum;
 }
 
 /// Views are left out one by one; of many, several at a time.

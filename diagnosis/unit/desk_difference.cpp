@@ -1,6 +1,5 @@
 #include "diagnosis/unit/desk_difference.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,53 +23,19 @@ constexpr double kMostlySeen = 0.75;  ///< of as many cells as rectangles usuall
 
 CellMap nothing_seen() { return CellMap::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
-CellMap map_of(const BiasView& view, std::span<const double> values) {
-  CellMap map = nothing_seen();
-  for (std::size_t i = 0; i < view.cells.size(); ++i)
-    map(static_cast<Eigen::Index>(view.cells[i].row_px / kBiasCell_px),
-        static_cast<Eigen::Index>(view.cells[i].column_px / kBiasCell_px)) = values[i];
-  return map;
-}
+Eigen::Index row_of(const BiasCell& cell) { return static_cast<Eigen::Index>(cell.row_px / kBiasCell_px); }
+Eigen::Index column_of(const BiasCell& cell) { return static_cast<Eigen::Index>(cell.column_px / kBiasCell_px); }
 
-std::vector<double> nearer_px(const BiasView& view) {
-  std::vector<double> values;
-  for (const BiasCell& cell : view.cells) values.push_back(cell.nearer_px);
-  return values;
+CellMap map_of(std::span<const BiasCell> cells, std::span<const double> values) {
+  CellMap map = nothing_seen();
+  for (std::size_t i = 0; i < cells.size(); ++i) map(row_of(cells[i]), column_of(cells[i])) = values[i];
+  return map;
 }
 
 /// Of the cells that were seen.
 template <typename Cells>
 double mean_of(const Cells& cells) {
   return cells.isNaN().select(0.0, cells).sum() / static_cast<double>((!cells.isNaN()).count());
-}
-
-void take_off_plane(CellMap& map) {
-  Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const auto at = [](Eigen::Index row, Eigen::Index column) {
-    return Eigen::Vector3d(1.0, 2.0 * static_cast<double>(column) / kMapColumns - 1.0,
-                           2.0 * static_cast<double>(row) / kMapRows - 1.0);
-  };
-  for (Eigen::Index row = 0; row < kMapRows; ++row)
-    for (Eigen::Index column = 0; column < kMapColumns; ++column)
-      if (!std::isnan(map(row, column))) {
-        normal += at(row, column) * at(row, column).transpose();
-        right += map(row, column) * at(row, column);
-      }
-  const Eigen::Vector3d plane = normal.ldlt().solve(right);
-  for (Eigen::Index row = 0; row < kMapRows; ++row)
-    for (Eigen::Index column = 0; column < kMapColumns; ++column) map(row, column) -= plane.dot(at(row, column));
-}
-
-/// 1 σ of a cell beside its neighbours, from second differences along rows.
-double own_error(const CellMap& map) {
-  std::vector<double> differences;
-  for (Eigen::Index row = 0; row < kMapRows; ++row)
-    for (Eigen::Index column = 1; column + 1 < kMapColumns; ++column)
-      if (const double d = map(row, column - 1) - 2.0 * map(row, column) + map(row, column + 1); !std::isnan(d))
-        differences.push_back(std::abs(d));
-  constexpr double kOfMedian = 0.6745;  // of a normal distribution, in σ
-  return differences.empty() ? 0.0 : median(differences) / kOfMedian / std::sqrt(6.0);
 }
 
 /// A rectangle of the image and what is seen in it.
@@ -118,26 +83,37 @@ std::vector<Part> parts_of(const CellMap& map) {
 }  // namespace
 
 CellMap desk_beside_others(const std::map<int, BiasView>& views, int session) {
-  CellMap sum = CellMap::Zero(), count = CellMap::Zero(), own = nothing_seen();
+  CellMap sum = CellMap::Zero(), count = CellMap::Zero();
   for (const auto& [of, view] : views) {
-    const CellMap errors = map_of(view, view.errors_px);
-    if (of == session) {
-      own = errors;
-      continue;
-    }
+    if (of == session) continue;
+    const CellMap errors = map_of(view.cells, view.errors_px);
     sum += errors.isNaN().select(0.0, errors);
     count += errors.isNaN().select(CellMap::Zero(), CellMap::Ones());
   }
-  CellMap map = own - sum / count;  // 0 / 0 where no other session shows it
-  take_off_plane(map);
-  return map;
+  std::vector<BiasCell> shared;
+  std::vector<double> differences;
+  const BiasView& own = views.at(session);
+  for (std::size_t i = 0; i < own.cells.size(); ++i) {
+    const Eigen::Index row = row_of(own.cells[i]), column = column_of(own.cells[i]);
+    if (count(row, column) == 0.0) continue;
+    shared.push_back(own.cells[i]);
+    differences.push_back(own.errors_px[i] - sum(row, column) / count(row, column));
+  }
+  const Eigen::Vector3d plane = plane_through(shared, differences);
+  for (std::size_t i = 0; i < shared.size(); ++i) differences[i] -= plane.dot(plane_at(shared[i].pixel_px()));
+  return map_of(shared, differences);
 }
 
 std::vector<DeskDifference> desk_parts(const std::map<int, BiasView>& views, int session) {
   const CellMap map = desk_beside_others(views, session);
-  const CellMap nearer = map_of(views.at(session), nearer_px(views.at(session)));
-  const double of_cell = std::pow(own_error(map), 2.0);
-  const double views_in_difference = 1.0 + 1.0 / static_cast<double>(views.size() - 1);
+  const std::vector<BiasCell>& cells = views.at(session).cells;
+  const CellMap nearer = map_of(cells, nearer_px(cells));
+  double of_cell = 0.0, views_in_difference = 0.0;
+  for (const auto& [of, view] : views) {
+    const double share = of == session ? 1.0 : 1.0 / static_cast<double>(views.size() - 1);
+    of_cell += std::pow(share * own_error_px(view), 2.0);
+    views_in_difference += share * share;
+  }
   const auto corner = [](Eigen::Index column, Eigen::Index row) -> Eigen::Vector2d {
     return kBiasCell_px * Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row));
   };
