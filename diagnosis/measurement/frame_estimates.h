@@ -1,6 +1,7 @@
 // What one frame says about desk and cup: the same estimators for a cloud's points and for a model's few rays.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <span>
@@ -77,6 +78,7 @@ struct FrameView {
   double fill_m = 0.0;                 ///< of what should stand in it
   double soft_m = 0.0;                 ///< width of the regions' borders
   bool has_rows = false;  ///< points come as in an image, neighbours after each other: dots have a contrast
+  std::optional<Eigen::AlignedBox2d> desk_px{};  ///< part of the depth image in which desk counts; nothing: all of it
 };
 
 /// Desk: the plane by least squares in inverse depth, where a plane is linear and disparity's noise is even; from where

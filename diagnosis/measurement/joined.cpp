@@ -51,6 +51,7 @@ void append(Measurement more, Measurement& all) {
     observation.factors.session += sessions;
     all.observations.push_back(std::move(observation));
   }
+  all.desk_sights.add(more.desk_sights);
   all.rig.liquids.insert(more.rig.liquids.begin(), more.rig.liquids.end());
   for (std::string& note : more.notes) all.notes.push_back(std::move(note));
   for (Mistake& mistake : more.mistakes) all.mistakes.push_back(std::move(mistake));

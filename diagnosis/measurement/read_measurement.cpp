@@ -239,9 +239,11 @@ int Survey::sessions() const {
 }
 
 std::map<int, DeskCells> Survey::desks() const {
-  std::map<int, DeskCells> desks;
+  std::map<int, std::vector<DeskCells>> clouds;
   for (std::size_t i = 0; i < content_->readings.size(); ++i)
-    desks[content_->measurement.frames[i].session].add(content_->readings[i].cells);
+    clouds[content_->measurement.frames[i].session].push_back(content_->readings[i].cells);
+  std::map<int, DeskCells> desks;
+  for (auto& [session, cells] : clouds) desks.emplace(session, DeskCells::of_one_pose(std::move(cells)));
   return desks;
 }
 
@@ -249,6 +251,8 @@ Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
   Measurement measurement = std::move(content_->measurement);
   std::vector<FrameReading> readings = std::move(content_->readings);
   const Table& table = content_->table;
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    measurement.desk_sights.add(measurement.frames[i], readings[i].cells);
   std::vector<CloudPrint> prints;
   for (const FrameReading& reading : readings) prints.push_back(reading.print);
   if (unit) readings = read_frames_of(measurement, content_->folder, table, &unit->field(), content_->quiet);

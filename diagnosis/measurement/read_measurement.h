@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "diagnosis/measurement/desk_sights.h"
 #include "diagnosis/measurement/frames.h"
 #include "diagnosis/measurement/unit_bias.h"
 #include "diagnosis/statistics/evidence.h"
@@ -16,6 +17,7 @@ struct Measurement {
   std::vector<Observation> observations;  ///< by session, pour, placement; then as named_values() has them
   std::vector<std::string> notes;         ///< what limits it, one sentence each: heights without clouds, …
   std::shared_ptr<const UnitBias> unit;   ///< that was taken off all clouds; empty where there are none
+  DeskSights desk_sights;
   std::vector<Mistake> mistakes;  ///< "flipped_axis", "unit_error", "distance_to_front", "duplicated_trial": put right
 };
 

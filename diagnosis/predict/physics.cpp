@@ -81,8 +81,8 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   evidence.is_calibrated = rig.unit.map != nullptr;
   evidence.odd_desks = odd_desks(measurement);
   const std::vector<Observation> observations = predictable(measurement.observations);
-  const auto predictor =
-      std::make_shared<Predictor>(measurement.rig, observations, model_effects, file, measurement.unit);
+  const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file,
+                                                     measurement.unit, measurement.desk_sights);
   const std::vector<bool> kept = are_predicted(*predictor);
   for (std::size_t row = 0; row < kept.size(); ++row)
     if (kept[row]) evidence.observations.push_back(observations[row]);

@@ -25,7 +25,8 @@ ConditionKey key_of(const Factors& f) {
   return {f.session, f.pour, f.placement, f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm};
 }
 
-std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector<Observation>& observations) {
+std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector<Observation>& observations,
+                                     const DeskSights& sights) {
   std::map<ConditionKey, Condition> found;
   for (std::size_t row = 0; row < observations.size(); ++row) {
     const Factors& f = observations[row].factors;
@@ -37,6 +38,7 @@ std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector
   for (auto& [key, condition] : found) {
     condition.factors.region.clear();
     condition.pixels = sample_pixels(rig, view_of(condition.factors));
+    condition.pixels.view.desk_px = sights.at(condition.factors);
     conditions.push_back(std::move(condition));
   }
   return conditions;
@@ -82,13 +84,13 @@ double pitch_of_wander_deg(double height_mm, const Plane& desk) {
 }  // namespace
 
 Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects,
-                     std::string file, std::shared_ptr<const UnitBias> unit)
+                     std::string file, std::shared_ptr<const UnitBias> unit, const DeskSights& sights)
     : model_(nominal_model(rig, file)),
       model_effects_(std::move(model_effects)),
       model_goes_by_time_(goes_by_time(model_effects_)),
       file_(std::move(file)),
       unit_(std::move(unit)),
-      conditions_(conditions_of(rig, observations)) {
+      conditions_(conditions_of(rig, observations, sights)) {
   number_equals(conditions_);
   for (const Observation& observation : observations) {
     observables_.push_back(observation.observable);
@@ -374,7 +376,9 @@ Eigen::VectorXd Predictor::predict_by(const Shoot& shoot, const Change& change,
   const Look look = [&](const Setup& shot, const Condition& condition) {
     std::vector<SensedPoint> points = shoot(shot, condition);
     if (bias) take_off(as_bias(*bias), model_.laboratory, points);
-    return estimate_frame(points, model_.laboratory, view_of(condition.factors));
+    FrameView view = view_of(condition.factors);
+    view.desk_px = condition.pixels.view.desk_px;
+    return estimate_frame(points, model_.laboratory, view);
   };
   Values values = no_values();
   for (const std::vector<std::size_t>& group : alike(change, conditions)) predict_alike(look, change, group, values);

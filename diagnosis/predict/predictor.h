@@ -37,9 +37,10 @@ class Predictor {
  public:
   /// `observations` must outlive nothing: their factors are copied. Effects of `model_effects` (as in model.json) are
   /// part of the nominal model. `unit`: what was learned of the unit's bias and taken off the observations; so it is of
-  /// predictions. Throws Error on what cannot be modelled.
+  /// predictions. `sights`: the part of the image in which clouds show the desk; of predictions no more counts. Throws
+  /// Error on what cannot be modelled.
   Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects = Json::array(),
-            std::string file = "rig.json", std::shared_ptr<const UnitBias> unit = {});
+            std::string file = "rig.json", std::shared_ptr<const UnitBias> unit = {}, const DeskSights& sights = {});
 
   /// One value for each observation, NaN where the model sees nothing there or does not predict that observable.
   Eigen::VectorXd predict(const Change& change) const;

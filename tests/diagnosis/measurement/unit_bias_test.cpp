@@ -53,6 +53,54 @@ TEST(UnitBias, LearnedFromDesksFlattensThem) {
   EXPECT_LT(after, 0.1 * before);
 }
 
+/// What lies in a part of the image.
+std::vector<SensedPoint> cut_out(std::vector<SensedPoint> points, const Eigen::AlignedBox2d& part_px) {
+  std::erase_if(points, [&](const SensedPoint& p) { return !part_px.contains(bias_point(p.point, kRig).pixel_px); });
+  return points;
+}
+
+/// A desk that bends more and more towards the image's border, as behind a lens whose distortion is not known.
+std::vector<SensedPoint> bent_desk() {
+  return desk_points(kRig, 2.0, [](double column, double row, double) {
+    return 0.2 * std::hypot(column / 320.0 - 1.0, row / 240.0 - 1.0) *
+           std::hypot(column / 320.0 - 1.0, row / 240.0 - 1.0);
+  });
+}
+
+TEST(UnitBias, CloudsThatAreCutOutAroundACupTeachTheSameAsWholeOnes) {
+  std::vector<DeskCells> clouds;
+  for (const double first : {0.0, 100.0, 200.0}) {
+    const Eigen::AlignedBox2d part(Eigen::Vector2d(first, 0.8 * first),
+                                   Eigen::Vector2d(first + 440.0, 0.8 * first + 320.0));
+    const std::vector<SensedPoint> points = cut_out(bent_desk(), part);
+    clouds.emplace_back().add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
+  }
+  // A cut-out's own plane leans into the bend, so that plain sums hold three planes.
+  DeskCells sum;
+  for (const DeskCells& cloud : clouds) sum.add(cloud);
+  const auto left_mm = [&](DeskCells cells) {
+    const UnitBias unit({{0, std::move(cells)}});
+    std::vector<SensedPoint> points =
+        cut_out(bent_desk(), {Eigen::Vector2d(150.0, 100.0), Eigen::Vector2d(500.0, 400.0)});
+    take_off(as_bias(unit.field()), kRig, points);
+    return residual_mm(*estimate_frame(points, kRig, {}));
+  };
+  EXPECT_LT(left_mm(DeskCells::of_one_pose(clouds)), 0.25 * left_mm(sum));
+}
+
+TEST(FrameEstimates, OfAPartOfTheImageAreThoseOfWhatLiesInIt) {
+  const Eigen::AlignedBox2d part(Eigen::Vector2d(100.0, 150.0), Eigen::Vector2d(400.0, 480.0));
+  const std::vector<SensedPoint> whole = bent_desk();
+  FrameView view;
+  view.desk_px = part;
+  const Plane cut = estimate_frame(cut_out(whole, part), kRig, {})->desk,
+              seen = estimate_frame(whole, kRig, view)->desk;
+  EXPECT_NEAR(cut.offset, seen.offset, 1e-9);
+  EXPECT_LT((cut.normal - seen.normal).norm(), 1e-9);
+  EXPECT_GT(std::abs(cut.offset - estimate_frame(whole, kRig, {})->desk.offset),
+            1e-4);  // elsewhere the desk bends away
+}
+
 TEST(UnitBias, LeavesWhatTheDeviceGaveKnown) {
   std::vector<SensedPoint> points = desk(0.0, 1);
   const std::vector<SensedPoint> given = points;
