@@ -9,16 +9,6 @@ namespace {
 constexpr int kColumns = static_cast<int>(kImageWidth_px / kBiasCell_px),
               kRows = static_cast<int>(kImageHeight_px / kBiasCell_px);
 constexpr double kFullCell = kBiasCell_px * kBiasCell_px;
-Eigen::Vector2d middle_px(std::size_t cell) {
-  return kBiasCell_px *
-         Eigen::Vector2d(static_cast<double>(cell % kColumns) + 0.5, static_cast<double>(cell / kColumns) + 0.5);
-}
-
-std::size_t number_of(const BiasCell& cell) {
-  return static_cast<std::size_t>(cell.row_px / kBiasCell_px) * kColumns +
-         static_cast<std::size_t>(cell.column_px / kBiasCell_px);
-}
-
 constexpr double kMostly = 0.75;  ///< of a cell, in one cloud: where less is desk, blocks hold an edge
 /// [px] A unit's bias has a deviation of 0.1 and blocks on a slope one of as much: three of both together. Things lower
 /// than that, 3 mm at 0.65 m, pass for desk.
@@ -59,48 +49,14 @@ void DeskCells::add(const DeskCells& other) {
   }
 }
 
-void DeskCells::turn(const Eigen::Vector3d& plane) {
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    if (cells_[i].pixels > 0.0f)
-      cells_[i].error_px += cells_[i].pixels * static_cast<float>(plane.dot(plane_at(middle_px(i))));
-}
-
-DeskCells DeskCells::of_one_pose(std::vector<DeskCells> clouds) {
-  constexpr int kMostTurns = 30;
-  constexpr double kStill_px = 1e-4;
-  const auto sum = [&] {
-    DeskCells all;
-    for (const DeskCells& cloud : clouds) all.add(cloud);
-    return all;
-  };
-  DeskCells all = sum();
-  for (int turns = 0; turns < kMostTurns; ++turns) {
-    double largest_px = 0.0;
-    for (DeskCells& cloud : clouds) {
-      const BiasView own = cloud.view();
-      if (own.cells.empty()) continue;
-      std::vector<double> off_px;
-      for (const BiasCell& cell : own.cells) {
-        const Cell& shared = all.cells_[number_of(cell)];
-        off_px.push_back(static_cast<double>(shared.error_px / shared.pixels) - own.errors_px[off_px.size()]);
-      }
-      const Eigen::Vector3d plane = plane_through(own.cells, off_px);
-      cloud.turn(plane);
-      largest_px = std::max(largest_px, plane.cwiseAbs().maxCoeff());
-    }
-    all = sum();
-    if (largest_px < kStill_px) break;
-  }
-  return all;
-}
-
 BiasView DeskCells::view() const {
   BiasView view;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.pixels <= 0.0f) continue;
-    const Eigen::Vector2d at_px = middle_px(i);
-    view.cells.push_back({at_px.x(), at_px.y(), static_cast<double>(cell.nearer_px / cell.pixels),
+    const auto column = static_cast<double>(i % kColumns), row = static_cast<double>(i / kColumns);
+    view.cells.push_back({(column + 0.5) * kBiasCell_px, (row + 0.5) * kBiasCell_px,
+                          static_cast<double>(cell.nearer_px / cell.pixels),
                           std::min(static_cast<double>(cell.pixels), kFullCell)});
     view.errors_px.push_back(static_cast<double>(cell.error_px / cell.pixels));
   }

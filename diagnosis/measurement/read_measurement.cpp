@@ -239,11 +239,9 @@ int Survey::sessions() const {
 }
 
 std::map<int, DeskCells> Survey::desks() const {
-  std::map<int, std::vector<DeskCells>> clouds;
-  for (std::size_t i = 0; i < content_->readings.size(); ++i)
-    clouds[content_->measurement.frames[i].session].push_back(content_->readings[i].cells);
   std::map<int, DeskCells> desks;
-  for (auto& [session, cells] : clouds) desks.emplace(session, DeskCells::of_one_pose(std::move(cells)));
+  for (std::size_t i = 0; i < content_->readings.size(); ++i)
+    desks[content_->measurement.frames[i].session].add(content_->readings[i].cells);
   return desks;
 }
 

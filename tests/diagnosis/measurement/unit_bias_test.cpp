@@ -67,27 +67,6 @@ std::vector<SensedPoint> bent_desk() {
   });
 }
 
-TEST(UnitBias, CloudsThatAreCutOutAroundACupTeachTheSameAsWholeOnes) {
-  std::vector<DeskCells> clouds;
-  for (const double first : {0.0, 100.0, 200.0}) {
-    const Eigen::AlignedBox2d part(Eigen::Vector2d(first, 0.8 * first),
-                                   Eigen::Vector2d(first + 440.0, 0.8 * first + 320.0));
-    const std::vector<SensedPoint> points = cut_out(bent_desk(), part);
-    clouds.emplace_back().add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
-  }
-  // A cut-out's own plane leans into the bend, so that plain sums hold three planes.
-  DeskCells sum;
-  for (const DeskCells& cloud : clouds) sum.add(cloud);
-  const auto left_mm = [&](DeskCells cells) {
-    const UnitBias unit({{0, std::move(cells)}});
-    std::vector<SensedPoint> points =
-        cut_out(bent_desk(), {Eigen::Vector2d(150.0, 100.0), Eigen::Vector2d(500.0, 400.0)});
-    take_off(as_bias(unit.field()), kRig, points);
-    return residual_mm(*estimate_frame(points, kRig, {}));
-  };
-  EXPECT_LT(left_mm(DeskCells::of_one_pose(clouds)), 0.25 * left_mm(sum));
-}
-
 TEST(FrameEstimates, OfAPartOfTheImageAreThoseOfWhatLiesInIt) {
   const Eigen::AlignedBox2d part(Eigen::Vector2d(100.0, 150.0), Eigen::Vector2d(400.0, 480.0));
   const std::vector<SensedPoint> whole = bent_desk();
