@@ -105,14 +105,11 @@ std::vector<Excess> scatter_beyond(const StatedScatter& stated, const ErrorBudge
   return result;
 }
 
-/// Parts of a session's desk. Each stands for all that were looked at with it.
 std::vector<Excess> odd_parts(const std::vector<OddDesk>& desks) {
   std::vector<Excess> result;
-  for (const OddDesk& desk : desks) {
-    const double p = std::erfc(std::abs(desk.higher_mm) / desk.sigma_mm / std::sqrt(2.0));
+  for (const OddDesk& desk : desks)
     result.push_back({"session", fmt::format("{}", desk.session), "desk_residual_mm", desk.part, desk.higher_mm,
-                      desk.sigma_mm, std::min(1.0, static_cast<double>(desk.looks) * p)});
-  }
+                      desk.sigma_mm, desk.p});
   return result;
 }
 

@@ -63,7 +63,7 @@ std::vector<OddDesk> odd_desks(const Measurement& measurement) {
     result.push_back({found.session,
                       fmt::format("in columns {:.0f} to {:.0f} and rows {:.0f} to {:.0f} of the image",
                                   found.first_px.x(), last_px.x(), found.first_px.y(), last_px.y()),
-                      mm_per_px * found.bias_px, mm_per_px * found.sigma_px, found.looks});
+                      mm_per_px * found.bias_px, mm_per_px * found.sigma_px, found.p()});
   }
   return result;
 }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/estimate.h"
+
 namespace fathom {
 namespace {
 
@@ -34,13 +36,16 @@ bool has_whole_millimetres(const std::vector<Observation>& observations) {
 /// What the placements of a session say of its desk: their mean, and as its error how they scatter. A single placement
 /// has none of its own; it has that of others.
 Observation mean_over_placements(const std::vector<const Observation*>& placements) {
+  Mean values;
+  for (const Observation* placement : placements) values.add(placement->value);
   Observation mean = *placements.front();
-  const auto count = static_cast<Eigen::Index>(placements.size());
-  Eigen::VectorXd values(count);
-  for (Eigen::Index k = 0; k < count; ++k) values[k] = placements[k]->value;
-  mean.value = values.mean();
-  mean.repeats = static_cast<int>(count);
-  mean.repeat_sd = count > 1 ? (values.array() - mean.value).matrix().norm() / std::sqrt(double(count - 1)) : 0.0;
+  mean.repeats = static_cast<int>(placements.size());
+  mean.repeat_sd = 0.0;
+  if (mean.repeats > 1) {
+    const Estimate estimate = values.estimate();
+    mean.value = estimate.value;
+    mean.repeat_sd = estimate.standard_error * std::sqrt(static_cast<double>(mean.repeats));
+  }
   return mean;
 }
 

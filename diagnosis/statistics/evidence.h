@@ -117,7 +117,7 @@ struct OddDesk {
   int session = 0;
   std::string part;  ///< "in columns 480 to 560 and rows 64 to 144 of the image"
   double higher_mm = 0.0, sigma_mm = 0.0;
-  std::size_t looks = 0;  ///< parts that were looked at
+  double p = 1.0;  ///< of all parts that were looked at
 };
 
 struct Evidence {

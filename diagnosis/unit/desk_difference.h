@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "diagnosis/unit/bias_view.h"
@@ -25,6 +28,11 @@ struct DeskDifference {
   double sigma_px = 0.0;                          ///< 1 σ of that, were the sessions alike
   double nearer_px = 0.0;                         ///< where the desk lies there, as BiasCell has it
   std::size_t looks = 0;                          ///< rectangles that were looked at
+
+  /// Of chance making as much in any of them, at most.
+  double p() const {
+    return std::min(1.0, static_cast<double>(looks) * std::erfc(std::abs(bias_px) / sigma_px / std::numbers::sqrt2));
+  }
 };
 
 /// All rectangles of 64 to 512 px that are desk for the most part, each half over its neighbours. At least two views.

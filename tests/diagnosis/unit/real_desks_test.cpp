@@ -179,10 +179,9 @@ TEST(RealDesks, PartsOfOneDeskDifferByNoMoreThanIsThoughtOfSessions) {
     for (std::size_t other = one + 1; other < views.size(); ++other) {
       if (views[one].state != views[other].state) continue;
       const std::vector<DeskDifference> parts = desk_parts({{0, views[one]}, {1, views[other]}}, 1);
-      double largest_px = 0.0, largest_z = 0.0;
+      double largest_px = 0.0;
       for (const DeskDifference& part : parts) {
         largest_px = std::max(largest_px, std::abs(part.bias_px));
-        largest_z = std::max(largest_z, std::abs(part.bias_px) / part.sigma_px);
         if (std::abs(part.bias_px) > kThing_px) continue;
         Size& size = sizes[{part.size_px.x(), part.size_px.y()}];
         size.found_px2 += part.bias_px * part.bias_px;
@@ -190,8 +189,7 @@ TEST(RealDesks, PartsOfOneDeskDifferByNoMoreThanIsThoughtOfSessions) {
         size.count += 1.0;
       }
       ++(largest_px > kThing_px ? with_things : without);
-      if (largest_px <= kThing_px)
-        differ += static_cast<double>(parts.size()) * std::erfc(largest_z / std::sqrt(2.0)) < 3e-4;
+      if (largest_px <= kThing_px) differ += desk_differences({{0, views[one]}, {1, views[other]}}).front().p() < 3e-4;
     }
   RecordProperty("pairs_with_things", with_things);
   RecordProperty("pairs_without", without);
