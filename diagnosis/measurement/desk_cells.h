@@ -1,6 +1,8 @@
 // How far the desk of a cloud is off its plane, cell by cell of the image: what a unit's bias is learned from.
 #pragma once
 
+#include <compare>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,15 @@
 #include "diagnosis/unit/bias_view.h"
 
 namespace fathom {
+
+/// Clouds that show the same part of one desk: of a session, with the cup at one place or without it.
+struct DeskScene {
+  int session = 0;
+  bool is_bare = false;
+  double distance_m = 0.0, lateral_m = 0.0;  ///< of the cup
+
+  auto operator<=>(const DeskScene&) const = default;
+};
 
 /// Sums over pixels of desk in square cells of the depth image, row by row. Of several clouds they add up.
 class DeskCells {
@@ -25,5 +36,8 @@ class DeskCells {
   };
   std::vector<Cell> cells_;  ///< empty before the first cloud
 };
+
+/// Of every placement that shows a scene.
+using Desks = std::map<DeskScene, std::vector<DeskCells>>;
 
 }  // namespace fathom

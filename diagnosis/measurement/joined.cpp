@@ -61,7 +61,7 @@ void append(Measurement more, Measurement& all) {
 
 Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet) {
   std::vector<Survey> surveys;
-  std::map<int, DeskCells> desks;
+  Desks desks;
   int sessions = 0;
   for (const std::filesystem::path& folder : folders) {
     for (const std::filesystem::path& earlier : folders)
@@ -69,7 +69,11 @@ Measurement read_measurements(std::span<const std::filesystem::path> folders, bo
         throw Error(folder.string(), "is given twice, must be another measurement");
     surveys.emplace_back(folder, quiet);
     require_same(surveys.back().rig(), folder, surveys.front().rig(), folders.front());
-    for (auto& [session, cells] : surveys.back().desks()) desks[sessions + session] = cells;
+    for (const auto& [scene, cells] : surveys.back().desks()) {
+      DeskScene among_all = scene;
+      among_all.session += sessions;
+      desks[among_all] = cells;
+    }
     sessions += surveys.back().sessions();
   }
   const std::shared_ptr<const UnitBias> unit = learn_unit(desks, surveys.front().rig().unit.map != nullptr);

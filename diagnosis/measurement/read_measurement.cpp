@@ -238,10 +238,16 @@ int Survey::sessions() const {
   return count;
 }
 
-std::map<int, DeskCells> Survey::desks() const {
-  std::map<int, DeskCells> desks;
+Desks Survey::desks() const {
+  std::map<PlacementKey, std::vector<std::size_t>> placements;
   for (std::size_t i = 0; i < content_->readings.size(); ++i)
-    desks[content_->measurement.frames[i].session].add(content_->readings[i].cells);
+    placements[placement_of(content_->measurement.frames[i])].push_back(i);
+  Desks desks;
+  for (const auto& [key, rows] : placements) {
+    const FrameRecord& frame = content_->measurement.frames[rows.front()];
+    DeskCells& placement = desks[{frame.session, frame.bare_desk(), frame.distance_m, frame.lateral_m}].emplace_back();
+    for (const std::size_t row : rows) placement.add(content_->readings[row].cells);
+  }
   return desks;
 }
 
@@ -268,9 +274,10 @@ Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
   return measurement;
 }
 
-std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks, bool is_calibrated) {
-  const bool is_seen =
-      std::any_of(desks.begin(), desks.end(), [](const auto& session) { return !session.second.view().cells.empty(); });
+std::shared_ptr<const UnitBias> learn_unit(const Desks& desks, bool is_calibrated) {
+  const bool is_seen = std::ranges::any_of(desks, [](const auto& scene) {
+    return std::ranges::any_of(scene.second, [](const DeskCells& cells) { return !cells.view().cells.empty(); });
+  });
   return is_seen ? std::make_shared<const UnitBias>(desks, is_calibrated) : nullptr;
 }
 

@@ -37,8 +37,8 @@ class Survey {
   Survey(Survey&&) noexcept;
 
   const LaboratoryRig& rig() const;
-  int sessions() const;                    ///< the largest number and one
-  std::map<int, DeskCells> desks() const;  ///< by session
+  int sessions() const;  ///< the largest number and one
+  Desks desks() const;
   /// … then what they say without. `unit` as learned from the desks of all folders.
   Measurement measure(std::shared_ptr<const UnitBias> unit) &&;
 
@@ -48,6 +48,6 @@ class Survey {
 };
 
 /// Nothing without desks.
-std::shared_ptr<const UnitBias> learn_unit(const std::map<int, DeskCells>& desks, bool is_calibrated);
+std::shared_ptr<const UnitBias> learn_unit(const Desks& desks, bool is_calibrated);
 
 }  // namespace fathom

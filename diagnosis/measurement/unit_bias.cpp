@@ -4,9 +4,14 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace fathom {
 namespace {
+
+/// A view of a desk has a bias of its own of 0.04 px that is smooth over 8 px (docs/calibrate.md). Independent errors
+/// of cells of 16 px as large as this one move wide shapes as much.
+constexpr double kOfView_px = 0.05;
 
 double covariance(const BiasPrior& prior, double distance_px) {
   double sum = 0.0;
@@ -55,42 +60,66 @@ Bias as_bias(const UnitMap& map) {
   };
 }
 
-UnitBias::UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated)
-    : UnitBias([&] {
-        Views all;
-        all.prior = default_bias_prior();
-        if (is_calibrated)
-          for (double& amplitude : all.prior.reference_px) amplitude *= kLeftByCalibration;
-        std::vector<double> own_errors;
-        for (const auto& [session, cells] : desks) {
-          BiasView view = cells.view();
-          if (view.cells.empty()) continue;
-          own_errors.push_back(own_error_px(view));
-          all.sessions.push_back(session);
-          all.views.push_back(std::move(view));
-        }
-        if (!own_errors.empty()) all.prior.cell_px = *std::max_element(own_errors.begin(), own_errors.end());
-        return all;
-      }()) {}
+UnitBias::Views UnitBias::views_of(const Desks& desks, bool is_calibrated) {
+  Views all;
+  all.prior = default_bias_prior();
+  if (is_calibrated)
+    for (double& amplitude : all.prior.reference_px) amplitude *= kLeftByCalibration;
+  std::map<int, DeskCells> together;
+  std::map<std::tuple<int, double, double>, double> scenes;  // of a session that show a cell
+  std::vector<double> placements;                            // that show a view
+  ViewScatter scatter;
+  for (const auto& [scene, cells] : desks) {
+    DeskCells sum;
+    std::vector<BiasView> views;
+    for (const DeskCells& placement : cells) {
+      if (BiasView view = placement.view(); !view.cells.empty()) views.push_back(std::move(view));
+      sum.add(placement);
+    }
+    if (views.empty()) continue;
+    scatter.add(views);
+    placements.push_back(static_cast<double>(views.size()));
+    together[scene.session].add(sum);
+    all.sessions.push_back(scene.session);
+    all.views.push_back(sum.view());
+    for (const BiasCell& cell : all.views.back().cells) ++scenes[{scene.session, cell.column_px, cell.row_px}];
+  }
+  if (all.views.empty()) return all;
+  double of_dots_px = 0.0;  // error of a cell that is the same in all scenes of a session
+  for (const auto& [session, cells] : together)
+    of_dots_px = std::max(of_dots_px, own_error_px(all.of_sessions[session] = cells.view()));
+  all.prior.cell_px = of_dots_px;
+  const double of_dots = of_dots_px * of_dots_px, of_placement = std::pow(scatter.cell_px().value_or(kOfView_px), 2);
+  all.weight_of_one = of_dots / (of_dots + of_placement);
+  for (std::size_t i = 0; i < all.views.size(); ++i)
+    for (BiasCell& cell : all.views[i].cells) {
+      const double shared_by = scenes.at({all.sessions[i], cell.column_px, cell.row_px});
+      cell.pixels *= of_dots / (of_dots * shared_by + of_placement / placements[i]);
+    }
+  return all;
+}
+
+UnitBias::UnitBias(const Desks& desks, bool is_calibrated) : UnitBias(views_of(desks, is_calibrated)) {}
 
 UnitBias::UnitBias(Views views)
     : views_(std::move(views)), learner_(views_.views, views_.prior), field_(learner_.learn()) {}
 
-std::vector<DeskDifference> UnitBias::session_differences() const {
-  std::map<int, BiasView> views;
-  for (std::size_t i = 0; i < views_.views.size(); ++i) views[views_.sessions[i]] = views_.views[i];
-  return desk_differences(views);
-}
+std::vector<DeskDifference> UnitBias::session_differences() const { return desk_differences(views_.of_sessions); }
 
 UnitBias UnitBias::with_bare_desks() const {
-  Views all = views_;
-  for (BiasView& view : all.views) {
+  Views all;
+  all.of_sessions = views_.of_sessions;
+  all.prior = views_.prior;
+  all.weight_of_one = views_.weight_of_one;
+  for (const auto& [session, seen] : views_.of_sessions) {
     // A desk's disparity is linear over the image.
-    const Eigen::Vector3d nearer = plane_through(view.cells, nearer_px(view.cells));
-    view = {.cells = {}, .errors_px = {}, .state = view.state};
+    const Eigen::Vector3d nearer = plane_through(seen.cells, nearer_px(seen.cells));
+    all.sessions.push_back(session);
+    BiasView& view = all.views.emplace_back();
     for (double row = 0.5 * kBiasCell_px; row < kImageHeight_px; row += kBiasCell_px)
       for (double column = 0.5 * kBiasCell_px; column < kImageWidth_px; column += kBiasCell_px) {
-        view.cells.push_back({column, row, nearer.dot(plane_at({column, row})), kBiasCell_px * kBiasCell_px});
+        view.cells.push_back(
+            {column, row, nearer.dot(plane_at({column, row})), all.weight_of_one * kBiasCell_px * kBiasCell_px});
         view.errors_px.push_back(0.0);
       }
   }

@@ -22,9 +22,12 @@ inline constexpr double kLeftByCalibration = 0.45;
 
 class UnitBias {
  public:
-  /// Of each session: within one, sensor and desk stay where they are, so that the same dots fall on the same places.
-  /// `is_calibrated`: what fathom calibrate found of the unit was taken off before.
-  explicit UnitBias(const std::map<int, DeskCells>& desks, bool is_calibrated = false);
+  /// A cloud's errors are those about its own plane. Where clouds are cut out around the cup, these planes lean with
+  /// the bias in their part of the image, so that every scene counts as a view whose plane is not known. Within a
+  /// session sensor and desk stay where they are, and the same dots fall on the same places: the scenes of a session
+  /// that show a cell together say no more of it than one. `is_calibrated`: what fathom calibrate found of the unit was
+  /// taken off before.
+  explicit UnitBias(const Desks& desks, bool is_calibrated = false);
 
   /// Without the plane that is nearest to it: of a plane nobody can say whether it is bias or pose.
   const BiasField& field() const { return field_; }
@@ -46,9 +49,12 @@ class UnitBias {
  private:
   struct Views {
     std::vector<int> sessions;
-    std::vector<BiasView> views;
+    std::vector<BiasView> views;          ///< whose cells count by how well they are known beside those of other scenes
+    std::map<int, BiasView> of_sessions;  ///< all scenes of each together
     BiasPrior prior;
+    double weight_of_one = 1.0;  ///< of a cell that only one placement shows
   };
+  static Views views_of(const Desks& desks, bool is_calibrated);
   explicit UnitBias(Views views);
 
   Views views_;

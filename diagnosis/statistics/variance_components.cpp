@@ -36,7 +36,7 @@ std::vector<VarianceComponent> candidates_of(const std::string& observable,
   };
   add(ErrorLevel::observation, cell_key);
   add(ErrorLevel::placement, placement_key);
-  add(ErrorLevel::pour, pour_key);
+  if (!observable.starts_with("desk_")) add(ErrorLevel::pour, pour_key);  // what is poured moves no desk
   add(ErrorLevel::session, session_key);
   return result;
 }

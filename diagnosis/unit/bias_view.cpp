@@ -2,10 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "core/median.h"
 
@@ -54,6 +57,33 @@ double own_error_px(const BiasView& view) {
   if (differences.empty()) return kLeast_px;
   const double deviation = median(differences) / 0.6745;  // of a normal from its median
   return std::max(kLeast_px, deviation / std::sqrt(6.0));
+}
+
+void ViewScatter::add(std::span<const BiasView> views) {
+  constexpr Eigen::Index kOfPlane = 3, kOfAll = 6;
+  std::map<std::pair<double, double>, std::vector<double>> errors_of;  // of each cell, in all views
+  for (const BiasView& view : views)
+    for (std::size_t i = 0; i < view.cells.size(); ++i)
+      errors_of[{view.cells[i].column_px, view.cells[i].row_px}].push_back(view.errors_px[i]);
+  std::erase_if(errors_of, [&](const auto& cell) { return cell.second.size() < views.size(); });
+  const auto cells = static_cast<Eigen::Index>(errors_of.size());
+  if (views.size() < 2 || cells < 2 * kOfAll) return;
+  Eigen::MatrixXd shapes(cells, kOfAll), errors(cells, static_cast<Eigen::Index>(views.size()));
+  Eigen::Index row = 0;
+  for (const auto& [cell, of_views] : errors_of) {
+    const Eigen::Vector3d at = plane_at({cell.first, cell.second});
+    shapes.row(row) << at.transpose(), at[1] * at[1], at[1] * at[2], at[2] * at[2];
+    errors.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(of_views.data(), errors.cols());
+  }
+  errors.colwise() -= errors.rowwise().mean().eval();
+  const Eigen::MatrixXd orthonormal = shapes.householderQr().householderQ() * Eigen::MatrixXd::Identity(cells, kOfAll);
+  squares_px2 += (orthonormal.rightCols(kOfAll - kOfPlane).transpose() * errors).squaredNorm();
+  free += static_cast<double>((kOfAll - kOfPlane) * (errors.cols() - 1));
+}
+
+std::optional<double> ViewScatter::cell_px() const {
+  if (free <= 0.0) return std::nullopt;
+  return std::sqrt(squares_px2 / free);
 }
 
 void set_states_by_pose(std::span<BiasView> views, PoseTolerance tolerance) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,17 @@ std::vector<double> nearer_px(std::span<const BiasCell> cells);
 /// 1 σ of a whole cell's mean that its neighbours do not share [px]: the median second difference along rows, as of
 /// normal errors. A smooth bias has next to none.
 double own_error_px(const BiasView& view);
+
+/// How views of one scene scatter about their mean, where they bend alike: a smooth error of a view moves such wide
+/// shapes more than cells that differ from their neighbours let expect.
+struct ViewScatter {
+  double squares_px2 = 0.0;  ///< of what each view has of the three quadratic shapes that have no plane in them
+  double free = 0.0;         ///< how many of them are independent
+
+  void add(std::span<const BiasView> views);
+  /// 1 σ of a cell of one view, were its cells' errors independent; nothing where no scene has two views.
+  std::optional<double> cell_px() const;
+};
 
 /// How far the disparities of two desks may lie apart in one pose: all alike, and in each corner of the image beside
 /// that.

@@ -35,10 +35,10 @@ double residual_mm(const FrameEstimates& estimates) {
 }
 
 UnitBias learned(double noise_px) {
-  std::map<int, DeskCells> desks;
+  Desks desks;
   for (std::uint64_t cloud = 0; cloud < 4; ++cloud) {
     const std::vector<SensedPoint> points = desk(noise_px, cloud);
-    desks[0].add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
+    desks[{}].emplace_back().add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
   }
   return UnitBias(desks);
 }
@@ -65,6 +65,31 @@ std::vector<SensedPoint> bent_desk() {
     return 0.2 * std::hypot(column / 320.0 - 1.0, row / 240.0 - 1.0) *
            std::hypot(column / 320.0 - 1.0, row / 240.0 - 1.0);
   });
+}
+
+/// The height of the sensor above what it reads of a bent desk in that part of the image.
+double height_mm(const Eigen::AlignedBox2d& part_px, const UnitBias* unit) {
+  std::vector<SensedPoint> points = cut_out(bent_desk(), part_px);
+  if (unit) take_off(as_bias(unit->field()), kRig, points);
+  return mm_from_metres(estimate_frame(points, kRig, {})->desk.offset);
+}
+
+TEST(UnitBias, OfCloudsThatAreCutOutIsFreeOfTheLeanOfTheirPlanes) {
+  const auto part = [](double left, double top) {
+    return Eigen::AlignedBox2d(Eigen::Vector2d(left, top), Eigen::Vector2d(left + 360.0, top + 300.0));
+  };
+  const std::vector<Eigen::AlignedBox2d> parts{part(0.0, 0.0), part(280.0, 0.0), part(0.0, 180.0), part(280.0, 180.0)};
+  Desks desks;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (int placement = 0; placement < 2; ++placement) {
+      const std::vector<SensedPoint> points = cut_out(bent_desk(), parts[i]);
+      desks[{.lateral_m = static_cast<double>(i)}].emplace_back().add(points, estimate_frame(points, kRig, {})->desk,
+                                                                      kRig, {});
+    }
+  const UnitBias unit(desks);
+  const double apart_mm = height_mm(parts[0], nullptr) - height_mm(parts[2], nullptr);
+  EXPECT_GT(std::abs(apart_mm), 1.0);
+  EXPECT_LT(std::abs(height_mm(parts[0], &unit) - height_mm(parts[2], &unit)), 0.2 * std::abs(apart_mm));
 }
 
 TEST(FrameEstimates, OfAPartOfTheImageAreThoseOfWhatLiesInIt) {
@@ -105,13 +130,13 @@ TEST(UnitBias, WhatIsLearnedFromAModelIsLinear) {
 }
 
 TEST(UnitBias, WhereNoDeskWasSeenItsErrorIsLargerThanWhereItWas) {
-  std::map<int, DeskCells> desks;
+  Desks desks;
   std::vector<SensedPoint> points = desk(0.1, 5);
   std::erase_if(points, [](const SensedPoint& p) {
     const Eigen::Vector2d pixel = bias_point(p.point, kRig).pixel_px;
     return (pixel - Eigen::Vector2d(320.0, 240.0)).norm() < 120.0;
   });
-  desks[0].add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
+  desks[{}].emplace_back().add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
   const UnitBias unit(desks);
   const double hidden = unit.sigma({.pixel_px = {320.0, 240.0}, .nearer_px = 0.0}),
                seen = unit.sigma({.pixel_px = {500.0, 100.0}, .nearer_px = 0.0});

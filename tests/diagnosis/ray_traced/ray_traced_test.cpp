@@ -86,8 +86,8 @@ TEST(RayTraced, WhatTheUnitIsTakenToHaveIsTakenOffFrames) {
   Factors bare;
   bare.liquid = "none";
   const std::vector<SensedPoint> desk = ray_traced_points(paper_setup(bare, Json::array()), 1);
-  std::map<int, DeskCells> desks;
-  desks[0].add(desk, estimate_frame(desk, rig, {})->desk, rig, {});
+  Desks desks;
+  desks[{}].emplace_back().add(desk, estimate_frame(desk, rig, {})->desk, rig, {});
   const auto change_mm = [](const Physics& physics) {
     RayTracer tracer = tracer_of(physics);
     const std::vector<EffectValue> bent{{"radial_distortion", {0.02}}};

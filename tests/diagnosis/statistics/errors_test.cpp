@@ -80,6 +80,19 @@ TEST(VarianceComponents, AreFoundWithoutAnyCandidate) {
   EXPECT_TRUE(estimate_covariance(evidence, residual_of(evidence)).total.allFinite());
 }
 
+TEST(VarianceComponents, NothingThatIsPouredMovesTheDesk) {
+  const World world(small_design());
+  const Evidence evidence = world.measure({}, {}, 300);
+  bool has_desk = false;
+  for (const ObservableErrors& errors : estimate_covariance(evidence, residual_of(evidence)).errors.observables)
+    for (const VarianceComponent& component : errors.components) {
+      if (!component.observable.starts_with("desk_")) continue;
+      has_desk = true;
+      EXPECT_NE(component.level, ErrorLevel::pour);
+    }
+  EXPECT_TRUE(has_desk);
+}
+
 TEST(VarianceComponents, AreBlindToEffects) {
   const World world(small_design());
   const EffectValue effect = world.at_strength("radial_distortion", 50.0, 1.0);
