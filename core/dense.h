@@ -11,6 +11,15 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 
+/// Orthonormal columns that span these; what adds less than 1e-8 of the largest is rounding.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
+/// Orthonormal columns that span all that is at right angles to these, which are independent.
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& columns);
+
+/// Moore and Penrose's, which is the inverse where there is one.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
+
 /// The parameters with which the columns come nearest to the data; of several data side by side, a column for each.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data);
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& data);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/dense.h"
 #include "diagnosis/decision/budget.h"
 #include "diagnosis/decision/excess.h"
 #include "diagnosis/decision/explanations.h"

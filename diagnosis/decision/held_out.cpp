@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/dense.h"
 #include "core/rng.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"

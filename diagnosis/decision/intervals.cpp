@@ -1,10 +1,10 @@
 #include "diagnosis/decision/intervals.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense.h"
 #include "diagnosis/decision/held_out.h"
 #include "diagnosis/decision/linear_fit.h"
 #include "diagnosis/statistics/distributions.h"
@@ -15,7 +15,7 @@ namespace {
 
 /// Of the parameters in prior scales.
 Eigen::MatrixXd parameter_covariance(const Refit& fit) {
-  return (fit.jacobian.transpose() * fit.jacobian).completeOrthogonalDecomposition().pseudoInverse();
+  return pseudo_inverse(fit.jacobian.transpose() * fit.jacobian);
 }
 
 /// All that rounds to one value fits alike: a fit ends anywhere among them.

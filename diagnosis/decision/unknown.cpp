@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {

@@ -1,12 +1,12 @@
 #include "diagnosis/predict/liquid_motion.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <tuple>
 
+#include "core/dense.h"
 #include "core/median.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/variance_excess.h"
@@ -67,9 +67,9 @@ Squares between_placements(const Observations& heights) {
     if (pours.of[row] >= 0) means(row, cells.count + pours.of[row]) = 1.0;
     values[row] = heights[row].value;
   }
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(means);
-  const Eigen::VectorXd left = values - means * decomposition.solve(values);
-  Squares squares{.dof = static_cast<double>(n - decomposition.rank()), .rounding = rounding_of(heights)};
+  const Eigen::MatrixXd known = orthonormal(means);
+  const Eigen::VectorXd left = values - known * (known.transpose() * values);
+  Squares squares{.dof = static_cast<double>(n - known.cols()), .rounding = rounding_of(heights)};
   std::vector<double> deviations;
   for (const double value : left)
     if (std::abs(value) > 1e-9) deviations.push_back(std::abs(value));

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <array>
 #include <cmath>
 
+#include "core/dense.h"
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {
@@ -29,11 +28,7 @@ class Span {
     columns_.col(count_++) = column.normalized();
   }
 
-  Eigen::MatrixXd complement() const {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns_.leftCols(count_));
-    const Eigen::MatrixXd all = qr.householderQ() * Eigen::MatrixXd::Identity(columns_.rows(), columns_.rows());
-    return all.rightCols(columns_.rows() - count_);
-  }
+  Eigen::MatrixXd complement() const { return orthogonal_complement(columns_.leftCols(count_)); }
 
  private:
   Eigen::MatrixXd columns_;
@@ -101,8 +96,12 @@ Eigen::MatrixXd common_directions(Eigen::MatrixXd columns) {
   // Not colwise().normalized(), which makes NaN of a column of zeros; and no decomposition is one of nothing.
   for (auto column : columns.colwise()) column.normalize();
   if (columns.isZero(0.0)) return columns.leftCols(0);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
-  return svd.matrixU().leftCols((svd.singularValues().array() > kLeft).count());
+  // The singular vectors by their squares, which is exact enough for directions as large as these.
+  const SymmetricEigen squares = symmetric_eigen(columns.transpose() * columns);
+  const Eigen::Index count = (squares.values.array() > kLeft * kLeft).count();
+  Eigen::MatrixXd directions = columns * squares.vectors.rightCols(count).rowwise().reverse();
+  directions.colwise().normalize();
+  return directions;
 }
 
 /// What all fillings show at a place is no error of pours or placements: those differ from one to the next.

@@ -1,7 +1,6 @@
 #include "diagnosis/statistics/problem.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -148,15 +147,6 @@ double prior_penalty(const Eigen::VectorXd& parameters) {
 
 Eigen::VectorXd prior_precisions(const Eigen::VectorXd& parameters) {
   return 2.0 / (kPriorWidth * kPriorWidth + parameters.array().square());
-}
-
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  if (columns.cols() == 0) return columns;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
-  qr.setThreshold(1e-8);
-  qr.compute(columns);
-  if (qr.rank() == 0) return Eigen::MatrixXd(columns.rows(), 0);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
 Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& directions) {

@@ -74,9 +74,6 @@ double prior_penalty(const Eigen::VectorXd& parameters);
 /// Of the normal priors, about 0, that pull the parameters as the Cauchy does where they are.
 Eigen::VectorXd prior_precisions(const Eigen::VectorXd& parameters);
 
-/// Orthonormal columns with the span of the given ones.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
-
 /// What orthonormal directions (may be none) leave of columns.
 Eigen::MatrixXd without(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& directions);
 

@@ -1,8 +1,9 @@
 #include "diagnosis/statistics/reml.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "core/dense.h"
 
 namespace fathom {
 
@@ -66,7 +67,7 @@ VarianceFit fit_variances(const Eigen::VectorXd& contrasts, const Eigen::MatrixX
   Eigen::MatrixXd covariance;
   for (int step = 0; step < kScoringSteps; ++step) {
     auto [score, information] = slopes(data, known_scaled, shapes, scaled, variances);
-    covariance = information.completeOrthogonalDecomposition().pseudoInverse();
+    covariance = pseudo_inverse(information);
     // Variances at 0 that want to be negative stay there; the others move.
     for (Eigen::Index k = 0; k < count; ++k) {
       if (variances[k] > 0.0 || score[k] > 0.0) continue;
@@ -75,7 +76,7 @@ VarianceFit fit_variances(const Eigen::VectorXd& contrasts, const Eigen::MatrixX
       information(k, k) = 1.0;
       score[k] = 0.0;
     }
-    Eigen::VectorXd next = variances + information.completeOrthogonalDecomposition().solve(score);
+    Eigen::VectorXd next = variances + pseudo_inverse(information) * score;
     for (Eigen::Index k = 0; k < count; ++k)
       next[k] = std::max(next[k], scaled[k].dof > 0.0 ? kSmallestStep * variances[k] : 0.0);
     const bool is_done = (next - variances).norm() <= kEnoughChange * (next.norm() + 1e-300);

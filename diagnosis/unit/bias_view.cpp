@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,7 +67,8 @@ void ViewScatter::add(std::span<const BiasView> views) {
   std::erase_if(errors_of, [&](const auto& cell) { return cell.second.size() < views.size(); });
   const auto cells = static_cast<Eigen::Index>(errors_of.size());
   if (views.size() < 2 || cells < 2 * kOfAll) return;
-  Eigen::MatrixXd shapes(cells, kOfAll), errors(cells, static_cast<Eigen::Index>(views.size()));
+  Eigen::Matrix<double, Eigen::Dynamic, kOfAll> shapes(cells, kOfAll);
+  Eigen::MatrixXd errors(cells, static_cast<Eigen::Index>(views.size()));
   Eigen::Index row = 0;
   for (const auto& [cell, of_views] : errors_of) {
     const Eigen::Vector3d at = plane_at({cell.first, cell.second});
@@ -76,8 +76,11 @@ void ViewScatter::add(std::span<const BiasView> views) {
     errors.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(of_views.data(), errors.cols());
   }
   errors.colwise() -= errors.rowwise().mean().eval();
-  const Eigen::MatrixXd orthonormal = shapes.householderQr().householderQ() * Eigen::MatrixXd::Identity(cells, kOfAll);
-  squares_px2 += (orthonormal.rightCols(kOfAll - kOfPlane).transpose() * errors).squaredNorm();
+  // L⁻¹ of shapesᵀ shapes = L Lᵀ makes them orthonormal, one after the other.
+  const Eigen::LLT<Eigen::Matrix<double, kOfAll, kOfAll>> gram(
+      Eigen::Matrix<double, kOfAll, kOfAll>(shapes.transpose() * shapes));
+  const Eigen::MatrixXd by_shape = gram.matrixL().solve(shapes.transpose() * errors);
+  squares_px2 += by_shape.bottomRows(kOfAll - kOfPlane).squaredNorm();
   free += static_cast<double>((kOfAll - kOfPlane) * (errors.cols() - 1));
 }
 
