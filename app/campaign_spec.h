@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"
 

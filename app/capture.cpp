@@ -190,7 +190,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option(
          "--light", options->light,
          "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
-         "thrown on, mirrored and scattered as well")
+         "interreflected, mirrored and scattered as well")
       ->check(CLI::IsMember({"direct", "full"}))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")

@@ -4,7 +4,7 @@
 
 #include "core/cup_json.h"
 #include "detector/desk_view.h"
-#include "diagnosis/measurement/sampling.h"
+#include "diagnosis/measurement/cloud_sampling.h"
 
 namespace fathom {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "detector/cloud.h"
 #include "detector/liquid.h"
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 
 namespace fathom {
 

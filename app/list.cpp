@@ -25,7 +25,7 @@ std::string lines_of(const Effect& effect) {
                         p.name, p.meaning, p.nominal, p.scale, p.lower, p.upper);
   if (effect.of_liquids) text += fmt::format("  {:<22} {}\n", "liquid", "may be limited to one liquid by its label");
   text += fmt::format("  {:<22} {}\n", "citation", effect.citation);
-  text += fmt::format("  {:<22} {}\n", "twins", fmt::join(effect.twins, ", "));
+  text += fmt::format("  {:<22} {}\n", "confounded", fmt::join(effect.confounded, ", "));
   return text + fmt::format("  {:<22} {}\n", "discriminated_by", effect.discriminated_by);
 }
 
@@ -45,7 +45,7 @@ Json json_of(const Effect& effect) {
           {"parameters", parameters},
           {"of_liquids", effect.of_liquids},
           {"citation", effect.citation},
-          {"twins", effect.twins},
+          {"confounded", effect.confounded},
           {"discriminated_by", effect.discriminated_by}};
 }
 

@@ -1,7 +1,7 @@
 // What a laboratory would write down about a simulated sensor and cup.
 #pragma once
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "sim/scene/rig.h"
 #include "sim/scene/scene.h"
 

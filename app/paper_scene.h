@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "sim/scene/setup.h"
 
 namespace fathom {

@@ -12,9 +12,9 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 /// In the first set that has the effect.
-const SignatureCheck* check_of(const RayTracedDiagnosis& traced, const std::string& effect) {
+const SensitivityCheck* check_of(const RayTracedDiagnosis& traced, const std::string& effect) {
   for (const TracedSet& set : traced.sets)
-    for (const SignatureCheck& check : set.checks)
+    for (const SensitivityCheck& check : set.checks)
       if (check.effect == effect) return &check;
   return nullptr;
 }
@@ -22,10 +22,10 @@ const SignatureCheck* check_of(const RayTracedDiagnosis& traced, const std::stri
 std::string checks_html(const RayTracedDiagnosis& traced) {
   Rows rows;
   for (const TracedSet& set : traced.sets)
-    for (const SignatureCheck& check : set.checks)
+    for (const SensitivityCheck& check : set.checks)
       rows.push_back({effects_words(set.effects), effect_words(check.effect), fmt::format("{:.3f}", check.cosine),
                       check.is_fit() ? "may" : "unfit"});
-  return html_table({"set that was traced", "effect", "cosine of its signatures", "few rays stand for it"}, rows);
+  return html_table({"set that was traced", "effect", "cosine of its sensitivities", "few rays stand for it"}, rows);
 }
 
 void add_values(const char* by, const Diagnosis& diagnosis, Rows& rows) {
@@ -44,7 +44,7 @@ void add_values(const char* by, const Diagnosis& diagnosis, Rows& rows) {
 
 void add_ray_traced(const RayTracedDiagnosis& traced, const Diagnosis& by_few_rays, Json& report) {
   for (std::size_t i = 0; i < traced.diagnosis.effects.size(); ++i)
-    if (const SignatureCheck* check = check_of(traced, traced.diagnosis.effects[i].name)) {
+    if (const SensitivityCheck* check = check_of(traced, traced.diagnosis.effects[i].name)) {
       Json& effect = report["effects"][traced.diagnosis.mistakes.size() + i];
       effect["cosine"] = check->cosine;
       effect["fit"] = check->is_fit();
@@ -56,7 +56,7 @@ void add_ray_traced(const RayTracedDiagnosis& traced, const Diagnosis& by_few_ra
           {"sets_not_traced", traced.not_traced}};
   for (const TracedSet& set : traced.sets) {
     Json checks = Json::array();
-    for (const SignatureCheck& check : set.checks)
+    for (const SensitivityCheck& check : set.checks)
       checks.push_back({{"name", check.effect}, {"cosine", check.cosine}, {"fit", check.is_fit()}});
     json["sets"].push_back(std::move(checks));
   }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/json.h"
-#include "diagnosis/ray_traced/diagnosis.h"
+#include "diagnosis/ray_traced/traced_diagnosis.h"
 
 namespace fathom {
 

@@ -110,7 +110,7 @@ void compare_pots(CaptureMode mode) {
   print_figure("  at the same place again", again, whole ? std::fabs(measured[2].mean_mm - measured[1].mean_mm) : 0.2,
                "measured");
   print_figure("mean over the scenes, true 4", mean, theirs ? theirs->mean_mm : 4.23, "measured");
-  print_note("The deviation is of place: the remembered image is displaced, as nine measured desks have in common");
+  print_note("The deviation is of place: the reference image is displaced, as nine measured desks have in common");
   print_note("(0.68 steps of 1/8 px in cells of 20 px, two thirds of it left 50 px further; scene to scene 0.27).");
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/bench_scene.h"
-#include "bench/groups.h"
+#include "bench/benchmark_groups.h"
 #include "bench/measure.h"
 #include "core/files.h"
 #include "sim/sensor/ir_camera.h"

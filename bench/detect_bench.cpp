@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "bench/bench_scene.h"
-#include "bench/groups.h"
+#include "bench/benchmark_groups.h"
 #include "bench/pcl_pipeline.h"
 #include "core/files.h"
 #include "detector/detector.h"

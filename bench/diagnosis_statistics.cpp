@@ -180,7 +180,7 @@ class Bench {
     baselines.print(what);
   }
 
-  void twins() {
+  void aliased() {
     Share ambiguous;
     for (int k = 0; k < sets_; ++k) {
       Rng rng(next_, 3);
@@ -189,7 +189,7 @@ class Bench {
       const bool has_both = c.is_inside() && !c.diagnosis.ambiguity_set.front().alternatives.empty();
       ambiguous.count(c.diagnosis.verdict == Verdict::ambiguous && has_both);
     }
-    row("exact twins, s 8–20: reported ambiguous", "100 %", ambiguous.text());
+    row("exact aliases, s 8–20: reported ambiguous", "100 %", ambiguous.text());
   }
 
   void unknowns(double escape, const std::string& goal) {
@@ -207,7 +207,7 @@ class Bench {
   std::size_t observations() const { return world_.nominal().observations.size(); }
 
  private:
-  /// Different effects, no twins, of random strengths and signs.
+  /// Different effects, none of them aliased, of random strengths and signs.
   std::vector<EffectValue> draw(Rng& rng, int effects, double low, double high) const {
     std::vector<EffectValue> truth;
     std::set<std::string> used{"cup_bottom_height", "cup_on_coaster"};
@@ -245,7 +245,7 @@ int main(int argc, char** argv) {
   bench.several("single, s 8–30", 1, 8.0, 30.0, "99 %", true);
   bench.several("pairs, s 8–30", 2, 8.0, 30.0, "95 %", true);
   bench.several("triples, s 8–30", 3, 8.0, 30.0, "85 %", true);
-  bench.twins();
+  bench.aliased();
   bench.unknowns(6.0, "≥ 50 %");
   bench.unknowns(8.0, "≥ 84 %");
   bench.unknowns(10.0, "≥ 98 %");

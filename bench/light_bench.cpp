@@ -7,8 +7,8 @@
 #include <string>
 
 #include "bench/bench_scene.h"
+#include "bench/benchmark_groups.h"
 #include "bench/embree_loop.h"
-#include "bench/groups.h"
 #include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "core/files.h"

@@ -7,7 +7,7 @@
 #include <exception>
 #include <string_view>
 
-#include "bench/groups.h"
+#include "bench/benchmark_groups.h"
 #include "core/memory.h"
 
 namespace {

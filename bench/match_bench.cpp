@@ -7,7 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "bench/groups.h"
+#include "bench/benchmark_groups.h"
 #include "bench/match_error.h"
 #include "bench/stereo_pair.h"
 #include "sim/sensor/depth.h"
@@ -71,7 +71,7 @@ void measure_match(benchmark::State& state, const StereoPair& pair) {
 void measure_opencv(benchmark::State& state, const StereoPair& pair, const cv::Ptr<cv::StereoMatcher>& matcher) {
   cv::setNumThreads(1);
   cv::Mat sixteenths;
-  for (auto _ : state) matcher->compute(pair.live, pair.remembered, sixteenths);
+  for (auto _ : state) matcher->compute(pair.live, pair.reference, sixteenths);
   report(state, match_error(pair, from_sixteenths(pair.sensor, sixteenths)));
 }
 

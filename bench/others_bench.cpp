@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "bench/bench_scene.h"
+#include "bench/benchmark_groups.h"
 #include "bench/dot_error.h"
-#include "bench/groups.h"
 #include "bench/measure.h"
 #include "bench/other_renderers.h"
 

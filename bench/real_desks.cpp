@@ -141,10 +141,10 @@ std::vector<Nuisance> twin_errors(const std::vector<Observation>& observations) 
         if (group.size() == 0) group = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()));
         group[static_cast<Eigen::Index>(row)] = 1.0;
       }
-      for (auto& [key, signature] : groups)
+      for (auto& [key, sensitivity] : groups)
         nuisances.push_back({std::string(error.observable) + " of the twin, " + key.first + " at " +
                                  std::to_string(std::lround(key.second)) + " mm",
-                             error.sigma / std::sqrt(2.0), std::move(signature)});
+                             error.sigma / std::sqrt(2.0), std::move(sensitivity)});
     }
   return nuisances;
 }
@@ -195,7 +195,7 @@ std::optional<DeskDiagnosis> diagnose_desks(const std::string& without) {
   for (const std::string& id : known_of_desks())
     evidence.candidates.push_back(candidate_of(*find_effect(id), *predict));
   for (const char* id : kRivals) evidence.candidates.push_back(candidate_of(*find_effect(id), *predict));
-  std::erase_if(evidence.candidates, [](const Candidate& c) { return c.signature.cwiseAbs().maxCoeff() < 1e-9; });
+  std::erase_if(evidence.candidates, [](const Candidate& c) { return c.sensitivity.cwiseAbs().maxCoeff() < 1e-9; });
   DeskDiagnosis result;
   result.diagnosis = decide(evidence, [predict](const std::vector<EffectValue>& e) { return (*predict)(e); });
   if (result.diagnosis.verdict == Verdict::insufficient) return result;

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "bench/bench_scene.h"
+#include "bench/benchmark_groups.h"
 #include "bench/embree_loop.h"
-#include "bench/groups.h"
 #include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "sim/render/truth.h"

@@ -16,7 +16,7 @@ struct Share {
   int percent;
 };
 constexpr std::array kKinds{Share{"null", 30},    Share{"single", 30}, Share{"pair", 12},       Share{"triple", 3},
-                            Share{"unknown", 15}, Share{"twins", 5},   Share{"book_keeping", 5}};
+                            Share{"unknown", 15}, Share{"aliased", 5}, Share{"book_keeping", 5}};
 constexpr std::array kDesignShares{Share{"full", 35},      Share{"bare_desk", 15},   Share{"one_distance", 15},
                                    Share{"few_pours", 15}, Share{"no_infrared", 15}, Share{"heights_only", 5}};
 constexpr std::array kBookKeeping{"label_swap", "unit_error", "wrong_cup", "flipped_axis", "duplicated_trial"};
@@ -52,20 +52,20 @@ std::optional<Shown> draw_effect(const Strengths& strengths, bool registered, co
   return std::nullopt;
 }
 
-struct Twins {
+struct Aliased {
   const char* design;
   std::array<const char*, 2> effects;
 };
-constexpr std::array kTwins{Twins{"opaque_only", {"cup_bottom_height", "fill_offset"}},
-                            Twins{"water_one_distance", {"refractive_index", "fill_scale"}}};
+constexpr std::array kAliased{Aliased{"opaque_only", {"cup_bottom_height", "fill_offset"}},
+                              Aliased{"water_one_distance", {"refractive_index", "fill_scale"}}};
 
-/// From all others that are registered. What shows in the spread of repeats alone escapes every signature of a mean.
+/// From all others that are registered. What shows in the spread of repeats alone escapes every sensitivity of a mean.
 double escape(const Strengths& strengths, const Shown& hidden) {
-  if (hidden.signature.norm() == 0.0) return hidden.s;
+  if (hidden.sensitivity.norm() == 0.0) return hidden.s;
   std::vector<const Hidden*> others;
   for (const Hidden& effect : hidden_effects())
     if (effect.registered && &effect != hidden.active.effect) others.push_back(&effect);
-  return strengths.escape(hidden.signature, others);
+  return strengths.escape(hidden.sensitivity, others);
 }
 
 /// What the registry's effects imitate, nobody can call unknown: something else is hidden instead. Nor is hidden what
@@ -87,10 +87,10 @@ std::vector<Shown> hide_unknown(const Strengths& strengths, Rng& rng, SetTruth& 
   return {};
 }
 
-std::vector<Shown> hide_twin(const Strengths& strengths, const Twins& twins, Rng& rng, SetTruth& truth) {
-  const Hidden& effect = hidden_effect(twins.effects[rng.below(2)]);
+std::vector<Shown> hide_aliased(const Strengths& strengths, const Aliased& aliased, Rng& rng, SetTruth& truth) {
+  const Hidden& effect = hidden_effect(aliased.effects[rng.below(2)]);
   const double s = std::max(8.0, draw_strength(rng));
-  for (const char* name : twins.effects) truth.twins.emplace_back(name);
+  for (const char* name : aliased.effects) truth.aliased.emplace_back(name);
   return {strengths.sized(effect, s, rng.uniform() < 0.5 ? -1.0 : 1.0)};
 }
 
@@ -104,11 +104,11 @@ std::vector<Shown> hide_registered(const Strengths& strengths, int count, Rng& r
 
 int registered_in(std::string_view kind) { return kind == "single" ? 1 : kind == "pair" ? 2 : 3; }
 
-Eigen::MatrixXd joint_signature(const Strengths& strengths, const std::vector<Shown>& hidden) {
-  if (hidden.size() == 1) return hidden.front().signature;
+Eigen::MatrixXd joint_sensitivity(const Strengths& strengths, const std::vector<Shown>& hidden) {
+  if (hidden.size() == 1) return hidden.front().sensitivity;
   std::vector<Active> all;
   for (const Shown& effect : hidden) all.push_back(effect.active);
-  return strengths.signature(all);
+  return strengths.sensitivity(all);
 }
 
 }  // namespace
@@ -140,16 +140,16 @@ SetTruth draw_set(const Views& views, std::uint64_t pack_seed, int number, int s
     truth.book_keeping = kBookKeeping[rng.below(kBookKeeping.size())];
     return truth;
   }
-  const Twins& twins = kTwins[rng.uniform() < 0.7 ? 0 : 1];
-  if (truth.kind == "twins") truth.design = twins.design;
+  const Aliased& aliased = kAliased[rng.uniform() < 0.7 ? 0 : 1];
+  if (truth.kind == "aliased") truth.design = aliased.design;
   const Design& chosen = design(truth.design);
   const Strengths strengths(chosen, plan(chosen, truth.seed), views);
   const std::vector<Shown> hidden = truth.kind == "unknown" ? hide_unknown(strengths, rng, truth)
-                                    : truth.kind == "twins"
-                                        ? hide_twin(strengths, twins, rng, truth)
+                                    : truth.kind == "aliased"
+                                        ? hide_aliased(strengths, aliased, rng, truth)
                                         : hide_registered(strengths, registered_in(truth.kind), rng);
   for (const Shown& effect : hidden) truth.effects.push_back({effect.active, effect.s});
-  truth.strength_by_liquid = strengths.by_liquid(joint_signature(strengths, hidden));
+  truth.strength_by_liquid = strengths.by_liquid(joint_sensitivity(strengths, hidden));
   return truth;
 }
 
@@ -169,7 +169,7 @@ Json json_of(const SetTruth& truth) {
           {"effects", effects},
           {"book_keeping", truth.book_keeping},
           {"left_out", truth.left_out},
-          {"twins", truth.twins},
+          {"aliased", truth.aliased},
           {"escape", truth.escape},
           {"noise_scale", truth.noise_scale},
           {"heavy_tails", truth.heavy_tails},

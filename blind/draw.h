@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "blind/hidden.h"
-#include "blind/plan.h"
+#include "blind/pack_plan.h"
 #include "blind/views.h"
 #include "core/json.h"
 
@@ -22,13 +22,13 @@ struct Truth {
 struct SetTruth {
   int number = 0;
   std::uint64_t seed = 0;
-  std::string kind{};  ///< null, single, pair, triple, unknown, twins, book_keeping
+  std::string kind{};  ///< null, single, pair, triple, unknown, aliased, book_keeping
   std::string design{};
   std::vector<Truth> effects{};
   std::string book_keeping{};  ///< what the laboratory did wrong, or ""
   std::string left_out{};      ///< a registered effect that the analyser's registry must lack, or ""
   std::vector<std::string>
-      twins{};          ///< effects that nothing in the set can tell from the one hidden, this one among them
+      aliased{};        ///< effects that nothing in the set can tell from the one hidden, this one among them
   double escape = 0.0;  ///< of what is unknown
   double noise_scale = 1.0;
   bool heavy_tails = false;

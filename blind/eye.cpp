@@ -37,11 +37,11 @@ Eigen::Vector2d camera_pixel(const Eyes& eyes, const Sensor& sensor, const Eigen
 double disparity_seen(const Sensor& sensor, const Eigen::Vector2d& projector_pixel, double camera_u) {
   const Eigen::Vector2d tangent = (projector_pixel - kMiddlePx) / kTableFocalPx;
   const double reference = sensor.baseline / (1e-3 * kReferenceMm);
-  const Eigen::Vector2d remembered(tangent.x() + reference, tangent.y());
-  const double remembered_u =
-      sensor.principal_px.x() + sensor.focal_px * (1.0 + sensor.radial_k1 * remembered.squaredNorm()) * remembered.x();
+  const Eigen::Vector2d of_reference(tangent.x() + reference, tangent.y());
+  const double reference_u = sensor.principal_px.x() +
+                             sensor.focal_px * (1.0 + sensor.radial_k1 * of_reference.squaredNorm()) * of_reference.x();
   // The unit measures shifts against its memorised image. That this was of 1.2 m its table knows, not its own numbers.
-  return camera_u - remembered_u + kTableFocalPx * kTableBaseline / (1e-3 * kReferenceMm) + sensor.disparity_offset_px;
+  return camera_u - reference_u + kTableFocalPx * kTableBaseline / (1e-3 * kReferenceMm) + sensor.disparity_offset_px;
 }
 
 Eigen::Vector3d cloud_point(const Eigen::Vector2d& pixel, double depth) {

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "blind/liquid_top.h"
+#include "blind/height_field.h"
 
 namespace fathom::blind {
 namespace {

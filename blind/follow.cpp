@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "blind/fermat.h"
-#include "blind/liquid_top.h"
+#include "blind/height_field.h"
 #include "blind/turbid.h"
 
 namespace fathom::blind {

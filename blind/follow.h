@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "blind/dots.h"
 #include "blind/eye.h"
-#include "blind/pattern.h"
 #include "blind/world.h"
 
 namespace fathom::blind {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "blind/plan.h"
+#include "blind/pack_plan.h"
 #include "core/json.h"
 
 namespace fathom::blind {

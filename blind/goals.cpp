@@ -74,8 +74,8 @@ Is escaping(double from, double to = kForever) {
   return [=](const Judged& one) { return one.is_unknown() && one.truth.escape >= from && one.truth.escape < to; };
 }
 
-bool calls_twins_ambiguous(const Judged& one) {
-  for (const std::string& twin : one.truth.twins)
+bool calls_aliased_ambiguous(const Judged& one) {
+  for (const std::string& twin : one.truth.aliased)
     if (!one.answer.holds({twin})) return false;
   return one.answer.verdict == "ambiguous" || one.answer.ambiguity_set.size() > 1 ||
          (one.answer.ambiguity_set.size() == 1 && one.answer.ambiguity_set[0].sets.size() > 1);
@@ -170,7 +170,8 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
       mean(
           "mean size of the ambiguity set, s ≥ 8", judged, strong_and_answered,
           [](const Judged& one) { return static_cast<double>(one.answer.ambiguity_set.size()); }, Want::at_most, 1.5),
-      share("twins called ambiguous", judged, of_kind("twins"), calls_twins_ambiguous, Want::at_least, 1.0),
+      share("aliased effects called ambiguous", judged, of_kind("aliased"), calls_aliased_ambiguous, Want::at_least,
+            1.0),
       share("pair exact, both s ≥ 8", judged, of_kind("pair", kStrong), is_right, Want::at_least, 0.90),
       share("triple exact", judged, of_kind("triple"), is_right, Want::at_least, 0.75),
       share("unknown flagged, escape ≥ 10", judged, escaping(10.0), flags, Want::at_least, 0.97),

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "blind/plan.h"
+#include "blind/pack_plan.h"
 #include "blind/world.h"
 
 namespace fathom::blind {

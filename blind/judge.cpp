@@ -57,9 +57,9 @@ Names Judged::nameable() const {
 
 bool Judged::is_true(const Names& effects) const {
   if (is_unknown()) return effects == kUnknown;
-  if (truth.twins.empty()) return effects == nameable();
+  if (truth.aliased.empty()) return effects == nameable();
   return effects.size() == 1 &&
-         std::find(truth.twins.begin(), truth.twins.end(), *effects.begin()) != truth.twins.end();
+         std::find(truth.aliased.begin(), truth.aliased.end(), *effects.begin()) != truth.aliased.end();
 }
 
 bool Judged::is_right() const {

@@ -19,12 +19,12 @@ struct Judged {
   Names nameable() const;
   bool is_unknown() const { return truth.kind == "unknown" && !truth.effects.empty(); }
   bool is_single() const { return truth.kind == "single" && !truth.effects.empty(); }
-  /// Power of a filter that knows the signature of what is hidden and looks for nothing else, at 1 % false alarms.
+  /// Power of a filter that knows the sensitivity of what is hidden and looks for nothing else, at 1 % false alarms.
   double matched_filter() const;
   /// Power of such filters for all 38 effects of the registry and either sign, at 1 % false alarms of all together.
   double filter_bank() const;
 
-  /// What it puts first or names is exactly what is hidden, or, of twins, one of them.
+  /// What it puts first or names is exactly what is hidden, or, of aliased ones, one of them.
   bool is_right() const;
   /// The same of a set of effects.
   bool is_true(const Names& effects) const;

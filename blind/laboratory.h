@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "blind/plan.h"
+#include "blind/pack_plan.h"
 #include "blind/world.h"
 #include "core/json.h"
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "blind/plan.h"
-#include "blind/shoot.h"
+#include "blind/device_frames.h"
+#include "blind/pack_plan.h"
 
 namespace fathom::blind {
 

@@ -29,7 +29,7 @@ SetTruth truth_from_json(const JsonReader& json) {
   truth.design = json.text("design");
   truth.book_keeping = json.text("book_keeping");
   truth.left_out = json.text("left_out");
-  for (const JsonReader& twin : json.at("twins").items()) truth.twins.push_back(twin.text());
+  for (const JsonReader& twin : json.at("aliased").items()) truth.aliased.push_back(twin.text());
   truth.escape = json.number("escape");
   truth.noise_scale = json.number("noise_scale");
   truth.heavy_tails = value.at("heavy_tails").get<bool>();

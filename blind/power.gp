@@ -9,9 +9,9 @@ set grid lc rgb 0xE4E4E4 lt 1
 set border 3; set tics nomirror
 set key bottom right
 set xrange [1:40]; set yrange [0:1.02]
-set xlabel 'strength s: norm of the whitened signature after nuisances'
+set xlabel 'strength s: norm of the whitened sensitivity after nuisances'
 set ylabel 'share of single effects, 95 % intervals'
 plot 'power.csv' using 's_mean':'detected':'detected_low95':'detected_high95' with yerrorlines lw 2 pt 7 lc rgb 0x0072B2 title 'detected', \
      '' using 's_mean':'named':'named_low95':'named_high95' with yerrorlines lw 2 pt 7 lc rgb 0x009E73 title 'named rightly', \
-     '' using 's_mean':'matched_filter' with lines lw 2 dt 2 lc rgb 0x555555 title 'a filter that knows the signature, 1 % false alarms', \
+     '' using 's_mean':'matched_filter' with lines lw 2 dt 2 lc rgb 0x555555 title 'a filter that knows the sensitivity, 1 % false alarms', \
      '' using 's_mean':'filter_bank' with lines lw 2 dt 3 lc rgb 0x999999 title 'one such filter for each of 38 effects'

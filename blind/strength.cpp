@@ -7,7 +7,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "blind/match.h"
+#include "blind/block_mean.h"
 #include "blind/unit.h"
 #include "core/dense.h"
 #include "core/estimate.h"
@@ -199,7 +199,7 @@ Strengths::Strengths(const Design& design, std::vector<Placement> placements, co
   nuisance_loss_ = 1.0 - (1.0 + squares.tail(kept).array()).sqrt().inverse();
 }
 
-Eigen::MatrixXd Strengths::signature(std::span<const Active> effects) const {
+Eigen::MatrixXd Strengths::sensitivity(std::span<const Active> effects) const {
   std::vector<Active> in_means;
   std::copy_if(effects.begin(), effects.end(), std::back_inserter(in_means),
                [](const Active& active) { return shows_in_means(*active.effect); });
@@ -221,13 +221,13 @@ double Strengths::of_spread(const Active& active) const {
 }
 
 Shown Strengths::shown(const Active& active) const {
-  Shown shown{active, 0.0, signature(std::span(&active, 1))};
+  Shown shown{active, 0.0, sensitivity(std::span(&active, 1))};
   if (shows_in_spread(*active.effect))
     shown.s = of_spread(active);
   else if (shows_in_steps(*active.effect))
     shown.s = design_.clouds ? 30.0 : 0.0;  // coarser steps leave means alone and show in every cloud at once
   else
-    shown.s = common_norm(shown.signature);
+    shown.s = common_norm(shown.sensitivity);
   return shown;
 }
 
@@ -238,7 +238,7 @@ Shown Strengths::sized(const Hidden& effect, double s, double sign) const {
   const double first = effect.least < 0.0 && effect.most > 0.0 ? std::copysign(effect.typical, sign) : effect.typical;
   Shown now = shown({&effect, inside(first)});
   if (shows_in_steps(effect)) return now;
-  // Signatures are nearly straight lines.
+  // Sensitivities are nearly straight lines.
   constexpr int kSteps = 6;
   constexpr double kNearEnough = 0.02;
   for (int i = 0; i < kSteps && now.s > 0.0 && std::abs(now.s / s - 1.0) >= kNearEnough; ++i) {
@@ -249,25 +249,25 @@ Shown Strengths::sized(const Hidden& effect, double s, double sign) const {
   return now;
 }
 
-double Strengths::escape(const Eigen::MatrixXd& signature, std::span<const Hidden* const> registry) const {
+double Strengths::escape(const Eigen::MatrixXd& sensitivity, std::span<const Hidden* const> registry) const {
   std::vector<Eigen::VectorXd> columns;
   for (const Hidden* effect : registry) {
     const Shown typical = shown({effect, effect->typical});
-    if (common_norm(typical.signature) > 0.1) columns.push_back(typical.signature.rowwise().mean().normalized());
+    if (common_norm(typical.sensitivity) > 0.1) columns.push_back(typical.sensitivity.rowwise().mean().normalized());
   }
-  if (columns.empty()) return common_norm(signature);
-  Eigen::MatrixXd span(signature.rows(), static_cast<Eigen::Index>(columns.size()));
+  if (columns.empty()) return common_norm(sensitivity);
+  Eigen::MatrixXd span(sensitivity.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) span.col(static_cast<Eigen::Index>(i)) = columns[i];
-  return common_norm(signature - span * least_squares(span, signature));
+  return common_norm(sensitivity - span * least_squares(span, sensitivity));
 }
 
-std::map<std::string, double> Strengths::by_liquid(const Eigen::MatrixXd& signature) const {
+std::map<std::string, double> Strengths::by_liquid(const Eigen::MatrixXd& sensitivity) const {
   std::map<std::string, std::vector<Eigen::Index>> rows;
   for (std::size_t i = 0; i < placements_.size(); ++i)
     for (int k = 0; k < kReadings; ++k)
       rows[placements_[i].liquid].push_back(static_cast<Eigen::Index>(i) * kReadings + k);
   std::map<std::string, double> norms;
-  for (const auto& [liquid, own] : rows) norms[liquid] = common_norm(signature(own, Eigen::all));
+  for (const auto& [liquid, own] : rows) norms[liquid] = common_norm(sensitivity(own, Eigen::all));
   return norms;
 }
 

@@ -1,5 +1,5 @@
-// How strongly an effect shows in a set: the norm of its whitened signature once all that is uncertain anyway has been
-// allowed to explain it.
+// How strongly an effect shows in a set: the norm of its whitened sensitivity once all that is uncertain anyway has
+// been allowed to explain it.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "blind/hidden.h"
-#include "blind/plan.h"
+#include "blind/pack_plan.h"
 #include "blind/views.h"
 
 namespace fathom::blind {
@@ -18,7 +18,7 @@ namespace fathom::blind {
 struct Shown {
   Active active;
   double s;
-  Eigen::MatrixXd signature;
+  Eigen::MatrixXd sensitivity;
 };
 
 class Strengths {
@@ -26,11 +26,11 @@ class Strengths {
   /// `views` of this design and perhaps others; it has to outlive this.
   Strengths(const Design& design, std::vector<Placement> placements, const Views& views);
 
-  /// Whitened signature, multiplied by (1 + N Nᵀ)^-1/2 for the nuisances' whitened signatures N per 1 σ: a column for
-  /// each look. Zero for effects that do not show in means.
-  Eigen::MatrixXd signature(std::span<const Active> effects) const;
+  /// Whitened sensitivity, multiplied by (1 + N Nᵀ)^-1/2 for the nuisances' whitened sensitivities N per 1 σ: a column
+  /// for each look. Zero for effects that do not show in means.
+  Eigen::MatrixXd sensitivity(std::span<const Active> effects) const;
 
-  /// Norm of what the looks at a signature have in common; s of an effect's. Which dots happen to change windows
+  /// Norm of what the looks at a sensitivity have in common; s of an effect's. Which dots happen to change windows
   /// differs from look to look, and no model of the effect could foretell it.
   static double common_norm(const Eigen::MatrixXd& looks);
 
@@ -39,11 +39,11 @@ class Strengths {
   /// The effect at a departure at which it has strength s, or the nearest that can be built, of the given sign.
   Shown sized(const Hidden& effect, double s, double sign) const;
 
-  /// Norm of what is left of a signature when these effects, freely scaled, have explained what they can.
-  double escape(const Eigen::MatrixXd& signature, std::span<const Hidden* const> registry) const;
+  /// Norm of what is left of a sensitivity when these effects, freely scaled, have explained what they can.
+  double escape(const Eigen::MatrixXd& sensitivity, std::span<const Hidden* const> registry) const;
 
   /// Root of the sum of squares by liquid: where an effect shows.
-  std::map<std::string, double> by_liquid(const Eigen::MatrixXd& signature) const;
+  std::map<std::string, double> by_liquid(const Eigen::MatrixXd& sensitivity) const;
 
  private:
   const ConditionViews& seen_from(std::size_t placement) const;

@@ -59,11 +59,11 @@ UnitBias draw_unit(std::uint64_t seed) {
   return unit;
 }
 
-double unit_px(const UnitBias& unit, const Eigen::Vector2d& remembered_pixel) {
+double unit_px(const UnitBias& unit, const Eigen::Vector2d& reference_pixel) {
   std::array<double, kUnitColumns> across{};
   std::array<double, kUnitRows> down{};
-  for (int i = 0; i < kUnitColumns; ++i) across[i] = std::cos(frequency(i, kWidthPx) * remembered_pixel.x());
-  for (int i = 0; i < kUnitRows; ++i) down[i] = std::cos(frequency(i, kHeightPx) * remembered_pixel.y());
+  for (int i = 0; i < kUnitColumns; ++i) across[i] = std::cos(frequency(i, kWidthPx) * reference_pixel.x());
+  for (int i = 0; i < kUnitRows; ++i) down[i] = std::cos(frequency(i, kHeightPx) * reference_pixel.y());
   double px = 0.0;
   for (std::size_t i = 0; i < kWaves.size(); ++i) px += unit[i] * across[kWaves[i].across] * down[kWaves[i].down];
   return px;

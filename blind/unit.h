@@ -21,7 +21,7 @@ const UnitBias& unit_sigmas();
 UnitBias draw_unit(std::uint64_t seed);
 
 /// Bias of disparity at a place of the memorised image [px].
-double unit_px(const UnitBias& unit, const Eigen::Vector2d& remembered_pixel);
+double unit_px(const UnitBias& unit, const Eigen::Vector2d& reference_pixel);
 
 /// What is left of it, as a share, where a laboratory's clouds show the desk. Borrowed from a Kinect: so much is left
 /// on a desk in a pose of which others were seen (docs/calibrate.md).

@@ -13,7 +13,7 @@
 
 #include "blind/hidden.h"
 #include "blind/observe.h"
-#include "blind/plan.h"
+#include "blind/pack_plan.h"
 #include "blind/unit.h"
 
 namespace fathom::blind {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "blind/device_frames.h"
 #include "blind/laboratory.h"
 #include "blind/observe.h"
-#include "blind/shoot.h"
 #include "core/cloud_file.h"
 #include "core/files.h"
 #include "core/rng.h"

@@ -11,11 +11,11 @@ namespace fathom {
 
 /// [px] measured minus true disparity, 640 × 480 each.
 struct UnitMap {
-  Image<float> reference;     ///< what moves with the remembered image
+  Image<float> reference;     ///< what moves with the reference image
   Image<float> camera;        ///< what stays at the camera's pixels
-  double reference_at = 0.0;  ///< [px] a column of `reference` is that of the remembered image plus this
+  double reference_at = 0.0;  ///< [px] a column of `reference` is that of the reference image plus this
 
-  /// Of the remembered image's pixel; beyond the map as at its border.
+  /// Of the reference image's pixel; beyond the map as at its border.
   float reference_of(double column_px, double row_px) const;
   float camera_of(int column, int row) const;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detector/noise.h"
+#include "detector/depth_noise.h"
 
 namespace fathom {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "detector/cup.h"
+#include "detector/cup_gates.h"
 #include "detector/liquid.h"
 
 namespace fathom {

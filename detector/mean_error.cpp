@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/median.h"
-#include "detector/noise.h"
+#include "detector/depth_noise.h"
 
 namespace fathom {
 namespace {

@@ -12,7 +12,7 @@ namespace fathom {
 class MeanError {
  public:
   /// `points` [m, desk frame] are the whole scene's. Where they show too little bare desk, what recorded desks show
-  /// (detector/noise.h) is taken instead.
+  /// (detector/depth_noise.h) is taken instead.
   MeanError(const Points& points, double camera_height_m);
 
   /// Standard deviation [m] of the mean height of `points` neighbours inside a cup, about a place in the desk frame.

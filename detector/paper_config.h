@@ -1,7 +1,7 @@
 // Every parameter of the paper's method. Where the paper prints a number, it is the default.
 #pragma once
 
-#include "detector/cup.h"
+#include "detector/cup_gates.h"
 #include "detector/icp.h"
 #include "detector/liquid.h"
 #include "detector/plane.h"

@@ -7,9 +7,9 @@
 
 #include "core/units.h"
 #include "detector/content_signs.h"
-#include "detector/heap.h"
+#include "detector/depth_noise.h"
 #include "detector/mean_error.h"
-#include "detector/noise.h"
+#include "detector/mound.h"
 #include "detector/pinhole.h"
 
 namespace fathom {
@@ -99,14 +99,14 @@ KnownCup known_cup(const RoundWall& wall, const std::vector<CupTemplate>& templa
 }
 
 /// A liquid's surface is level; the raised bottom below a clear one leans by less than a degree.
-std::string solid_words(const LevelSurface& surface, const HeapSlope& heap, const SurfaceSettings& settings) {
+std::string solid_words(const LevelSurface& surface, const MoundSlope& mound, const SurfaceSettings& settings) {
   const bool leans = surface.tilt_rad > settings.tilt_max_rad && surface.tilt_rad > 3.0 * surface.tilt_sigma_rad;
   if (leans)
     return fmt::format("its surface leans {:.0f} +- {:.0f} deg", deg_from_radians(surface.tilt_rad),
                        deg_from_radians(surface.tilt_sigma_rad));
-  if (heap.slope_rad > settings.tilt_max_rad && heap.slope_rad > 3.0 * heap.sigma_rad)
-    return fmt::format("it is heaped by {:.0f} +- {:.0f} deg", deg_from_radians(heap.slope_rad),
-                       deg_from_radians(heap.sigma_rad));
+  if (mound.slope_rad > settings.tilt_max_rad && mound.slope_rad > 3.0 * mound.sigma_rad)
+    return fmt::format("it is heaped by {:.0f} +- {:.0f} deg", deg_from_radians(mound.slope_rad),
+                       deg_from_radians(mound.sigma_rad));
   const double flat = settings.roughness_max * depth_noise_m(surface.range_m);
   if (surface.sd_m > flat) return fmt::format("its surface is uneven by {}", mm(surface.sd_m));
   return "";
@@ -120,7 +120,7 @@ CupEvidence evidence_of(const RoundWall& wall, const Points& inside, const std::
   if (!surface) return evidence;
   evidence.readings.push_back({surface->middle.z(), errors.of_height(surface->points, surface->middle),
                                line_of_sight(desk_from_camera, surface->middle, config.baseline_m)});
-  evidence.solid_words = solid_words(*surface, heap_slope(inside, wall, *surface, config.surface), config.surface);
+  evidence.solid_words = solid_words(*surface, mound_slope(inside, wall, *surface, config.surface), config.surface);
   return evidence;
 }
 

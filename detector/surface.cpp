@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "detector/noise.h"
+#include "detector/depth_noise.h"
 
 namespace fathom {
 namespace {

@@ -13,8 +13,8 @@ struct SurfaceSettings {
   double level_m =
       0.004;  ///< points so near to the plane about the commonest height belong to the surface: twice the noise at 1 m
   double share_min = 0.5;       ///< of the points inside that belong to it; a wall's points spread over all heights
-  double tilt_max_rad = 0.087;  ///< 5°: floors of pots and bowls lean 1 to 3°, a heap of sugar up to 35°
-  double slope_max_rad = 0.6;   ///< 35°, as steep as a heap stands; steeper is a wall
+  double tilt_max_rad = 0.087;  ///< 5°: floors of pots and bowls lean 1 to 3°, a mound of sugar up to 35°
+  double slope_max_rad = 0.6;   ///< 35°, as steep as a mound stands; steeper is a wall
   double roughness_max = 2.0;   ///< SD over the noise of single depths: floors of pots show 0.9 to 1.1
   int points_min = 40;  ///< half of a window of 9 × 9 pixels that is matched as one: fewer are the wall's neighbours
 };

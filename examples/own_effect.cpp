@@ -23,7 +23,7 @@ const fathom::Effect kWetRing{.id = "wet_ring",
                               .sentence = "The cup stands on a film of water.",
                               .parameters = {{"height_mm", "of the film", 0.0, 0.3, 0.0, 2.0}},
                               .citation = "one's own desk",
-                              .twins = {"cup_bottom_height"},
+                              .confounded = {"cup_bottom_height"},
                               .discriminated_by = "wiping the desk",
                               .apply = apply};
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/registration.h"
 
 namespace fathom {
 

@@ -9,6 +9,8 @@ set_tests_properties(layers layers_test skipped_test constants_page links PROPER
 
 if(FATHOM_SIMULATOR)
   add_test(NAME effects_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/effects-page --check $<TARGET_FILE:fathom>)
+  add_test(NAME results_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/results_test.py)
+  set_tests_properties(results_test PROPERTIES ENVIRONMENT FATHOM=$<TARGET_FILE:fathom>)
   set_tests_properties(effects_page PROPERTIES LABELS architecture)
 endif()
 

@@ -12,14 +12,15 @@ namespace {
 
 struct Scaled {
   Eigen::VectorXd residual;
-  Eigen::MatrixXd signatures;  ///< unit columns; 0 where nothing sees the effect
+  Eigen::MatrixXd sensitivities;  ///< unit columns; 0 where nothing sees the effect
 };
 
-/// The residual and each candidate's first signature, in the observables' units.
+/// The residual and each candidate's first sensitivity, in the observables' units.
 Scaled unscaled(const Evidence& evidence) {
   const Eigen::VectorXd residual = measured_minus_predicted(evidence);
   Scaled s{residual, Eigen::MatrixXd(residual.size(), static_cast<Eigen::Index>(evidence.candidates.size()))};
-  for (Eigen::Index k = 0; k < s.signatures.cols(); ++k) s.signatures.col(k) = evidence.candidates[k].signature.col(0);
+  for (Eigen::Index k = 0; k < s.sensitivities.cols(); ++k)
+    s.sensitivities.col(k) = evidence.candidates[k].sensitivity.col(0);
   return s;
 }
 
@@ -52,8 +53,8 @@ Scaled scaled(const Evidence& evidence) {
     sds[i] = variance > 0.0 ? std::sqrt(variance) : 1.0;
   }
   s.residual.array() /= sds;
-  s.signatures.array().colwise() /= sds;
-  normalize(s.signatures);
+  s.sensitivities.array().colwise() /= sds;
+  normalize(s.sensitivities);
   return s;
 }
 
@@ -62,8 +63,8 @@ Scaled whitened(const Evidence& evidence) {
   Scaled s = unscaled(evidence);
   const Covariance covariance = estimate_covariance(evidence, s.residual);
   s.residual = covariance.whiten(s.residual);
-  s.signatures = covariance.whiten(s.signatures);
-  normalize(s.signatures);
+  s.sensitivities = covariance.whiten(s.sensitivities);
+  normalize(s.sensitivities);
   return s;
 }
 
@@ -71,7 +72,7 @@ Scaled whitened(const Evidence& evidence) {
 double bic(const Scaled& s, const std::vector<int>& effects) {
   double chi2 = s.residual.squaredNorm();
   if (!effects.empty()) {
-    const Eigen::MatrixXd X = s.signatures(Eigen::all, effects);
+    const Eigen::MatrixXd X = s.sensitivities(Eigen::all, effects);
     chi2 = (s.residual - X * least_squares(X, s.residual)).squaredNorm();
   }
   return chi2 + static_cast<double>(effects.size()) * std::log(static_cast<double>(s.residual.size()));
@@ -84,7 +85,7 @@ std::vector<int> forward_selection(const Scaled& s) {
   for (bool grows = true; grows;) {
     grows = false;
     std::vector<int> next = chosen;
-    for (int k = 0; k < s.signatures.cols(); ++k) {
+    for (int k = 0; k < s.sensitivities.cols(); ++k) {
       if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) continue;
       std::vector<int> tried = chosen;
       tried.push_back(k);
@@ -109,8 +110,8 @@ std::vector<int> gls_bic(const Evidence& evidence) { return forward_selection(wh
 std::vector<int> lasso_bic(const Evidence& evidence) {
   if (evidence.candidates.empty()) return {};
   const Scaled s = scaled(evidence);
-  const Eigen::MatrixXd G = s.signatures.transpose() * s.signatures;
-  const Eigen::VectorXd b = s.signatures.transpose() * s.residual;
+  const Eigen::MatrixXd G = s.sensitivities.transpose() * s.sensitivities;
+  const Eigen::VectorXd b = s.sensitivities.transpose() * s.residual;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
   std::vector<int> chosen;
   double best = bic(s, {});
@@ -135,7 +136,7 @@ std::vector<int> largest_correlation(const Evidence& evidence) {
   if (evidence.candidates.empty()) return {};
   const Scaled s = scaled(evidence);
   Eigen::Index best = 0;
-  const double z = (s.signatures.transpose() * s.residual).cwiseAbs().maxCoeff(&best);
+  const double z = (s.sensitivities.transpose() * s.residual).cwiseAbs().maxCoeff(&best);
   return z > 3.0 ? std::vector<int>{static_cast<int>(best)} : std::vector<int>{};
 }
 

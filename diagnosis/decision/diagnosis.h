@@ -75,14 +75,14 @@ struct UpperLimit {
 
 struct ConfusablePair {
   std::string first, second;
-  double angle_deg = 0.0;  ///< between their signatures, after nuisances
+  double angle_deg = 0.0;  ///< between their sensitivities, after nuisances
 };
 
 /// A combination of effects that the observations hardly see.
 struct NearNullDirection {
   std::vector<std::string> effects;
   std::vector<double> weights;  ///< of typical departures, together of length 1
-  double strength = 0.0;        ///< norm of its whitened signature
+  double strength = 0.0;        ///< norm of its whitened sensitivity
 };
 
 struct NextMeasurement {
@@ -106,7 +106,7 @@ struct ConditionBudget {
 struct UnknownShape {
   std::string formula;       ///< sparse, in distance, fill and lateral
   std::string most_similar;  ///< candidate
-  double similarity = 0.0;   ///< cosine of the whitened signatures
+  double similarity = 0.0;   ///< cosine of the whitened sensitivities
   std::vector<double> map;   ///< smooth part of every observation's residual, in the observable's unit
   /// Of a shape of what is seen in cups: the part that departs most, and by how much. Empty where it is none.
   std::string liquid, part;

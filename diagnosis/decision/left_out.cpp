@@ -10,7 +10,7 @@ namespace {
 
 /// Whether observations of the rows tell every parameter.
 bool tell_all(const LinearFit& fit, const std::vector<Eigen::Index>& rows) {
-  constexpr double kShare = 1e-3;  // of a signature's squared length
+  constexpr double kShare = 1e-3;  // of a sensitivity's squared length
   for (Eigen::Index k = 0; k < fit.jacobian.cols(); ++k)
     if (fit.jacobian.col(k)(rows).squaredNorm() <= kShare * fit.jacobian.col(k).squaredNorm()) return false;
   return true;

@@ -25,13 +25,14 @@ std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& pr
     if (std::find(named.begin(), named.end(), static_cast<int>(effect)) != named.end()) continue;
     const Candidate& candidate = evidence.candidates[effect];
     for (std::size_t k = 0; k < candidate.parameters.size(); ++k) {
-      const Eigen::VectorXd signature = without(problem.signatures.col(problem.columns[effect][k]), explained);
-      const double information = signature.squaredNorm();
+      const Eigen::VectorXd sensitivity = without(problem.sensitivities.col(problem.columns[effect][k]), explained);
+      const double information = sensitivity.squaredNorm();
       const Parameter& parameter = candidate.parameters[k];
       const double widest =
           std::max(std::abs(parameter.upper - parameter.nominal), std::abs(parameter.lower - parameter.nominal));
       const double sigma = information > 1e-12 ? parameter.prior_scale / std::sqrt(information) : HUGE_VAL;
-      const double estimate = information > 1e-12 ? parameter.prior_scale * signature.dot(residual) / information : 0.0;
+      const double estimate =
+          information > 1e-12 ? parameter.prior_scale * sensitivity.dot(residual) / information : 0.0;
       const double limit = std::abs(estimate) + 1.96 * sigma;
       const double threshold = std::sqrt(
           std::max(0.0, 2.0 * (std::log(kAlarmOdds) - problem.log_odds[effect]) + parameter_cost(information)));
@@ -47,9 +48,9 @@ std::vector<ConfusablePair> confusable_pairs(const Evidence& evidence, const Pro
   std::vector<Eigen::MatrixXd> bases;
   std::vector<bool> is_seen;
   for (const auto& columns : problem.columns) {
-    const Eigen::MatrixXd signatures = problem.signatures(Eigen::all, columns);
-    bases.push_back(orthonormal(signatures));
-    is_seen.push_back(signatures.norm() > kLeastStrength);
+    const Eigen::MatrixXd sensitivities = problem.sensitivities(Eigen::all, columns);
+    bases.push_back(orthonormal(sensitivities));
+    is_seen.push_back(sensitivities.norm() > kLeastStrength);
   }
   std::vector<ConfusablePair> result;
   for (std::size_t i = 0; i < bases.size(); ++i)
@@ -74,13 +75,13 @@ std::vector<NearNullDirection> near_null_directions(const Evidence& evidence, co
   std::vector<std::string> names;
   for (std::size_t effect = 0; effect < problem.columns.size(); ++effect)
     for (const auto column : problem.columns[effect])
-      if (problem.signatures.col(column).norm() > kLeastStrength) {
+      if (problem.sensitivities.col(column).norm() > kLeastStrength) {
         columns.push_back(column);
         names.push_back(evidence.candidates[effect].effect);
       }
   std::vector<NearNullDirection> result;
   if (columns.empty()) return result;
-  const Eigen::MatrixXd unit = problem.signatures(Eigen::all, columns).colwise().normalized();
+  const Eigen::MatrixXd unit = problem.sensitivities(Eigen::all, columns).colwise().normalized();
   const SymmetricEigen eigen = symmetric_eigen(unit.transpose() * unit);
   for (Eigen::Index k = 0; k < eigen.values.size(); ++k) {
     const double strength = std::sqrt(std::max(0.0, eigen.values[k]));

@@ -15,7 +15,7 @@ namespace fathom {
 std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& problem, const std::vector<int>& named,
                                      const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained);
 
-/// Pairs of candidates whose signatures differ by less than 15°, closest first.
+/// Pairs of candidates whose sensitivities differ by less than 15°, closest first.
 std::vector<ConfusablePair> confusable_pairs(const Evidence& evidence, const Problem& problem);
 
 /// Combinations of at least three typical departures that the observations see at less than a tenth of one's strength.

@@ -106,7 +106,7 @@ Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covaria
 }
 
 /// What effects change in observations, per prior scale: one column for each of their parameters.
-Eigen::MatrixXd signatures(const Evidence& evidence, const std::vector<const Candidate*>& candidates) {
+Eigen::MatrixXd sensitivities(const Evidence& evidence, const std::vector<const Candidate*>& candidates) {
   std::vector<Eigen::VectorXd> columns;
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
   for (const Candidate* known : candidates) {
@@ -115,7 +115,7 @@ Eigen::MatrixXd signatures(const Evidence& evidence, const std::vector<const Can
     for (std::size_t k = 0; k < known->parameters.size(); ++k) {
       columns.emplace_back(Eigen::VectorXd::Zero(n));
       if (seen != evidence.candidates.end())
-        columns.back() = known->parameters[k].prior_scale * seen->signature.col(static_cast<Eigen::Index>(k));
+        columns.back() = known->parameters[k].prior_scale * seen->sensitivity.col(static_cast<Eigen::Index>(k));
     }
   }
   Eigen::MatrixXd result(n, static_cast<Eigen::Index>(columns.size()));
@@ -152,12 +152,12 @@ struct Old {
 struct Rival {
   const Option& option;
   std::vector<const Candidate*> effects;
-  Eigen::MatrixXd old_signatures;
+  Eigen::MatrixXd old_sensitivities;
   Leeway old_leeway;
 
   Rival(const Old& old, const Option& explanation) : option(explanation) {
     for (const int effect : option.effects) effects.push_back(&old.evidence.candidates[effect]);
-    old_signatures = old.covariance.whiten(signatures(old.evidence, effects));
+    old_sensitivities = old.covariance.whiten(sensitivities(old.evidence, effects));
     old_leeway = leeway_of(old.covariance.whiten(own_errors(old.evidence, effects, option.parameters)));
   }
 };
@@ -179,7 +179,7 @@ class Together {
     std::vector<Eigen::Index> shared_old, shared_new;
     for (Eigen::Index k = 0; k < nuisances.cols(); ++k) {
       const Nuisance& nuisance = added_.nuisances[k];
-      nuisances.col(k) = nuisance.sigma * nuisance.signature;
+      nuisances.col(k) = nuisance.sigma * nuisance.sensitivity;
       const auto same = of_old.find(nuisance.name);
       if (same == of_old.end()) continue;
       shared_old.push_back(same->second);
@@ -194,11 +194,11 @@ class Together {
 
   /// Changes of old and new observations by a rival's effects; whitened.
   Eigen::MatrixXd changes(const Rival& rival) const {
-    const Eigen::MatrixXd old = leeway_.whiten(rival.old_signatures);
+    const Eigen::MatrixXd old = leeway_.whiten(rival.old_sensitivities);
     Eigen::MatrixXd result(old.rows() + factor_.rows(), old.cols());
     if (result.cols() == 0) return result;  // of the model as it is; a matrix without columns has no parts to fill
     result << old,
-        factor_.matrixL().solve(signatures(added_, rival.effects) - shared_new_ * (shared_old_.transpose() * old));
+        factor_.matrixL().solve(sensitivities(added_, rival.effects) - shared_new_ * (shared_old_.transpose() * old));
     return result;
   }
 

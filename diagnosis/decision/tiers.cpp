@@ -29,7 +29,7 @@ std::vector<Eigen::Index> deciding_rows(const Evidence& evidence) {
 
 Evidence deciding_evidence(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
   Evidence part = evidence_of_rows(evidence, rows);
-  std::erase_if(part.candidates, [](const Candidate& candidate) { return candidate.signature.isZero(0.0); });
+  std::erase_if(part.candidates, [](const Candidate& candidate) { return candidate.sensitivity.isZero(0.0); });
   return part;
 }
 

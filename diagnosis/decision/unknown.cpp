@@ -114,15 +114,15 @@ UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covari
   UnknownShape shape;
   shape.formula = sparse_formula(evidence, covariance, residual, explained);
   if (is_shape(discrepancy, residual)) set_part(evidence, covariance, shape);
-  const Eigen::MatrixXd signatures = without(problem.signatures, explained);
+  const Eigen::MatrixXd sensitivities = without(problem.sensitivities, explained);
   const Eigen::VectorXd map = smooth_map(discrepancy, residual, explained);
   shape.map.assign(map.data(), map.data() + map.size());
   const Eigen::VectorXd smoothed = covariance.whiten(map);
   for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {
-    if (explained.cols() > 0 && signatures(Eigen::all, problem.columns[effect]).norm() <
-                                    1e-3 * problem.signatures(Eigen::all, problem.columns[effect]).norm())
+    if (explained.cols() > 0 && sensitivities(Eigen::all, problem.columns[effect]).norm() <
+                                    1e-3 * problem.sensitivities(Eigen::all, problem.columns[effect]).norm())
       continue;  // named already
-    const Eigen::MatrixXd basis = orthonormal(signatures(Eigen::all, problem.columns[effect]));
+    const Eigen::MatrixXd basis = orthonormal(sensitivities(Eigen::all, problem.columns[effect]));
     const double cosine = (basis.transpose() * smoothed).norm() / std::max(smoothed.norm(), 1e-300);
     if (cosine <= shape.similarity) continue;
     shape.similarity = cosine;

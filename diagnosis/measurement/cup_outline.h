@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 
 namespace fathom {
 

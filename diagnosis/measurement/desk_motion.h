@@ -2,7 +2,7 @@
 // along the rows.
 #pragma once
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {

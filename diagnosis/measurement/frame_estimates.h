@@ -9,7 +9,7 @@
 #include "detector/plane.h"
 #include "diagnosis/measurement/cup_outline.h"
 #include "diagnosis/measurement/cup_regions.h"
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 
 namespace fathom {
 

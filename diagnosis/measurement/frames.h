@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "core/table.h"
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 
 namespace fathom {
 

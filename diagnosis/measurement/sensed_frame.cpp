@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/measurement/sampling.h"
+#include "diagnosis/measurement/cloud_sampling.h"
 
 namespace fathom {
 

@@ -38,10 +38,11 @@ Candidate candidate_of_liquid(const Predictor& predictor, const Effect& effect, 
                               const Candidate& of_all) {
   Candidate candidate = of_all;
   candidate.effect = name_of(EffectName{std::string(effect.id), liquid});
-  candidate.signature.setZero();
+  candidate.sensitivity.setZero();
   for (const std::size_t condition : conditions_touched(predictor, effect, liquid))
     for (const std::size_t row : predictor.conditions()[condition].rows)
-      candidate.signature.row(static_cast<Eigen::Index>(row)) = of_all.signature.row(static_cast<Eigen::Index>(row));
+      candidate.sensitivity.row(static_cast<Eigen::Index>(row)) =
+          of_all.sensitivity.row(static_cast<Eigen::Index>(row));
   return candidate;
 }
 
@@ -51,7 +52,7 @@ bool moves_anything(const Candidate& candidate) {
   double most = 0.0;
   for (std::size_t i = 0; i < candidate.parameters.size(); ++i)
     most = std::max(most, candidate.parameters[i].prior_scale *
-                              candidate.signature.col(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>());
+                              candidate.sensitivity.col(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>());
   return most > kNothing;
 }
 
@@ -73,7 +74,7 @@ double plausibility_of(const Effect& effect, const std::string& liquid, std::siz
 }  // namespace
 
 Candidate candidate_by_slopes(const Effect& effect, const std::string& name, const Slope& slope) {
-  Candidate candidate{.effect = name, .parameters = {}, .signature = {}};
+  Candidate candidate{.effect = name, .parameters = {}, .sensitivity = {}};
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
     const EffectParameter& p = effect.parameters[i];
     candidate.parameters.push_back({std::string(p.name), p.nominal, p.scale, p.lower, p.upper, p.step});
@@ -85,8 +86,8 @@ Candidate candidate_by_slopes(const Effect& effect, const std::string& name, con
     };
     const Eigen::VectorXd column =
         slope(at, std::max(p.nominal - p.scale, p.lower), std::min(p.nominal + p.scale, p.upper));
-    candidate.signature.conservativeResize(column.size(), static_cast<Eigen::Index>(i) + 1);
-    candidate.signature.col(static_cast<Eigen::Index>(i)) = column;
+    candidate.sensitivity.conservativeResize(column.size(), static_cast<Eigen::Index>(i) + 1);
+    candidate.sensitivity.col(static_cast<Eigen::Index>(i)) = column;
   }
   return candidate;
 }
@@ -112,7 +113,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
     if (parts.liquid.empty()) of_all = candidate;
     candidate.plausibility = plausibility_of(*effect, parts.liquid, liquids.size());
     const bool is_seen = moves_anything(candidate);
-    if (!is_seen) candidate.signature.setZero();
+    if (!is_seen) candidate.sensitivity.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);
     if (is_seen || (only.empty() && parts.liquid.empty())) candidates.all.push_back(std::move(candidate));
     progress.step();

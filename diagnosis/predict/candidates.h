@@ -6,19 +6,19 @@
 namespace fathom {
 
 struct Candidates {
-  std::vector<Candidate> all;       ///< without `only` also, with signatures of 0, …
+  std::vector<Candidate> all;       ///< without `only` also, with sensitivities of 0, …
   std::vector<std::string> unseen;  ///< … what moves no observation
 };
 
 /// Change per unit of all observations between `at(low)` and `at(high)`.
 using Slope = std::function<Eigen::VectorXd(const std::function<EffectValue(double)>& at, double low, double high)>;
 
-/// The effect by the name `name`, its signature central differences over the prior scale, one-sided at a bound.
+/// The effect by the name `name`, its sensitivity central differences over the prior scale, one-sided at a bound.
 Candidate candidate_by_slopes(const Effect& effect, const std::string& name, const Slope& slope);
 
 /// Every effect of the registry but mistakes in writing down, which bookkeeping.h finds; those of liquids also for each
-/// liquid apart, as "id@liquid", where there are several. Or of those named the ones that move anything. Signatures are
-/// central differences over the prior scale, one-sided at a bound. Throws Error on an unknown name. Tells of its
+/// liquid apart, as "id@liquid", where there are several. Or of those named the ones that move anything. Sensitivities
+/// are central differences over the prior scale, one-sided at a bound. Throws Error on an unknown name. Tells of its
 /// progress unless `quiet`.
 Candidates candidates_of(const Predictor& predictor, const std::vector<std::string>& only = {}, bool quiet = true);
 

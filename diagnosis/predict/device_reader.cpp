@@ -1,6 +1,6 @@
 #include "diagnosis/predict/device_reader.h"
 
-#include "sim/sensor/registration.h"
+#include "sim/sensor/colour_registration.h"
 
 namespace fathom {
 namespace {

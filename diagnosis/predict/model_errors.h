@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {

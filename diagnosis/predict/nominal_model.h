@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "diagnosis/statistics/evidence.h"
 #include "sim/scene/setup.h"
 

@@ -20,13 +20,13 @@ std::vector<std::size_t> all_conditions(const Predictor& predictor) {
   return conditions_where(predictor, [](const Factors&) { return true; });
 }
 
-/// Only those conditions' part of a signature.
-Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& signature,
+/// Only those conditions' part of a sensitivity.
+Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& sensitivity,
                         const std::function<bool(const Factors&)>& is) {
-  Eigen::VectorXd part = Eigen::VectorXd::Zero(signature.size());
+  Eigen::VectorXd part = Eigen::VectorXd::Zero(sensitivity.size());
   for (const std::size_t i : conditions_where(predictor, is))
     for (const std::size_t row : predictor.conditions()[i].rows)
-      part[static_cast<Eigen::Index>(row)] = signature[static_cast<Eigen::Index>(row)];
+      part[static_cast<Eigen::Index>(row)] = sensitivity[static_cast<Eigen::Index>(row)];
   return part;
 }
 
@@ -39,7 +39,7 @@ void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<
   for (const int session : sessions)
     nuisances.push_back(
         {fmt::format("{} of session {}", pose.name, session), kPart * pose.sigma,
-         part_of(predictor, pose.signature, [&](const Factors& factors) { return factors.session == session; })});
+         part_of(predictor, pose.sensitivity, [&](const Factors& factors) { return factors.session == session; })});
 }
 
 void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
@@ -113,7 +113,7 @@ std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vect
                kBias_px * height_per_px_mm({metres_from_mm(f.lateral_mm), metres_from_mm(f.distance_mm)},
                                            predictor.model().laboratory),
                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()))};
-    place.signature[static_cast<Eigen::Index>(i)] = 1.0;
+    place.sensitivity[static_cast<Eigen::Index>(i)] = 1.0;
   }
   for (auto& [where, place] : places) nuisances.push_back(std::move(place));
   return nuisances;
@@ -138,7 +138,7 @@ Nuisance brightness_response(const std::vector<Observation>& observations, const
   Nuisance response{"response of the brightness", kExponentSigma, Eigen::VectorXd::Zero(predicted.size())};
   for (std::size_t i = 0; i < observations.size(); ++i)
     if (const auto row = static_cast<Eigen::Index>(i); observations[i].observable == "log_brightness")
-      response.signature[row] = predicted[row];
+      response.sensitivity[row] = predicted[row];
   return response;
 }
 

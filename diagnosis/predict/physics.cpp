@@ -95,14 +95,15 @@ Physics physics_of(const Measurement& measurement, const Json& model_effects, co
   }
   add_shapes(measurement, *predictor, evidence);
   const Nuisance windows = usual_windows(*predictor);
-  const Eigen::VectorXd middle = windows.sigma * windows.signature;
+  const Eigen::VectorXd middle = windows.sigma * windows.sensitivity;
   evidence.predicted = predictor->predict({}) + middle;
   evidence.numerical_sd = numerical_errors(evidence.observations);
   evidence.nuisances = nuisances_of(*predictor);
   for (Nuisance& nuisance : unit_nuisances(*predictor, evidence.observations))
     evidence.nuisances.push_back(std::move(nuisance));
   evidence.nuisances.push_back(windows);
-  if (Nuisance response = brightness_response(evidence.observations, evidence.predicted); !response.signature.isZero())
+  if (Nuisance response = brightness_response(evidence.observations, evidence.predicted);
+      !response.sensitivity.isZero())
     evidence.nuisances.push_back(std::move(response));
   evidence.shared_errors = model_errors(evidence.observations, measurement.rig);
   Candidates candidates = candidates_of(*predictor, only, quiet);

@@ -44,7 +44,7 @@ double log_contrast_of_dots(const Setup& setup);
 
 /// What the laboratory would find in such a frame: direct light, triangulated exactly, read by the device with its
 /// calibration, its law's mean and its unit's error without wander; then the measurement's own estimators.
-/// Not predicted: noise and so spreads, what the matcher loses, light that is thrown on (intensities are of direct
+/// Not predicted: noise and so spreads, what the matcher loses, interreflections (intensities are of direct
 /// light). Of waves the mean over phases and directions is predicted, through water as windows read it that span a
 /// wave. Combs are those of even mixtures of steps. What looks the same in a `known` frame of these pixels is taken
 /// from there. Throws Error for a clear cup or one of a glTF file.

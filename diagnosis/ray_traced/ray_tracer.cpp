@@ -50,7 +50,7 @@ std::vector<std::size_t> RayTracer::changed(const std::vector<EffectValue>& effe
 }
 
 RayTracer::Cost RayTracer::cost(const std::vector<EffectValue>& effects) const {
-  constexpr double kDirect_s = 1.0, kThrownOn_s = 2.0, kScattered_s = 9.0;
+  constexpr double kDirect_s = 1.0, kInterreflected_s = 2.0, kScattered_s = 9.0;
   const Change change = switch_on(effects);
   Cost cost;
   for (const std::vector<std::size_t>& group : predictor_->alike(change, changed(effects))) {
@@ -59,7 +59,7 @@ RayTracer::Cost RayTracer::cost(const std::vector<EffectValue>& effects) const {
     const bool is_scattered = std::any_of(shot.scene.cups.begin(), shot.scene.cups.end(),
                                           [](const Cup& cup) { return cup.filling && cup.filling->medium.scatters(); });
     ++cost.conditions;
-    cost.seconds += is_direct ? kDirect_s : is_scattered ? kScattered_s : kThrownOn_s;
+    cost.seconds += is_direct ? kDirect_s : is_scattered ? kScattered_s : kInterreflected_s;
   }
   return cost;
 }

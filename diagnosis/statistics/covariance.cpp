@@ -18,8 +18,8 @@ Eigen::VectorXd numerical_variance(const Evidence& evidence) {
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
   Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
   for (const Candidate& candidate : evidence.candidates)
-    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k)
-      change = change.cwiseMax(candidate.signature.col(k).cwiseAbs() * candidate.parameters[k].prior_scale);
+    for (Eigen::Index k = 0; k < candidate.sensitivity.cols(); ++k)
+      change = change.cwiseMax(candidate.sensitivity.col(k).cwiseAbs() * candidate.parameters[k].prior_scale);
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
   if (evidence.numerical_sd.size() == n) variance = evidence.numerical_sd.cwiseAbs2();
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
@@ -48,7 +48,7 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
   covariance.nuisance.resize(n, static_cast<Eigen::Index>(evidence.nuisances.size()));
   for (std::size_t k = 0; k < evidence.nuisances.size(); ++k)
     covariance.nuisance.col(static_cast<Eigen::Index>(k)) =
-        evidence.nuisances[k].sigma * evidence.nuisances[k].signature;
+        evidence.nuisances[k].sigma * evidence.nuisances[k].sensitivity;
   const Eigen::VectorXd repeats = repeat_variances(evidence.observations);
   const Eigen::SparseMatrix<double> nuisance = sparse(covariance.nuisance);
   covariance.total = nuisance * nuisance.transpose();

@@ -12,11 +12,11 @@ namespace fathom {
 struct Covariance {
   ErrorBudget errors;
   Eigen::VectorXd numerical_variance;  ///< of the predictions
-  Eigen::MatrixXd nuisance;            ///< n × nuisances: signatures times prior σ; its square is J P Jᵀ
+  Eigen::MatrixXd nuisance;            ///< n × nuisances: sensitivities times prior σ; its square is J P Jᵀ
   Eigen::MatrixXd total;
   Eigen::LLT<Eigen::MatrixXd> factor;
 
-  /// L⁻¹ x with total = L Lᵀ: columns of data or signatures in units of their error.
+  /// L⁻¹ x with total = L Lᵀ: columns of data or sensitivities in units of their error.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const {
     return x.cols() == 0 ? x : Eigen::MatrixXd(factor.matrixL().solve(x));
   }

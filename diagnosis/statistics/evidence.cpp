@@ -8,9 +8,9 @@ Evidence evidence_of_rows(const Evidence& evidence, const std::vector<Eigen::Ind
   for (const Eigen::Index row : rows) part.observations.push_back(evidence.observations[row]);
   part.predicted = evidence.predicted(rows).eval();
   if (evidence.numerical_sd.size() > 0) part.numerical_sd = evidence.numerical_sd(rows).eval();
-  for (Nuisance& nuisance : part.nuisances) nuisance.signature = nuisance.signature(rows).eval();
+  for (Nuisance& nuisance : part.nuisances) nuisance.sensitivity = nuisance.sensitivity(rows).eval();
   for (Candidate& candidate : part.candidates) {
-    candidate.signature = candidate.signature(rows, Eigen::all).eval();
+    candidate.sensitivity = candidate.sensitivity(rows, Eigen::all).eval();
     Eigen::MatrixXd& errors = candidate.leeway.columns;
     if (errors.cols() > 0) errors = errors(rows, Eigen::all).eval();
   }

@@ -46,8 +46,8 @@ struct Observation {
 /// Something uncertain that is no effect: a calibrated length, the fill of one pour, the place of one placement.
 struct Nuisance {
   std::string name;
-  double sigma = 0.0;         ///< of its prior, about 0
-  Eigen::VectorXd signature;  ///< change of every observation per unit
+  double sigma = 0.0;           ///< of its prior, about 0
+  Eigen::VectorXd sensitivity;  ///< change of every observation per unit
 };
 
 /// An error of the model that observations of one group have in common; how large it is, the data may say better.
@@ -93,8 +93,8 @@ inline std::string name_of(const EffectName& effect) {
 struct Candidate {
   std::string effect;  ///< as name_of(EffectName) writes it
   std::vector<Parameter> parameters;
-  Eigen::MatrixXd signature;  ///< observations × parameters: change per unit, by differences over prior_scale
-  double plausibility = 1.0;  ///< before anything is measured, beside that of other candidates
+  Eigen::MatrixXd sensitivity;  ///< observations × parameters: change per unit, by differences over prior_scale
+  double plausibility = 1.0;    ///< before anything is measured, beside that of other candidates
   OwnErrors leeway{};
 };
 

@@ -81,11 +81,11 @@ void add_drift(const std::vector<Observation>& observations, Span& means) {
 }
 
 /// Of all candidates, one after the other.
-Eigen::MatrixXd signatures_at(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
+Eigen::MatrixXd sensitivities_at(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
   Eigen::MatrixXd result(rows.size(), 0);
   for (const Candidate& candidate : evidence.candidates) {
-    result.conservativeResize(Eigen::NoChange, result.cols() + candidate.signature.cols());
-    result.rightCols(candidate.signature.cols()) = candidate.signature(rows, Eigen::all);
+    result.conservativeResize(Eigen::NoChange, result.cols() + candidate.sensitivity.cols());
+    result.rightCols(candidate.sensitivity.cols()) = candidate.sensitivity(rows, Eigen::all);
   }
   return result;
 }
@@ -116,9 +116,9 @@ Groups places_of_fillings(const std::vector<Observation>& observations) {
   return places;
 }
 
-/// Contrasts of some observations that neither places nor signatures (observations × any number, those that matter most
-/// first) nor polynomials of each liquid and region make.
-Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, const Eigen::MatrixXd& signatures) {
+/// Contrasts of some observations that neither places nor sensitivities (observations × any number, those that matter
+/// most first) nor polynomials of each liquid and region make.
+Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, const Eigen::MatrixXd& sensitivities) {
   const auto n = static_cast<Eigen::Index>(observations.size());
   Span means(n, n / 2);
   const auto add_products = [&](const Eigen::MatrixXd& groups, const Eigen::MatrixXd& shapes) {
@@ -129,7 +129,7 @@ Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, c
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.region; })),
                shapes.leftCols(1));
   add_products(indicators(places_of_fillings(observations)), shapes.leftCols(1));
-  for (Eigen::Index k = 0; k < signatures.cols(); ++k) means.add(signatures.col(k));
+  for (Eigen::Index k = 0; k < sensitivities.cols(); ++k) means.add(sensitivities.col(k));
   add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
   add_products(indicators(group_by(observations,
                                    [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),
@@ -143,7 +143,7 @@ Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::Matrix
   Span means(weights.rows(), weights.rows());
   means.add(Eigen::VectorXd::Ones(weights.rows()));
   for (const Candidate& candidate : evidence.candidates)
-    for (Eigen::Index k = 0; k < candidate.signature.cols(); ++k) means.add(weights * candidate.signature.col(k));
+    for (Eigen::Index k = 0; k < candidate.sensitivity.cols(); ++k) means.add(weights * candidate.sensitivity.col(k));
   return means.complement();
 }
 
@@ -158,7 +158,7 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
     add_drift(observations, means);
     return {means.complement(), true};
   }
-  return {smooth_contrasts(observations, signatures_at(evidence, rows)), false};
+  return {smooth_contrasts(observations, sensitivities_at(evidence, rows)), false};
 }
 
 CellMeans cell_means(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
@@ -169,8 +169,8 @@ CellMeans cell_means(const Evidence& evidence, const std::vector<Eigen::Index>& 
     means.over.row(static_cast<Eigen::Index>(first.size())) /= static_cast<double>(members.size());
     first.push_back(rows[members.front()]);
   }
-  means.contrasts =
-      smooth_contrasts(at(evidence.observations, first), common_directions(means.over * signatures_at(evidence, rows)));
+  means.contrasts = smooth_contrasts(at(evidence.observations, first),
+                                     common_directions(means.over * sensitivities_at(evidence, rows)));
   return means;
 }
 

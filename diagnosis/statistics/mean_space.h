@@ -13,13 +13,13 @@ struct MeanSpace {
   bool from_replicates = true;  ///< means are those of cells; else a smooth function's
 };
 
-/// Orthonormal contrasts of the rows of `weights` (sums of observations) that no candidate's signature changes, nor a
+/// Orthonormal contrasts of the rows of `weights` (sums of observations) that no candidate's sensitivity changes, nor a
 /// constant.
 Eigen::MatrixXd free_of_candidates(const Evidence& evidence, const Eigen::MatrixXd& weights);
 
 /// For the rows of one observable. Where at least eight contrasts lie within cells (equal conditions, observable and
 /// region), those that no drift over the sessions changes. Otherwise the mean may be
-/// anything that the candidates' signatures and second-degree polynomials in fill, distance and lateral, for each
+/// anything that the candidates' sensitivities and second-degree polynomials in fill, distance and lateral, for each
 /// liquid and region, make: as many of them as leave half of the rows.
 MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& rows);
 

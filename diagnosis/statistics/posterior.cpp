@@ -19,7 +19,7 @@ constexpr double kHopeless = 12.0;              // … unless that far below the
 constexpr std::size_t kRefitted = 8;            // … and refitted, likeliest first
 constexpr std::size_t kWithUnknown = 5;         // likeliest sets that are also considered beside a discrepancy
 
-/// Sets of effects by their signatures alone, likeliest first.
+/// Sets of effects by their sensitivities alone, likeliest first.
 std::vector<Hypothesis> screened(const Case& c) {
   std::vector<Hypothesis> hypotheses = screen(c.problem, kKept);
   std::stable_sort(hypotheses.begin(), hypotheses.end(),
@@ -27,7 +27,7 @@ std::vector<Hypothesis> screened(const Case& c) {
   return hypotheses;
 }
 
-/// Effects with leeway of which a refit left nothing: by their signatures alone they pass for what their leeway is.
+/// Effects with leeway of which a refit left nothing: by their sensitivities alone they pass for what their leeway is.
 std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits) {
   std::vector<int> result;
   for (const Refit& fit : fits)
@@ -63,8 +63,8 @@ Hypothesis without_effect(const Problem& problem, const Hypothesis& whole, std::
   return part_of(problem, whole, others);
 }
 
-/// Where signatures are no straight lines, others come in that only bend them: each of the likeliest fit's effects is
-/// left out in turn, as long as that makes a likelier one.
+/// Where sensitivities are no straight lines, others come in that only bend them: each of the likeliest fit's effects
+/// is left out in turn, as long as that makes a likelier one.
 void add_without_one(const Case& c, std::vector<Refit>& fits) {
   for (bool is_better = true; is_better;) {
     const Hypothesis likeliest = fits.front().hypothesis;
@@ -78,7 +78,7 @@ void add_without_one(const Case& c, std::vector<Refit>& fits) {
   }
 }
 
-/// Where signatures bend, sets that look nearly the same may be far apart in linear evidence. So what each of the
+/// Where sensitivities bend, sets that look nearly the same may be far apart in linear evidence. So what each of the
 /// likeliest set's effects is confusable with takes its place in turn: of those the most alike.
 void add_confusable(const Case& c, std::vector<Refit>& fits) {
   constexpr double kLeastCosine = 0.966;  // 15°, as limits.h lists them
@@ -88,14 +88,14 @@ void add_confusable(const Case& c, std::vector<Refit>& fits) {
   std::vector<std::pair<double, Hypothesis>> alike;
   for (std::size_t e = 0; e < likeliest.effects.size(); ++e) {
     const Hypothesis others = without_effect(problem, likeliest, e), own = part_of(problem, likeliest, {e});
-    const auto signature = [&](const std::vector<int>& effects) -> Eigen::MatrixXd {
-      return problem.signatures(Eigen::all, columns_of(problem, effects));
+    const auto sensitivity = [&](const std::vector<int>& effects) -> Eigen::MatrixXd {
+      return problem.sensitivities(Eigen::all, columns_of(problem, effects));
     };
-    const Eigen::MatrixXd explained = orthonormal(signature(others.effects));
-    const Eigen::VectorXd change = without(signature(own.effects) * own.parameters, explained);
+    const Eigen::MatrixXd explained = orthonormal(sensitivity(others.effects));
+    const Eigen::VectorXd change = without(sensitivity(own.effects) * own.parameters, explained);
     for (int effect = 0; effect < static_cast<int>(problem.columns.size()); ++effect) {
       if (is_said(problem, likeliest.effects, effect)) continue;
-      const Eigen::MatrixXd other = without(signature({effect}), explained);
+      const Eigen::MatrixXd other = without(sensitivity({effect}), explained);
       if (other.isZero(0.0)) continue;
       const std::vector<Eigen::Index>& columns = problem.columns[effect];
       const Eigen::VectorXd parameters =
@@ -150,7 +150,7 @@ Option beside_unknown(const Case& c, const Refit& fit) {
   for (const auto& [log_weight, one] : beside(c.discrepancy, c.variances, effects))
     logs.push_back(log_weight + one.log_likelihood +
                    log_evidence(c.problem, one.gain, option.effects, one.parameters, one.gram));
-  // Where signatures bend, the linear response is not what was measured.
+  // Where sensitivities bend, the linear response is not what was measured.
   option.log_posterior = kLogPriorUnknown + log_sum(logs) +
                          0.5 * (c.problem.residual.squaredNorm() - effects.response.squaredNorm() - leeway.log_det);
   return option;
@@ -162,12 +162,12 @@ std::vector<Hypothesis> screened_beside_unknown(const Case& c) {
   constexpr int kOfEachSize = 2;
   constexpr std::size_t kLargest = 2;
   Problem beside = c.problem;
-  const Eigen::Index signatures = beside.signatures.cols();
-  Eigen::MatrixXd both(beside.residual.size(), 1 + signatures);
-  both << beside.residual, beside.signatures;
+  const Eigen::Index sensitivities = beside.sensitivities.cols();
+  Eigen::MatrixXd both(beside.residual.size(), 1 + sensitivities);
+  both << beside.residual, beside.sensitivities;
   both = whiten_beside(c.discrepancy, c.problem.residual, both);
   beside.residual = both.col(0);
-  beside.signatures = both.rightCols(signatures);
+  beside.sensitivities = both.rightCols(sensitivities);
   std::vector<Hypothesis> sets = screen(beside, kOfEachSize, kLargest);
   std::erase_if(sets, [](const Hypothesis& h) { return h.log_evidence < 0.0; });
   return sets;
@@ -175,7 +175,7 @@ std::vector<Hypothesis> screened_beside_unknown(const Case& c) {
 
 /// A fit beside an effect of which there is next to nothing.
 Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
-  const auto columns = c.problem.signatures(Eigen::all, c.problem.columns[effect]);
+  const auto columns = c.problem.sensitivities(Eigen::all, c.problem.columns[effect]);
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(columns.cols());
   Option option = option_of(fit);
   option.log_posterior += log_evidence(c.problem, 0.0, {effect}, nothing, columns.transpose() * columns);
@@ -185,7 +185,7 @@ Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
   return option;
 }
 
-/// What was not worth a refit may still not be excluded: sets by their signatures; then effects that do not show in
+/// What was not worth a refit may still not be excluded: sets by their sensitivities; then effects that do not show in
 /// these observations, or of which the likeliest amount is none, beside each fit.
 void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
                   std::vector<Option>& options) {
@@ -196,7 +196,7 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
   for (const Hypothesis& h : hypotheses) {
     if (holds_any(h.effects, gone) || !known.insert(h.effects).second) continue;
     Option option{h.effects, h.parameters, false, h.log_evidence,
-                  c.problem.signatures(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters};
+                  c.problem.sensitivities(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters};
     const Eigen::VectorXd rest = c.problem.residual - option.prediction;
     option.log_posterior +=
         c.variances.log_factor(rest - leeway_beside(c.problem, h.effects, h.parameters).share_in(rest));

@@ -19,7 +19,7 @@ struct Posterior {
   const Refit& fit_of(const std::vector<int>& effects) const;
 };
 
-/// Sets of up to four effects by their signatures; the likeliest fitted with the model itself; each fit alone and
+/// Sets of up to four effects by their sensitivities; the likeliest fitted with the model itself; each fit alone and
 /// beside a discrepancy; and what was not worth a fit but is not excluded.
 Posterior posterior_of(const Case& c);
 

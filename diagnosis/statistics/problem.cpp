@@ -40,11 +40,11 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
   Eigen::Index parameters = 0;
   double plausibility = 0.0;
   for (const Candidate& candidate : evidence.candidates) {
-    parameters += candidate.signature.cols();
+    parameters += candidate.sensitivity.cols();
     plausibility += candidate.plausibility;
   }
   Problem problem;
-  Eigen::MatrixXd signatures(evidence.predicted.size(), parameters);
+  Eigen::MatrixXd sensitivities(evidence.predicted.size(), parameters);
   problem.lower.resize(parameters);
   problem.upper.resize(parameters);
   Eigen::Index column = 0;
@@ -57,18 +57,18 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
       problem.lower[column] = is_bounded ? (parameter.lower - parameter.nominal) / parameter.prior_scale : -infinity;
       problem.upper[column] = is_bounded ? (parameter.upper - parameter.nominal) / parameter.prior_scale : infinity;
       const auto k = static_cast<Eigen::Index>(problem.columns.back().size());
-      signatures.col(column) = parameter.prior_scale * candidate.signature.col(k);
+      sensitivities.col(column) = parameter.prior_scale * candidate.sensitivity.col(k);
       problem.columns.back().push_back(column++);
     }
   }
   for (const Candidate& candidate : evidence.candidates)
     problem.leeways.push_back(leeway_of(candidate.leeway.columns.cols() > 0
                                             ? covariance.whiten(candidate.leeway.columns)
-                                            : Eigen::MatrixXd(candidate.signature.rows(), 0),
+                                            : Eigen::MatrixXd(candidate.sensitivity.rows(), 0),
                                         candidate.leeway.grow_from));
   problem.said_by = same_elsewhere(evidence.candidates);
   problem.residual = covariance.whiten(measured_minus_predicted(evidence));
-  problem.signatures = covariance.whiten(signatures);
+  problem.sensitivities = covariance.whiten(sensitivities);
   return problem;
 }
 

@@ -12,8 +12,8 @@ namespace fathom {
 
 /// Parameters are departures from nominal in units of their prior scale.
 struct Problem {
-  Eigen::VectorXd residual;    ///< whitened, measured − predicted
-  Eigen::MatrixXd signatures;  ///< whitened, n × parameters of all candidates
+  Eigen::VectorXd residual;       ///< whitened, measured − predicted
+  Eigen::MatrixXd sensitivities;  ///< whitened, n × parameters of all candidates
   Eigen::VectorXd lower, upper;
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each candidate
   std::vector<double> log_odds;                    ///< of each candidate, before anything is measured

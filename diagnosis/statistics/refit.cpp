@@ -98,7 +98,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
     const Leeway leeway = leeway_beside(problem, start.effects, x);
     return leeway.whiten(problem.residual - change).squaredNorm() + leeway.log_det + prior_penalty(x);
   };
-  Eigen::MatrixXd jacobian = problem.signatures(Eigen::all, columns);
+  Eigen::MatrixXd jacobian = problem.sensitivities(Eigen::all, columns);
   Eigen::VectorXd x = start.parameters, change = model.change(x);
   double value = objective(x, change), damping = 0.0;
   bool is_differenced = false;

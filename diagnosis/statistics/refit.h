@@ -1,4 +1,4 @@
-// A set of effects fitted to the data with the model itself, not with its signatures.
+// A set of effects fitted to the data with the model itself, not with its sensitivities.
 #pragma once
 
 #include "diagnosis/statistics/covariance.h"
@@ -16,8 +16,8 @@ struct Refit {
 };
 
 /// Levenberg and Marquardt's method within the bounds, from the linear solution; nuisances are free within their priors
-/// because the covariance holds them. The Jacobian starts as the signatures and learns from every step (Broyden 1965);
-/// where that fails it is differenced once.
+/// because the covariance holds them. The Jacobian starts as the sensitivities and learns from every step (Broyden
+/// 1965); where that fails it is differenced once.
 Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
             const Hypothesis& start);
 

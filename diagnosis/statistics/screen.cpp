@@ -11,17 +11,17 @@ namespace {
 constexpr int kReweighted = 3;   // times that the prior's pull is found anew where parameters are large, …
 constexpr double kSmall = 0.05;  // … −2 log of their prior above this
 
-/// All that fits ask of signatures and residual, whitened beside a leeway.
+/// All that fits ask of sensitivities and residual, whitened beside a leeway.
 struct Products {
   Eigen::MatrixXd gram;
   Eigen::VectorXd projections;
   double gain;  ///< of the leeway alone
 
   Products(const Problem& problem, const Leeway& leeway) {
-    const Eigen::MatrixXd signatures = leeway.whiten(problem.signatures);
+    const Eigen::MatrixXd sensitivities = leeway.whiten(problem.sensitivities);
     const Eigen::VectorXd residual = leeway.whiten(problem.residual);
-    gram = signatures.transpose() * signatures;
-    projections = signatures.transpose() * residual;
+    gram = sensitivities.transpose() * sensitivities;
+    projections = sensitivities.transpose() * residual;
     gain = problem.residual.squaredNorm() - residual.squaredNorm() - leeway.log_det;
   }
 };
@@ -31,7 +31,7 @@ class Screening {
   Screening(const Problem& problem, int keep, std::size_t largest) : problem_(problem), keep_(keep), best_(largest) {
     products_.emplace_back(problem, Leeway{});
     for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {
-      is_seen_.push_back(!problem.signatures(Eigen::all, problem.columns[effect]).isZero(0.0));
+      is_seen_.push_back(!problem.sensitivities(Eigen::all, problem.columns[effect]).isZero(0.0));
       const Leeway& leeway = problem.leeways[effect];
       products_of_.push_back(leeway.log_det > 0.0 ? products_.size() : 0);
       if (leeway.log_det > 0.0) products_.emplace_back(problem, leeway);

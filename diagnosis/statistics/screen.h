@@ -1,4 +1,4 @@
-// Every set of up to four effects, from the signatures' Gram matrix alone.
+// Every set of up to four effects, from the sensitivities' Gram matrix alone.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,8 @@ namespace fathom {
 inline constexpr double kModelDof = 5.0, kMostOfModel = 4.0;  ///< the second of the variance
 
 /// The components of the evidence's shared errors, those of one observable together, by restricted maximum likelihood
-/// of what no candidate's signature and no constant can change. `known` (n × n) is the covariance from all else. Where
-/// few such contrasts are left, a component stays as large as it was thought to be.
+/// of what no candidate's sensitivity and no constant can change. `known` (n × n) is the covariance from all else.
+/// Where few such contrasts are left, a component stays as large as it was thought to be.
 std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, const Eigen::VectorXd& residual,
                                                      const Eigen::MatrixXd& known);
 

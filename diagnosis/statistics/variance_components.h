@@ -52,7 +52,7 @@ Eigen::VectorXd repeat_variances(const std::vector<Observation>& observations);
 /// Restricted maximum likelihood (reml.h), for each observable. `known` (n × n) is
 /// what repeats and nuisances explain. Means are free in every cell where cells are repeated, so that no effect can
 /// pass for an error; otherwise, and of pours that were not repeated with them, a smooth function of the factors and
-/// all candidates' signatures are.
+/// all candidates' sensitivities are.
 ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
                             const Eigen::VectorXd& repeat_variance);
 

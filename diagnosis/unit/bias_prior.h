@@ -14,14 +14,14 @@ using BiasAmplitudes = std::array<double, kBiasReaches_px.size()>;
 
 /// Standard deviations [px].
 struct BiasPrior {
-  BiasAmplitudes reference_px{};  ///< of what moves with the remembered image: column − nearer_px, row
+  BiasAmplitudes reference_px{};  ///< of what moves with the reference image: column − nearer_px, row
   BiasAmplitudes camera_px{};     ///< of what stays at the camera's pixels
   BiasAmplitudes state_px{};      ///< of what the views of one state share beside that
   double cell_px = 0.02;          ///< of a view's own error of a whole cell: which dots a block happens to hold
   double columns_px = 0.0;        ///< of a view's own step from one column of cells to the next, the same in all rows
 };
 
-/// As the simulator draws units (sim/scene/unit_model): 0.1 px over 70 px, displaced with the remembered image.
+/// As the simulator draws units (sim/scene/unit_model): 0.1 px over 70 px, displaced with the reference image.
 BiasPrior default_bias_prior();
 
 /// By restricted marginal likelihood of the views; the default where there are fewer than three. No part is larger than

@@ -9,8 +9,8 @@
 #include "core/image.h"
 #include "detector/plane.h"
 #include "diagnosis/unit/bias_prior.h"
+#include "diagnosis/unit/calibration_view.h"
 #include "diagnosis/unit/depth_facts.h"
-#include "diagnosis/unit/desk_view.h"
 #include "diagnosis/unit/pixel_noise.h"
 #include "diagnosis/unit/warm_up.h"
 

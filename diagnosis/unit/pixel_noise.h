@@ -4,7 +4,7 @@
 #include <array>
 
 #include "detector/plane.h"
-#include "diagnosis/unit/desk_view.h"
+#include "diagnosis/unit/calibration_view.h"
 
 namespace fathom {
 

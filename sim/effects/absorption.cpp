@@ -24,7 +24,7 @@ Effect absorption() {
           .parameters = {{"absorption_per_mm", "added to the absorption coefficient, which stays at 0 or above", 0.0,
                           0.005, -0.05, 1.0}},
           .citation = "Kou, Labrie & Chylek 1993, Applied Optics 32, 3531: water's absorption in the near infrared",
-          .twins = {"wall_albedo"},
+          .confounded = {"wall_albedo"},
           .discriminated_by = "two fills of the same liquid: absorption grows with the path, an albedo does not",
           .apply = apply_absorption,
           .of_liquids = true};

@@ -22,7 +22,7 @@ Effect baseline() {
           .less = "camera and projector stand {} nearer together than the device takes for granted",
           .parameters = {{"baseline_mm", "added to the baseline", 0.0, 0.1, -5.0, 5.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: baseline among the calibration parameters",
-          .twins = {"focal_length", "disparity_offset"},
+          .confounded = {"focal_length", "disparity_offset"},
           .discriminated_by = "other distances of the desk: an error of scale vanishes at the reference plane",
           .apply = apply_baseline};
 }

@@ -18,7 +18,7 @@ Effect colour_registration() {
           "Depths were moved to where the colour camera, 25 mm beside, has them, so that shadows lie on both sides.",
       .parameters = {{"registered", "1: they were, 0: not", 0.0, 1.0, 0.0, 1.0, {}, 1.0}},
       .citation = "OpenNI's depth-to-colour registration",
-      .twins = {"cup_placement", "principal_point"},
+      .confounded = {"cup_placement", "principal_point"},
       .discriminated_by = "shadows of things on the desk: 75 mm of baseline on one side, or 50 and 25 mm on two",
       .apply = apply_colour_registration};
 }

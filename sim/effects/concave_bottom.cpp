@@ -40,7 +40,7 @@ Effect concave_bottom() {
           .less = "the middle of the cup's bottom lies {} above its edge",
           .parameters = {{"depth_mm", "by which the bottom's middle lies below its edge", 0.0, 0.5, -5.0, 5.0}},
           .citation = "Hara et al. 2014 take the bottom as flat; pressed cups are not",
-          .twins = {"meniscus"},
+          .confounded = {"meniscus"},
           .discriminated_by = "the empty cup by regions, and turned by a quarter",
           .apply = apply_concave_bottom};
 }

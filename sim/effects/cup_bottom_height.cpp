@@ -26,7 +26,7 @@ Effect cup_bottom_height() {
       .less = "the inside of the cup's bottom lies {} lower than was measured",
       .parameters = {{"height_mm", "added to the bottom's height; the liquid keeps its depth", 0.0, 0.5, -7.0, 30.0}},
       .citation = "Hara et al. 2014 do not give the cup's bottom; 7 mm is assumed",
-      .twins = {"fill_offset", "sensor_height"},
+      .confounded = {"fill_offset", "sensor_height"},
       .discriminated_by = "the empty cup: a fill cannot move its bottom",
       .apply = apply_cup_bottom_height};
 }

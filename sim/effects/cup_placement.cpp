@@ -19,7 +19,7 @@ Effect cup_placement() {
           .parameters = {{"x_mm", "to the sensor's right", 0.0, 2.0, -30.0, 30.0},
                          {"y_mm", "away from the sensor", 0.0, 2.0, -30.0, 30.0}},
           .citation = "Hara et al. 2014 place cups by hand at marks on the desk",
-          .twins = {"sensor_pitch", "sensor_roll"},
+          .confounded = {"sensor_pitch", "sensor_roll"},
           .discriminated_by = "the cup's outline in the cloud",
           .apply = apply_cup_placement};
 }

@@ -24,7 +24,7 @@ Effect depth_quantization() {
           .parameters = {{"law", "1: the device's law, 0: none", 0.0, 1.0, 0.0, 1.0},
                          {"step_px", "of disparity: whole eighths", kCodePx, 3.0 * kCodePx, kCodePx, 1.0, {}, kCodePx}},
           .citation = "OpenNI's shift-to-depth table; the law holds for every point of recorded frames",
-          .twins = {"disparity_offset"},
+          .confounded = {"disparity_offset"},
           .discriminated_by = "the comb of the fractional disparities of any cloud",
           .apply = apply_depth_quantization};
 }

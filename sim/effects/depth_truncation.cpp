@@ -17,7 +17,7 @@ Effect depth_truncation() {
           .sentence = "Depths are cut to whole millimetres, so all read short by half of one.",
           .parameters = {{"cut", "1: to whole millimetres, 0: not", 0.0, 1.0, 0.0, 1.0}},
           .citation = "OpenNI's shift-to-depth table holds whole millimetres",
-          .twins = {"disparity_offset", "sensor_height"},
+          .confounded = {"disparity_offset", "sensor_height"},
           .discriminated_by = "the comb of the depths themselves",
           .apply = apply_depth_truncation};
 }

@@ -22,7 +22,7 @@ Effect depth_wander() {
       .more = "all disparities of a frame share an error of {}, another one in the next frame",
       .parameters = {{"sd_px", "standard deviation of the error", 0.0, 0.05, 0.0, 1.0}},
       .citation = "an empty pot's floor over three Kinect scenes: 0.6 mm where independent points would give 0.04 mm",
-      .twins = {"thermal_drift"},
+      .confounded = {"thermal_drift"},
       .discriminated_by = "many trials without touching anything: the desk itself moves from frame to frame",
       .apply = apply_depth_wander,
       .of_time = true};

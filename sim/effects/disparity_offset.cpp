@@ -20,7 +20,7 @@ Effect disparity_offset() {
       .parameters = {{"offset_px", "added to every disparity", 0.0, 0.1, -3.0, 3.0}},
       .citation =
           "Khoshelham & Elberink 2012, Sensors 12, 1437: the linear normalisation of the raw disparity has an offset",
-      .twins = {"baseline", "focal_length", "sensor_height", "thermal_drift"},
+      .confounded = {"baseline", "focal_length", "sensor_height", "thermal_drift"},
       .discriminated_by = "other heights of the sensor above the bare desk",
       .apply = apply_disparity_offset};
 }

@@ -35,8 +35,8 @@ struct Effect {
   bool in_percent = false;  ///< that parameter is a share, and stands there in percent
   std::vector<EffectParameter> parameters;
   std::string_view citation;
-  std::vector<std::string_view> twins;  ///< effects that look alike, in some campaigns at least
-  std::string_view discriminated_by;    ///< the measurement that tells them apart
+  std::vector<std::string_view> confounded;  ///< effects that look alike, in some campaigns at least
+  std::string_view discriminated_by;         ///< the measurement that tells them apart
   /// Changes scene, rig, circumstances or processing; at the nominal values it changes nothing.
   void (*apply)(Setup& setup, const EffectSetting& setting);
   bool of_liquids = false;  ///< may be limited to one liquid

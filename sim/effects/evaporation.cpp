@@ -23,7 +23,7 @@ Effect evaporation() {
           .more = "the liquid's level falls by {} from the moment it is poured",
           .parameters = {{"rate_mm_per_h", "by which the level falls", 0.0, 1.0, 0.0, 50.0}},
           .citation = "Sartori 2000, Solar Energy 68, 77: tenths of a millimetre an hour from water at rest",
-          .twins = {"thermal_drift", "fill_offset"},
+          .confounded = {"thermal_drift", "fill_offset"},
           .discriminated_by = "the same pour when it is fresh and after it has stood",
           .apply = apply_evaporation,
           .of_liquids = true,

@@ -24,7 +24,7 @@ Effect fill_offset() {
           .less = "every pour holds {} less than was written down",
           .parameters = {{"fill_mm", "added to every fill", 0.0, 0.5, -50.0, 50.0}},
           .citation = "Hara et al. 2014 pour to marks of 10, 20 and 30 mm",
-          .twins = {"cup_bottom_height", "foam", "subsurface_scattering"},
+          .confounded = {"cup_bottom_height", "foam", "subsurface_scattering"},
           .discriminated_by = "weighing the cup, or an empty cup beside it",
           .apply = apply_fill_offset,
           .of_liquids = true};

@@ -24,7 +24,7 @@ Effect fill_scale() {
           .in_percent = true,
           .parameters = {{"scale", "fills are 1 plus this times what was written", 0.0, 0.03, -0.9, 2.0}},
           .citation = "Hara et al. 2014 pour to marks of 10, 20 and 30 mm",
-          .twins = {"refractive_index", "unit_error"},
+          .confounded = {"refractive_index", "unit_error"},
           .discriminated_by = "weighing the cup at two fills",
           .apply = apply_fill_scale,
           .of_liquids = true};

@@ -28,7 +28,7 @@ Effect foam() {
       .more = "foam of {} lies on the liquid and is what the sensor sees",
       .parameters = {{"thickness_mm", "of the foam", 0.0, 1.0, 0.0, 20.0}},
       .citation = "Vera & Durian 1996, Physical Review E 53, 3215: foam scatters within a few bubbles, so it is opaque",
-      .twins = {"fill_offset", "evaporation"},
+      .confounded = {"fill_offset", "evaporation"},
       .discriminated_by = "the same pour after the foam has gone",
       .apply = apply_foam,
       .of_liquids = true};

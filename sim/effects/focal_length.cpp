@@ -19,7 +19,7 @@ Effect focal_length() {
           .less = "the camera's focal length is {} shorter than the device takes for granted",
           .parameters = {{"focal_px", "added to the focal length at 640 x 480", 0.0, 1.0, -30.0, 30.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: focal length among the calibration parameters",
-          .twins = {"baseline", "disparity_offset"},
+          .confounded = {"baseline", "disparity_offset"},
           .discriminated_by = "a gauge of known width across the image: only the focal length scales it",
           .apply = apply_focal_length};
 }

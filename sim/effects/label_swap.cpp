@@ -25,7 +25,7 @@ Effect label_swap() {
           .citation =
               "camera-calibration practice: a missing effect is often a mistake in the protocol (Kalibr, issues 561 "
               "and 722)",
-          .twins = {"subsurface_scattering", "refractive_index"},
+          .confounded = {"subsurface_scattering", "refractive_index"},
           .discriminated_by = "looking into the cups",
           .apply = apply_label_swap};
 }

@@ -20,7 +20,7 @@ Effect meniscus() {
           .sentence = "The liquid climbs the wall, or is pushed down there, so its surface is curved.",
           .parameters = {{"contact_angle_deg", "in the liquid, at the wall; 90: level", 90.0, 30.0, 10.0, 170.0}},
           .citation = "Landau & Lifshitz, Fluid Mechanics, section 61; capillary length of water 2.73 mm",
-          .twins = {"concave_bottom"},
+          .confounded = {"concave_bottom"},
           .discriminated_by = "ring regions against the centre, and an opaque liquid, whose surface is seen itself",
           .apply = apply_meniscus,
           .of_liquids = true};

@@ -21,7 +21,7 @@ Effect noise_correlation() {
           .sentence = "Neighbouring pixels share the light of their blocks, so that their errors are alike.",
           .parameters = {{"wider_px", "added to the width of the blocks", 0.0, 8.0, 0.0, 22.0}},
           .citation = "PrimeSense's blocks of 9 x 9 pixels; errors of measured desks go together over 8 px along rows",
-          .twins = {"window_averaging"},
+          .confounded = {"window_averaging"},
           .discriminated_by = "the correlation of what a bare desk leaves of its plane",
           .apply = apply_noise_correlation};
 }

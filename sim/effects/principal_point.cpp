@@ -17,7 +17,7 @@ Effect principal_point() {
           .sentence = "The optical axis meets the image elsewhere than the device takes for granted.",
           .parameters = {{"x_px", "to the right", 0.0, 2.0, -20.0, 20.0}, {"y_px", "downward", 0.0, 2.0, -20.0, 20.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: principal point among the calibration parameters",
-          .twins = {"sensor_pitch", "sensor_roll"},
+          .confounded = {"sensor_pitch", "sensor_roll"},
           .discriminated_by = "a target of known places on the desk",
           .apply = apply_principal_point};
 }

@@ -16,7 +16,7 @@ Effect radial_distortion() {
           .sentence = "The camera's lens bends straight lines, and the device does not know.",
           .parameters = {{"k1", "of Brown's model, over the focal length", 0.0, 0.01, -0.15, 0.15}},
           .citation = "Brown 1966, Photogrammetric Engineering 32, 444",
-          .twins = {"principal_point"},
+          .confounded = {"principal_point"},
           .discriminated_by = "the residual of the bare desk by image region",
           .apply = apply_radial_distortion};
 }

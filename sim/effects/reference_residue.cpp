@@ -20,7 +20,7 @@ Effect reference_residue() {
       .sentence = "The sensor remembers its reference plane displaced, by another amount in every part of the image.",
       .parameters = {{"sd_px", "standard deviation over the image, of disparity", 0.0, 0.05, 0.0, 1.0}},
       .citation = "what nine measured desks have in common beside their planes: 0.68 steps of 1/8 px over 70 px",
-      .twins = {"radial_distortion"},
+      .confounded = {"radial_distortion"},
       .discriminated_by = "the residual of the bare desk by image region",
       .apply = apply_reference_residue};
 }

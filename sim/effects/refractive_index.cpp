@@ -33,7 +33,7 @@ Effect refractive_index() {
                       -0.3, 0.3}},
       .citation =
           "Daimon & Masumura 2007, Applied Optics 46, 3811: water at 830 nm has 1.328, not the 1.333 of visible light",
-      .twins = {"fill_scale", "fill_offset"},
+      .confounded = {"fill_scale", "fill_offset"},
       .discriminated_by = "several distances and fills of the same liquid: the index acts on depth times obliqueness",
       .apply = apply_refractive_index,
       .of_liquids = true};

@@ -40,7 +40,7 @@ Effect ripples() {
       .citation =
           "Cox & Munk 1954, Journal of the Optical Society of America 44, 838: what waves do to sight goes "
           "by their mean square slope",
-      .twins = {"refractive_index", "fill_scale"},
+      .confounded = {"refractive_index", "fill_scale"},
       .discriminated_by = "how trials scatter: no two shots see waves alike; trials spread over time: they die out",
       .apply = apply_ripples,
       .of_liquids = true};

@@ -19,7 +19,7 @@ Effect sensor_height() {
           .less = "the sensor stands {} lower above the desk than was measured",
           .parameters = {{"height_mm", "added to the sensor's height", 0.0, 1.0, -50.0, 50.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
-          .twins = {"cup_bottom_height", "sensor_pitch"},
+          .confounded = {"cup_bottom_height", "sensor_pitch"},
           .discriminated_by = "bare-desk views: the fitted desk lies lower",
           .apply = apply_sensor_height};
 }

@@ -20,7 +20,7 @@ Effect sensor_pitch() {
           .less = "the sensor looks {} less far down than was measured",
           .parameters = {{"pitch_deg", "added to the angle below the horizontal", 0.0, 0.1, -5.0, 5.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
-          .twins = {"sensor_height", "principal_point"},
+          .confounded = {"sensor_height", "principal_point"},
           .discriminated_by = "bare-desk views: the fitted desk is pitched",
           .apply = apply_sensor_pitch};
 }

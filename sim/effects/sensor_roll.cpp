@@ -20,7 +20,7 @@ Effect sensor_roll() {
           .less = "the sensor is turned anticlockwise by {} about its line of sight",
           .parameters = {{"roll_deg", "added to the roll, clockwise", 0.0, 0.1, -5.0, 5.0}},
           .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: exterior orientation in the error budget",
-          .twins = {"surface_tilt"},
+          .confounded = {"surface_tilt"},
           .discriminated_by = "bare-desk views: the fitted desk is rolled",
           .apply = apply_sensor_roll};
 }

@@ -18,7 +18,7 @@ Effect skew_approximation() {
           .sentence = "Raised bottoms were reduced by the paper's closed form, not by exact triangulation.",
           .parameters = {{"share", "of the closed form, 1: all of it", 0.0, 1.0, 0.0, 1.0}},
           .citation = "Hara et al. 2014, Eq. 3 to 7: both rays at one incidence, the sensor's height for the point's",
-          .twins = {"refractive_index"},
+          .confounded = {"refractive_index"},
           .discriminated_by = "clouds instead of tables of reduced heights",
           .apply = apply_skew_approximation};
 }

@@ -18,7 +18,7 @@ Effect specular_ghost() {
           .sentence = "The liquid's surface mirrors dots onto the wall and walls into the camera.",
           .parameters = {{"share", "of the mirrored light, 1: all of it", 0.0, 1.0, 0.0, 1.0}},
           .citation = "Born & Wolf, Principles of Optics, section 1.5: 2 % at normal incidence, 6 % at 60 degrees",
-          .twins = {"wall_multipath"},
+          .confounded = {"wall_multipath"},
           .discriminated_by = "the sensor at another distance: mirror images move, the bottom does not",
           .apply = apply_specular_ghost};
 }

@@ -28,7 +28,7 @@ Effect stratification() {
           .parameters = {{"index_step", "added to the refractive index of the lower half, on which the other floats",
                           0.0, 0.01, 0.0, 0.3}},
           .citation = "Born & Wolf, Principles of Optics, section 3.2: rays in stratified media",
-          .twins = {"refractive_index"},
+          .confounded = {"refractive_index"},
           .discriminated_by = "the same pour before and after stirring",
           .apply = apply_stratification,
           .of_liquids = true};

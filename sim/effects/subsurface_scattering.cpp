@@ -6,7 +6,7 @@ namespace fathom::effects {
 namespace {
 
 void apply_subsurface_scattering(Setup& setup, const EffectSetting& setting) {
-  if (setting.values[0] > 0.0) setup.light.thrown_on = 1.0;  // direct light ends at a turbid liquid's surface
+  if (setting.values[0] > 0.0) setup.light.interreflected = 1.0;  // direct light ends at a turbid liquid's surface
   for_each_filling(setup, setting, [&](Cup&, Filling& filling) {
     Medium& medium = filling.medium;
     if (!medium.scatters()) return;
@@ -24,7 +24,7 @@ Effect subsurface_scattering() {
           .parameters = {{"transport_length_mm", "added to 1 / reduced scattering coefficient", 0.0, 1.0, 0.0, 20.0,
                           "scattering_per_mm"}},
           .citation = "Wang & Jacques 1995, Applied Optics 34, 2362: oblique-incidence reflectometry",
-          .twins = {"fill_offset"},
+          .confounded = {"fill_offset"},
           .discriminated_by = "several distances: the shift goes with the cosine of the line of sight",
           .apply = apply_subsurface_scattering,
           .of_liquids = true};

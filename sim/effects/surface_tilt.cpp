@@ -27,7 +27,7 @@ Effect surface_tilt() {
           .parameters = {{"slope_x_deg", "rises to the sensor's right", 0.0, 0.3, -10.0, 10.0},
                          {"slope_y_deg", "rises away from the sensor", 0.0, 0.3, -10.0, 10.0}},
           .citation = "Hara et al. 2014 take the surface as level; a desk that leans by as much does the same",
-          .twins = {"sensor_roll", "sensor_pitch"},
+          .confounded = {"sensor_roll", "sensor_pitch"},
           .discriminated_by = "the cup's sectors against each other; a spirit level on the desk",
           .apply = apply_surface_tilt,
           .of_liquids = true};

@@ -23,7 +23,7 @@ Effect thermal_drift() {
                          {"settled_px", "too much ever after: the rig was measured before the sensor was warm", 0.0,
                           0.1, -3.0, 3.0}},
           .citation = "one Kinect v1, measured: 8 mm in 6 min at 2.5 m; unit_model.h",
-          .twins = {"disparity_offset", "evaporation"},
+          .confounded = {"disparity_offset", "evaporation"},
           .discriminated_by = "the same bare desk at the beginning and the end of a session",
           .apply = apply_thermal_drift,
           .of_time = true};

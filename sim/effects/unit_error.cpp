@@ -24,7 +24,7 @@ Effect unit_error() {
           .citation =
               "camera-calibration practice: a missing effect is often a mistake in the protocol (Kalibr, issues 561 "
               "and 722)",
-          .twins = {"fill_scale"},
+          .confounded = {"fill_scale"},
           .discriminated_by = "reading the marks again",
           .apply = apply_unit_error,
           .of_liquids = true};

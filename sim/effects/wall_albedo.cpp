@@ -21,7 +21,7 @@ Effect wall_albedo() {
           .less = "the cup's albedo is {} lower than the model's",
           .parameters = {{"albedo", "added to the cup's albedo", 0.0, 0.1, -0.7, 0.3}},
           .citation = "Hara et al. 2014 do not give the cup's colour; 0.70 is assumed",
-          .twins = {"absorption", "wall_multipath"},
+          .confounded = {"absorption", "wall_multipath"},
           .discriminated_by = "the empty cup's brightness beside the desk's",
           .apply = apply_wall_albedo};
 }

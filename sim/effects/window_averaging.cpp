@@ -18,7 +18,7 @@ Effect window_averaging() {
           .sentence = "A disparity is the mean over the matcher's window, not the pixel's own.",
           .parameters = {{"window_px", "width of the window", 1.0, 8.0, 1.0, 31.0}},
           .citation = "PrimeSense's window of 9 x 9 pixels; Scharstein & Szeliski 2002, IJCV 47, 7",
-          .twins = {"concave_bottom", "meniscus"},
+          .confounded = {"concave_bottom", "meniscus"},
           .discriminated_by = "a step of known height: windows round it off",
           .apply = apply_window_averaging};
 }

@@ -22,7 +22,7 @@ Effect wrong_cup() {
       .citation =
           "camera-calibration practice: a missing effect is often a mistake in the protocol (Kalibr, issues 561 and "
           "722)",
-      .twins = {"cup_bottom_height"},
+      .confounded = {"cup_bottom_height"},
       .discriminated_by = "a ruler",
       .apply = apply_wrong_cup};
 }

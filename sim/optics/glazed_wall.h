@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "sim/optics/glaze.h"
-#include "sim/optics/pencil.h"
 #include "sim/optics/random_walk.h"
+#include "sim/optics/ray_differential.h"
 
 namespace fathom {
 

@@ -70,7 +70,7 @@ Eigen::Vector3d mean_direction(const Geometry& geometry, const Eigen::Vector3d& 
 
 /// Half the width of a seed's pencil [m] at a distance along its piece.
 double reach(const Seed& seed, double distance) {
-  return seed.spacing * (seed.pencil.d_origin + distance * seed.pencil.d_direction).norm();
+  return seed.spacing * (seed.differential.d_origin + distance * seed.differential.d_direction).norm();
 }
 
 std::uint64_t box_of(const Eigen::Array3i& index) {
@@ -95,7 +95,7 @@ Fan::Fan(const Intersector& world, const Source& source, Ways ways) : ways_(ways
 void Fan::send(const Intersector& world, const Source& source, const Eigen::Vector3d& direction, double spacing,
                int halvings) {
   const std::size_t sent = seeds_.size();
-  const Flight flight{pencil_from(source.position, direction), source.inside, 1.0};
+  const Flight flight{ray_differential_from(source.position, direction), source.inside, 1.0};
   const bool too_wide = follow(world, flight, direction, spacing, 0, kNoMirror);
   if (!too_wide || halvings == kMostHalvings) return;
   seeds_.resize(sent);
@@ -110,7 +110,7 @@ bool Fan::follow(const Intersector& world, Flight flight, const Eigen::Vector3d&
                  int crossings, int mirror) {
   bool too_wide = false;
   for (; crossings <= kLongestChain && flight.transmittance > kFaintest; ++crossings) {
-    const Ray ray{flight.pencil.origin, flight.pencil.direction};
+    const Ray ray{flight.differential.origin, flight.differential.direction};
     const std::optional<Crossing> next = next_crossing(world, ray, flight.inside);
     const std::optional<Hit> opaque = world.first_opaque(ray);
     const double open = opaque ? opaque->distance : std::numeric_limits<double>::infinity();
@@ -120,7 +120,7 @@ bool Fan::follow(const Intersector& world, Flight flight, const Eigen::Vector3d&
     // In air only surfaces receive light; in a body any place may scatter it.
     if (asked_for && (medium || ends) && (std::isfinite(open) || next)) {
       const double end = ends ? open : next->hit.distance;
-      seeds_.push_back({direction, flight.pencil, medium ? 0.0 : end, end, spacing, medium, crossings,
+      seeds_.push_back({direction, flight.differential, medium ? 0.0 : end, end, spacing, medium, crossings,
                         flight.transmittance, mirror});
       too_wide = too_wide || reach(seeds_.back(), end) > kBox;
     }
@@ -141,8 +141,8 @@ void Fan::file(std::uint32_t number) {
   const int steps = static_cast<int>(std::ceil(length / kBox));
   for (int step = 0; step <= steps; ++step) {
     const double distance = begin + length * step / steps;
-    const Eigen::Vector3d middle = seed.pencil.origin + distance * seed.pencil.direction;
-    const double strength = seed.transmittance / std::fabs(land(seed.pencil, middle).jacobian.determinant());
+    const Eigen::Vector3d middle = seed.differential.origin + distance * seed.differential.direction;
+    const double strength = seed.transmittance / std::fabs(land(seed.differential, middle).jacobian.determinant());
     const double around = std::clamp(2.0 * reach(seed, distance), 0.5 * kBox, kBox);
     const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
     for (int i = low.x(); i <= high.x(); ++i)
@@ -163,12 +163,12 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
   for (const std::uint32_t number : box->seeds) {
     const Seed& seed = seeds_[number];
     if (seed.medium != around) continue;
-    const Eigen::Vector3d offset = target - seed.pencil.origin;
-    const double distance = offset.dot(seed.pencil.direction);
+    const Eigen::Vector3d offset = target - seed.differential.origin;
+    const double distance = offset.dot(seed.differential.direction);
     if (distance < seed.begin - kBeyond || distance > seed.end + kBeyond) continue;
     const double reach_there = reach(seed, distance);
     if (offset.squaredNorm() - distance * distance > std::pow(kMostSteps * reach_there, 2)) continue;
-    const Landing landing = land(seed.pencil, target);
+    const Landing landing = land(seed.differential, target);
     const double determinant = landing.jacobian.determinant();
     Eigen::Vector2d step = landing.jacobian.inverse() * landing.miss;
     double steps = step.norm() / seed.spacing;

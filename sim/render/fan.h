@@ -12,11 +12,11 @@ namespace fathom {
 
 /// One straight piece of a traced ray, behind at least one interface.
 struct Seed {
-  Eigen::Vector3d direction;  ///< in which the light left the source
-  Pencil pencil;              ///< at the piece's beginning
-  double begin, end;          ///< [m] along the piece: where it may light something
-  double spacing;             ///< [rad] from the neighbouring seeds
-  const Body* medium;         ///< around the piece
+  Eigen::Vector3d direction;     ///< in which the light left the source
+  RayDifferential differential;  ///< at the piece's beginning
+  double begin, end;             ///< [m] along the piece: where it may light something
+  double spacing;                ///< [rad] from the neighbouring seeds
+  const Body* medium;            ///< around the piece
   int crossings;
   double transmittance;  ///< of power from the source to the piece's beginning
   int mirror;            ///< number of the interface that reflected in part, or kNoMirror

@@ -19,9 +19,10 @@ class Search {
     const Eigen::Vector3d towards = (a + b + c) / 3.0 - source_.position;
     const double width = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}) / towards.norm();
     const Eigen::Vector3d direction = towards.normalized();
-    Flight flight{pencil_from(source_.position, direction), source_.inside, 1.0};
+    Flight flight{ray_differential_from(source_.position, direction), source_.inside, 1.0};
     for (int mirror = 0; mirror < kLongestChain && flight.transmittance > kFaintest; ++mirror) {
-      const auto next = next_crossing(world_, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+      const auto next =
+          next_crossing(world_, {flight.differential.origin, flight.differential.direction}, flight.inside);
       if (!next) return;
       Flight mirrored = flight;
       pass(world_, *next, Event::reflect, mirrored);
@@ -40,16 +41,17 @@ class Search {
   /// Follows what interface number `mirror` has mirrored, and shoots wherever it comes within an angle of the eye.
   void follow(Flight flight, int mirror, double angle, const Eigen::Vector3d& direction) {
     for (int crossings = mirror + 1; flight.transmittance > kFaintest; ++crossings) {
-      if (flight.inside == 0 && lands_within(angle, flight.pencil))
+      if (flight.inside == 0 && lands_within(angle, flight.differential))
         add_new(found, shoot(world_, source_, eye_, nullptr, direction, crossings, mirror));
-      const auto next = next_crossing(world_, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+      const auto next =
+          next_crossing(world_, {flight.differential.origin, flight.differential.direction}, flight.inside);
       if (!next || crossings == kLongestChain) return;
       pass(world_, *next, Event::refract, flight);
     }
   }
 
-  bool lands_within(double angle, const Pencil& pencil) const {
-    const Landing landing = land(pencil, eye_);
+  bool lands_within(double angle, const RayDifferential& differential) const {
+    const Landing landing = land(differential, eye_);
     return landing.distance > 0.0 && (landing.jacobian.inverse() * landing.miss).norm() < angle;
   }
 

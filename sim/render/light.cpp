@@ -148,7 +148,7 @@ void PointLight::connect_from(const Fan& fan, const Receiver& receiver, std::vec
   for (const Fan::Candidate& candidate : fan.near(receiver.point, receiver.around)) {
     const bool covered =
         std::any_of(tried.begin(), tried.end(), [&](const Tried& other) { return other.covers(candidate); });
-    if (covered || from_behind(receiver, candidate.seed->pencil.direction)) continue;
+    if (covered || from_behind(receiver, candidate.seed->differential.direction)) continue;
     if (tried.size() == kMostShots) break;
     const Seed& seed = *candidate.seed;
     const auto way =

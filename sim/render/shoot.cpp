@@ -31,11 +31,11 @@ struct Aim {
   int mirror;
 
   std::optional<Trial> trial(const Eigen::Vector3d& direction) const {
-    Trial result{{pencil_from(source.position, direction), source.inside, 1.0}, {}, {}};
+    Trial result{{ray_differential_from(source.position, direction), source.inside, 1.0}, {}, {}};
     Flight& flight = result.flight;
     for (int i = 0; i < crossings; ++i) {
       const std::optional<Crossing> next =
-          next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+          next_crossing(world, {flight.differential.origin, flight.differential.direction}, flight.inside);
       if (!next) return std::nullopt;
       const double reflectance = pass(world, *next, i == mirror ? Event::reflect : Event::refract, flight);
       if (i == mirror) result.partly_mirrored = reflectance < 1.0;
@@ -44,7 +44,7 @@ struct Aim {
       result.bends[i] = next->hit.point;
     }
     if (medium_in(world.geometry(), flight.inside) != around) return std::nullopt;
-    result.landing = land(flight.pencil, target);
+    result.landing = land(flight.differential, target);
     return result;
   }
 
@@ -83,7 +83,7 @@ struct Aim {
   /// Whether nothing stands in the way and no further interface comes before the target.
   bool open(const Trial& trial) const {
     const Flight& flight = trial.flight;
-    const auto after = next_crossing(world, {flight.pencil.origin, flight.pencil.direction}, flight.inside);
+    const auto after = next_crossing(world, {flight.differential.origin, flight.differential.direction}, flight.inside);
     if (after && after->hit.distance < trial.landing.distance - Intersector::kClearance) return false;
     Eigen::Vector3d from = target;
     for (int i = crossings - 1; i >= 0; --i) {
@@ -99,17 +99,17 @@ struct Aim {
 double pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight) {
   const Hit& hit = crossing.hit;
   const double n_from = index_of(crossing.from), n_to = index_of(crossing.to);
-  const double cosine = std::min(-flight.pencil.direction.dot(hit.normal), 1.0);
+  const double cosine = std::min(-flight.differential.direction.dot(hit.normal), 1.0);
   const double reflectance = fresnel_reflectance(cosine, n_from, n_to);  // 1 where the reflection is total
   const SurfaceFrame surface{hit.normal, world.curvature(hit)};
   flight.transmittance *= transmittance(extinction_of(crossing.from), hit.distance);
-  advance(flight.pencil, hit.point, hit.normal);
-  if (event == Event::refract && refract(flight.pencil, surface, n_from, n_to)) {
+  advance(flight.differential, hit.point, hit.normal);
+  if (event == Event::refract && refract(flight.differential, surface, n_from, n_to)) {
     flight.transmittance *= 1.0 - reflectance;
     flight.inside = crossing.beyond;
   } else {
     flight.transmittance *= reflectance;
-    reflect(flight.pencil, surface);
+    reflect(flight.differential, surface);
     flight.inside = crossing.before;
   }
   return reflectance;
@@ -123,7 +123,7 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
   const Flight& flight = found->flight;
   const double area = found->landing.jacobian.determinant();
   return Connection{aim.direction_of(*found),
-                    flight.pencil.direction,
+                    flight.differential.direction,
                     1.0 / std::fabs(area),
                     flight.transmittance * transmittance(extinction_of(around), found->landing.distance),
                     crossings,

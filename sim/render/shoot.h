@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/optics/pencil.h"
+#include "sim/optics/ray_differential.h"
 #include "sim/render/crossing.h"
 
 namespace fathom {
@@ -33,7 +33,7 @@ struct Source {
 
 /// A pencil of light after a number of interfaces. Light that cannot pass one is totally reflected there.
 struct Flight {
-  Pencil pencil;
+  RayDifferential differential;
   BodySet inside;
   double transmittance;  ///< from the source to the pencil's origin
 };

@@ -30,7 +30,7 @@ NoiseModel landau_2016() {
   return noise;
 }
 
-/// Speckle as the lens makes it, in the remembered image as well. The share that is renewed is fitted to the temporal
+/// Speckle as the lens makes it, in the reference image as well. The share that is renewed is fitted to the temporal
 /// deviation of a box face at 1.06 m, 1.05 mm; shot and read noise, ambient light and spill are estimates. The
 /// disparity's statistics are fitted to the deviations that measured desks show, and to that of the box face.
 NoiseModel device() {

@@ -53,8 +53,8 @@ Json json_from_processing(const Processing& processing) {
 }
 
 Json json_from_light(const IndirectLight& light) {
-  const auto& [thrown_on, mirrored] = light;
-  return {{"thrown_on", thrown_on}, {"mirrored", mirrored}};
+  const auto& [interreflected, mirrored] = light;
+  return {{"interreflected", interreflected}, {"mirrored", mirrored}};
 }
 
 void require_index(const JsonReader& json, const Medium& medium, double wavelength_nm) {

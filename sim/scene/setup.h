@@ -33,10 +33,10 @@ struct Processing {
 /// Shares of the light that takes other ways than from the projector to what the camera sees; images only have all or
 /// none of it.
 struct IndirectLight {
-  double thrown_on = 0.0;  ///< from wall to wall
-  double mirrored = 0.0;   ///< in surfaces of liquids
+  double interreflected = 0.0;  ///< from wall to wall
+  double mirrored = 0.0;        ///< in surfaces of liquids
 
-  bool any() const { return thrown_on > 0.0 || mirrored > 0.0; }
+  bool any() const { return interreflected > 0.0 || mirrored > 0.0; }
 
   bool operator==(const IndirectLight&) const = default;
 };

@@ -36,7 +36,7 @@ struct UnitError {
 /// Of the frame of that number.
 UnitError unit_error(const UnitModel& unit, std::uint64_t frame);
 
-/// What the remembered image of this unit is displaced by along its rows [px], at each of its pixels: lenses and
+/// What the reference image of this unit is displaced by along its rows [px], at each of its pixels: lenses and
 /// pattern are not any more, or not at all distances, where they were when it was taken. A smooth normal field of
 /// covariance residue_px² exp(−r² / 2 residue_reach_px²), width × height; empty: none. Column 0 lies `margin_px` left
 /// of the image, whose rows lie in the middle. To this comes what was learned of the unit in the reference's frame.

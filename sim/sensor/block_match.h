@@ -1,6 +1,6 @@
 // What the device does to find a disparity: a block of the image at the depth image's scale is compared with blocks of
-// the remembered one, in steps of 1/8 px, and the most alike stands for the whole block. Neither the slope of a surface
-// nor an edge in the block is allowed for: dots of a block that lie on a slope pull its disparity by their lot.
+// the reference image, in steps of 1/8 px, and the most alike stands for the whole block. Neither the slope of a
+// surface nor an edge in the block is allowed for: dots of a block that lie on a slope pull its disparity by their lot.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ struct Blocks {
   Image<float> values, sum, spread;
 };
 
-/// The remembered image at shifts of 1/8 px.
+/// The reference image at shifts of 1/8 px.
 struct BlockReference {
   std::vector<Blocks> phase;  ///< [eighth] the image at x + eighth / 8, as many as kPhases
 };

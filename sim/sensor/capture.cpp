@@ -8,10 +8,10 @@
 #include "core/timed.h"
 #include "sim/effects/effects_json.h"
 #include "sim/render/intersect.h"
+#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
 #include "sim/sensor/reading.h"
-#include "sim/sensor/registration.h"
 #include "sim/sensor/speckle.h"
 
 namespace fathom {
@@ -36,7 +36,7 @@ void add_residue(const SensorModel& sensor, const Image<float>& residue, Image<f
 }
 
 /// What this unit makes of disparities [px] in the frame of that number; 0 stays invalid.
-void misread(const SensorModel& sensor, std::uint64_t frame, Image<float>& disparity) {
+void add_unit_error(const SensorModel& sensor, std::uint64_t frame, Image<float>& disparity) {
   const UnitError error = unit_error(sensor.unit, frame);
   const UnitMap* learned = sensor.unit.learned.map.get();
   for (int y = 0; y < disparity.height(); ++y)
@@ -113,7 +113,7 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
 
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
-  reference_ = timed(statistics_.reference_s, [&] { return remembered(sensor, pattern, samples_across_); });
+  reference_ = timed(statistics_.reference_s, [&] { return reference_image(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ = timed(statistics_.render_s,
                     [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light, seed); });
@@ -143,7 +143,7 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
     shot.disparity_px =
         disparity_with_noise(sensor, shot.disparity_px, intensity, still_chance_, block_chance(sensor, seed_, frame));
   add_residue(sensor, residue_, shot.disparity_px);
-  misread(sensor, frame, shot.disparity_px);
+  add_unit_error(sensor, frame, shot.disparity_px);
   shot.depth = depth_image(sensor, shot.disparity_px, sensor.cut);
   shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);
   if (setup_.processing.colour_view) move_to_colour_view(sensor, shot);
@@ -158,7 +158,7 @@ Frame Camera::shoot_photometric(std::uint64_t frame) {
   for (std::size_t i = 0; i < ambient_.size(); ++i) light.pixels()[i] += ambient_.pixels()[i];
   shot.ir = expose(light, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
-  misread(sensor, frame, shot.disparity_px);
+  add_unit_error(sensor, frame, shot.disparity_px);
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px, sensor.cut); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));
   if (setup_.processing.colour_view) move_to_colour_view(sensor, shot);

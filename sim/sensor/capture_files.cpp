@@ -11,10 +11,10 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
+#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/device_outputs.h"
 #include "sim/sensor/preview.h"
-#include "sim/sensor/registration.h"
 
 namespace fathom {
 namespace {

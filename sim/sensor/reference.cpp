@@ -185,7 +185,8 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
   return memorise(sensor, image, margin);
 }
 
-std::shared_ptr<const Reference> remembered(const SensorModel& sensor, const Pattern& pattern, int samples_across) {
+std::shared_ptr<const Reference> reference_image(const SensorModel& sensor, const Pattern& pattern,
+                                                 int samples_across) {
   struct Kept {
     SensorModel sensor;
     int samples_across = 0;

@@ -51,7 +51,7 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
 
 /// The same for cameras that follow one another: the last one is kept in the process, because making it takes longer
 /// than most shots and sensors differ less often than scenes.
-std::shared_ptr<const Reference> remembered(const SensorModel& sensor, const Pattern& pattern, int samples_across);
+std::shared_ptr<const Reference> reference_image(const SensorModel& sensor, const Pattern& pattern, int samples_across);
 
 /// Mean of each pair of rows: half the height.
 Image<float> rows_in_pairs(const Image<float>& image);

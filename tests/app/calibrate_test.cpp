@@ -100,7 +100,7 @@ TEST_F(CalibrateCommand, ASimulatedUnitsMapComesBackFromItsClouds) {
   EXPECT_LT(rows["desk_error_after"]["value"].get<double>(), 0.5 * rows["desk_error_before"]["value"].get<double>());
   EXPECT_TRUE(fs::exists(unit / "report.html"));
 
-  // Against what the simulator displaced the remembered image by, a plane apart, where the map claims to know: at
+  // Against what the simulator displaced the reference image by, a plane apart, where the map claims to know: at
   // pixels that see something nearer by reference_at_px.
   const Image<float> reference = read_exr_channel(unit / "unit_bias.exr", "reference_px"),
                      camera = read_exr_channel(unit / "unit_bias.exr", "camera_px"),

@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
+#include "blind/device_frames.h"
 #include "blind/device_law.h"
 #include "blind/eye.h"
 #include "blind/laboratory.h"
-#include "blind/shoot.h"
 
 namespace fathom::blind {
 namespace {

@@ -88,8 +88,8 @@ TEST_F(BlindSession, RefusesWhatItsLaboratoryDoesNotHave) {
 
 TEST_F(BlindSession, TellsTwinsApart) {
   // Milk alone: a bottom that is 3 mm higher, or fills that are.
-  SetTruth truth{.number = 0, .seed = 21, .kind = "twins", .design = "opaque_only"};
-  truth.twins = {"cup_bottom_height", "fill_offset"};
+  SetTruth truth{.number = 0, .seed = 21, .kind = "aliased", .design = "opaque_only"};
+  truth.aliased = {"cup_bottom_height", "fill_offset"};
   truth.effects.push_back({{&hidden_effect("cup_bottom_height"), 3.0}, 15.0});
   const auto diagnosed = [&](const std::string& folders, const fs::path& answer) {
     const ProgramRun run = run_fathom("diagnose " + folders + " -o " + answer.string() + " --quiet");

@@ -8,7 +8,7 @@
 #include "blind/eye.h"
 #include "blind/fermat.h"
 #include "blind/follow.h"
-#include "blind/liquid_top.h"
+#include "blind/height_field.h"
 #include "blind/turbid.h"
 #include "theory/triangulation.h"
 

@@ -39,8 +39,8 @@ TEST(Sha256, GivesTheStandardsDigests) {
 TEST(BlindKinds, ComeInTheirShares) {
   std::map<std::string, int> kinds;
   for (const std::string& kind : kinds_of_pack(3, 200)) ++kinds[kind];
-  const std::map<std::string, int> wanted{{"null", 60},    {"single", 60}, {"pair", 24},        {"triple", 6},
-                                          {"unknown", 30}, {"twins", 10},  {"book_keeping", 10}};
+  const std::map<std::string, int> wanted{{"null", 60},    {"single", 60},  {"pair", 24},        {"triple", 6},
+                                          {"unknown", 30}, {"aliased", 10}, {"book_keeping", 10}};
   EXPECT_EQ(kinds, wanted);
 }
 
@@ -49,7 +49,7 @@ TEST_F(BlindPack, HidesWhatItsKindsSay) {
   seal_pack("development", 3, kSets, folder / "pack", folder / "truth.json", "");
   for (const SetTruth& set : open_pack(folder / "pack", folder / "truth.json").sets) {
     EXPECT_EQ(set.kind == "null" || set.kind == "book_keeping", set.effects.empty()) << set.kind;
-    EXPECT_EQ(set.twins.size(), set.kind == "twins" ? 2u : 0u);
+    EXPECT_EQ(set.aliased.size(), set.kind == "aliased" ? 2u : 0u);
     for (const Truth& hidden : set.effects) EXPECT_GT(hidden.strength, 1.0);
   }
   // Nothing in the pack's folder says what is hidden.
@@ -141,7 +141,7 @@ TEST_F(BlindStrength, GrowsWithTheEffectAndReachesWhatIsAsked) {
   const Hidden& fill = hidden_effect("fill_offset");
   const double one = strengths.shown({&fill, 1.0}).s;
   EXPECT_GT(one, 1.0);
-  EXPECT_NEAR(strengths.shown({&fill, 2.0}).s / one, 2.0, 0.1);  // signatures are nearly straight
+  EXPECT_NEAR(strengths.shown({&fill, 2.0}).s / one, 2.0, 0.1);  // sensitivities are nearly straight
   EXPECT_EQ(strengths.shown({&fill, 0.0}).s, 0.0);
   // Not better, because regions on the border of sight come and go.
   const Shown asked = strengths.sized(fill, 6.0, -1.0);
@@ -190,14 +190,14 @@ TEST_F(BlindStrength, WhatAUnitsBiasMayBeIsNoStrength) {
   EXPECT_LT(s, 1.0 / kLeftOfUnit);
 }
 
-TEST_F(BlindStrength, TwinsDoNotEscapeEachOther) {
+TEST_F(BlindStrength, AliasedEffectsDoNotEscapeEachOther) {
   const Strengths strengths = of("opaque_only");
   const Hidden* bottom = &hidden_effect("cup_bottom_height");
   const Active fill{&hidden_effect("fill_offset"), bottom->typical};
-  const Eigen::MatrixXd signature = strengths.signature(std::span(&fill, 1));
-  EXPECT_GT(signature.norm(), 3.0);
+  const Eigen::MatrixXd sensitivity = strengths.sensitivity(std::span(&fill, 1));
+  EXPECT_GT(sensitivity.norm(), 3.0);
   // Both raise an opaque surface; the tenth that is left is the wetted wall's and the prior of the bottom's.
-  EXPECT_LT(strengths.escape(signature, std::span(&bottom, 1)), 0.15 * Strengths::common_norm(signature));
+  EXPECT_LT(strengths.escape(sensitivity, std::span(&bottom, 1)), 0.15 * Strengths::common_norm(sensitivity));
 }
 
 }  // namespace

@@ -83,16 +83,16 @@ TEST(BlindScore, NoAnswerIsNoGoodAnswer) {
   EXPECT_EQ(goal(goals, "answered").value, 0.0);
 }
 
-TEST(BlindScore, TwinsHaveToBeSaidToBeTwins) {
+TEST(BlindScore, AliasedEffectsHaveToBeSaidToBe) {
   SetTruth truth = single("fill_offset", 1.0, 9.0);
-  truth.kind = "twins";
-  truth.twins = {"cup_bottom_height", "fill_offset"};
+  truth.kind = "aliased";
+  truth.aliased = {"cup_bottom_height", "fill_offset"};
   const Answer both = answer_of(R"({"verdict": "ambiguous", "ambiguity_set": [
     {"effects": ["cup_bottom_height"], "indistinguishable": [["fill_offset"]], "probability": 0.99}]})");
   const Answer one = answer_of(R"({"verdict": "named", "effects": [{"name": "fill_offset"}], "ambiguity_set": [
     {"effects": ["fill_offset"], "probability": 0.99}]})");
-  EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, both}}), "twins called ambiguous").value, 1.0);
-  EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, one}}), "twins called ambiguous").value, 0.0);
+  EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, both}}), "aliased effects called ambiguous").value, 1.0);
+  EXPECT_EQ(goal(goals_of(std::vector<Judged>{{truth, one}}), "aliased effects called ambiguous").value, 0.0);
 }
 
 TEST(BlindScore, WhatIsLeftOpenBesideTheFirstIsNoError) {
@@ -160,7 +160,7 @@ TEST(BlindScore, DetectionIsHeldAgainstTheMatchedFilter) {
   EXPECT_NEAR(behind(9.0, {read_answer("/no/such/folder"), silent}).value, 1.0, 1e-6);
 }
 
-/// Twins of which one is hidden, and what an answer proposes to tell them apart.
+/// Aliased effects of which one is hidden, and what an answer proposes to tell them apart.
 struct BlindFollowUp : testing::Test {
   SetTruth truth = single("fill_offset", 1.0, 9.0);
   Answer before = answer_of(R"({"verdict": "ambiguous", "ambiguity_set": [
@@ -174,8 +174,8 @@ struct BlindFollowUp : testing::Test {
     {"measurement": "the empty cup", "separates": ["fill_offset", "fill_offset+foam"], "sigma": 8.0, "campaign": "next_3.json"},
     {"measurement": "the empty cup", "separates": ["none", "fill_offset@milk_tea"], "sigma": 6.0, "campaign": "next_3.json"}])");
   BlindFollowUp() {
-    truth.kind = "twins";
-    truth.twins = {"cup_bottom_height", "fill_offset"};
+    truth.kind = "aliased";
+    truth.aliased = {"cup_bottom_height", "fill_offset"};
   }
 
   /// "settled", "told apart", "open", or "" where there is nothing to judge.

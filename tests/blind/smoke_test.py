@@ -27,7 +27,7 @@ def truths():
     def add(count, kind, **own):
         for _ in range(count):
             sets.append({"set": len(sets), "seed": len(sets), "class": kind, "design": "full", "effects": [],
-                         "book_keeping": "", "left_out": "", "twins": [], "escape": 0.0, "noise_scale": 1.0,
+                         "book_keeping": "", "left_out": "", "aliased": [], "escape": 0.0, "noise_scale": 1.0,
                          "heavy_tails": False, "strength_by_liquid": {}, **own})
 
     add(20, "null")
@@ -38,7 +38,7 @@ def truths():
     add(3, "triple", effects=[hidden("fill_offset", 5.0), hidden("sensor_height", 5.0), hidden("meniscus", 5.0)])
     add(9, "unknown", effects=[hidden("baseline", 20.0)], left_out="baseline", escape=20.0)
     add(4, "unknown", effects=[hidden("baseline", 5.0)], left_out="baseline", escape=5.0)
-    add(5, "twins", effects=[hidden("fill_offset", 9.0)], twins=["fill_offset", "cup_bottom_height"])
+    add(5, "aliased", effects=[hidden("fill_offset", 9.0)], aliased=["fill_offset", "cup_bottom_height"])
     add(4, "book_keeping", book_keeping="label_swap")
     assert len(sets) == smoke.SETS
     return sets
@@ -54,8 +54,8 @@ def oracle(truth):
     names = [effect["name"] for effect in truth["effects"]]
     if truth["class"] == "unknown":
         return report("unknown")
-    if truth["class"] == "twins":
-        return report("ambiguous", *[[twin] for twin in truth["twins"]])
+    if truth["class"] == "aliased":
+        return report("ambiguous", *[[twin] for twin in truth["aliased"]])
     if truth["book_keeping"]:
         return report("named", [truth["book_keeping"]])
     return report("named", names) if names else report("none", [])

@@ -1,4 +1,4 @@
-#include "detector/cup.h"
+#include "detector/cup_gates.h"
 
 #include <gtest/gtest.h>
 

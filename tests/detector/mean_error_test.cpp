@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/rng.h"
-#include "detector/noise.h"
+#include "detector/depth_noise.h"
 
 namespace fathom {
 namespace {

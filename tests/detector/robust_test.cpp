@@ -124,16 +124,16 @@ TEST(Robust, ClosedAndTallThingsThatTouchCupsLeaveThemCups) {
 }
 
 TEST(Robust, WhatIsHeapedOrLeansIsNoLiquid) {
-  // Sugar stands up to 35 deg; a heap of 10 deg rises 7 mm from the wall to the tip.
+  // Sugar stands up to 35 deg; a mound of 10 deg rises 7 mm from the wall to the tip.
   for (const double slope_deg : {10.0, 20.0, 30.0}) {
-    for (const bool heap : {true, false}) {
+    for (const bool mound : {true, false}) {
       Scene scene = one_cup(0.30, 0.040);
-      (heap ? scene.cups[0].heap_slope : scene.cups[0].lean_slope) = std::tan(radians_from_deg(slope_deg));
+      (mound ? scene.cups[0].mound_slope : scene.cups[0].lean_slope) = std::tan(radians_from_deg(slope_deg));
       const Detection result = detect(cast(scene));
-      ASSERT_EQ(result.cups.size(), 1u) << slope_deg << heap;
+      ASSERT_EQ(result.cups.size(), 1u) << slope_deg << mound;
       const DetectedCup& cup = result.cups[0];
-      EXPECT_EQ(cup.liquid, Liquid::kUnknown) << slope_deg << heap << cup.why;
-      EXPECT_NE(cup.why.find("solid?"), std::string::npos) << slope_deg << heap << cup.why;
+      EXPECT_EQ(cup.liquid, Liquid::kUnknown) << slope_deg << mound << cup.why;
+      EXPECT_NE(cup.why.find("solid?"), std::string::npos) << slope_deg << mound << cup.why;
     }
   }
   Scene level = one_cup(0.30, 0.040);

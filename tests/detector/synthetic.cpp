@@ -35,12 +35,12 @@ double hit_cylinder(const Ray& ray, const OpenCup& cup, double radius, double lo
   return nearest;
 }
 
-/// Nearest distance to z = floor + slope · (inner radius − distance from the axis), the surface of a heap.
-double hit_heap(const Ray& ray, const OpenCup& cup) {
+/// Nearest distance to z = floor + slope · (inner radius − distance from the axis), the surface of a mound.
+double hit_mound(const Ray& ray, const OpenCup& cup) {
   const Eigen::Vector2d from = ray.origin.head<2>() - Eigen::Vector2d(cup.x_m, cup.y_m),
                         along = ray.direction.head<2>();
-  const double below_tip = cup.floor_m + cup.heap_slope * cup.inner_radius_m - ray.origin.z();
-  const double steep = cup.heap_slope * cup.heap_slope, down = -ray.direction.z();
+  const double below_tip = cup.floor_m + cup.mound_slope * cup.inner_radius_m - ray.origin.z();
+  const double steep = cup.mound_slope * cup.mound_slope, down = -ray.direction.z();
   // (tip − z)² = slope² · distance², with tip − z above 0: the cone below its tip.
   const double a = down * down - steep * along.squaredNorm(), b = below_tip * down - steep * from.dot(along),
                c = below_tip * below_tip - steep * from.squaredNorm();
@@ -68,7 +68,7 @@ double hit_cup(const Ray& ray, const OpenCup& cup) {
   const double rim = hit_level(ray, cup.height_m, [&](const Eigen::Vector3d& p) {
     return distance(p) >= cup.inner_radius_m && distance(p) <= cup.outer_radius_m;
   });
-  const double floor = cup.heap_slope > 0.0 ? hit_heap(ray, cup) : hit_floor(ray, cup);
+  const double floor = cup.mound_slope > 0.0 ? hit_mound(ray, cup) : hit_floor(ray, cup);
   const double outside = hit_cylinder(ray, cup, cup.outer_radius_m, 0.0, cup.height_m);
   const double lowest = cup.floor_m - cup.lean_slope * cup.inner_radius_m;
   const double inside = hit_cylinder(ray, cup, cup.inner_radius_m, lowest, cup.height_m);

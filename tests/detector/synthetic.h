@@ -19,9 +19,9 @@ struct OpenCup {
   double height_m = 0.087;
   double inner_radius_m = 0.040;
   double outer_radius_m = 0.043;
-  double floor_m = 0.007;   ///< height of what is seen inside: the bottom, the raised bottom or a surface
-  double heap_slope = 0.0;  ///< of a cone that is heaped upon it, tip on the axis and foot at the wall
-  double lean_slope = 0.0;  ///< of the floor, which then rises away from the sensor and has its height on the axis
+  double floor_m = 0.007;    ///< height of what is seen inside: the bottom, the raised bottom or a surface
+  double mound_slope = 0.0;  ///< of a cone that is heaped upon it, tip on the axis and foot at the wall
+  double lean_slope = 0.0;   ///< of the floor, which then rises away from the sensor and has its height on the axis
 };
 
 /// Axis-parallel, standing on the desk.

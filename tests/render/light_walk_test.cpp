@@ -207,7 +207,7 @@ Irradiance irradiance_at(const PointLight& source, const SeenPoint& seen, Rng& r
 }
 
 TEST(IntegratingSphere, FillsItselfEvenlyWithLight) {
-  // However often it is thrown on, diffuse light falls evenly on a sphere: Σ ρ^k of the direct irradiance.
+  // However often it is reflected, diffuse light falls evenly on a sphere: Σ ρ^k of the direct irradiance.
   constexpr double kAlbedo = 0.7;
   const Geometry geometry = hollow_sphere(kAlbedo, std::nullopt);
   const Intersector world(geometry);

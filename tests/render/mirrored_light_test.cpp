@@ -51,7 +51,7 @@ Estimate thrown(const LitScene& scene, Region region) {
   const auto power_of = [&](const auto& self, Flight flight, int crossings, bool mirrored) -> double {
     double power = 0.0;
     for (; crossings <= kLongestChain; ++crossings) {
-      const Ray ray{flight.pencil.origin, flight.pencil.direction};
+      const Ray ray{flight.differential.origin, flight.differential.direction};
       const auto opaque = scene.world.first_opaque(ray);
       const auto next = next_crossing(scene.world, ray, flight.inside);
       if (!next || (opaque && opaque->distance < next->hit.distance)) {
@@ -73,7 +73,7 @@ Estimate thrown(const LitScene& scene, Region region) {
     const double cosine = 1.0 - rng.uniform() * (1.0 - std::cos(kCone));
     const Eigen::Vector2d aside =
         std::sqrt(1.0 - cosine * cosine) * direction_of(2.0 * std::numbers::pi * rng.uniform());
-    power.add(power_of(power_of, {pencil_from(source, cosine * axis + basis * aside), 0, 1.0}, 0, false));
+    power.add(power_of(power_of, {ray_differential_from(source, cosine * axis + basis * aside), 0, 1.0}, 0, false));
   }
   const double solid_angle = 2.0 * std::numbers::pi * (1.0 - std::cos(kCone));
   return {solid_angle * power.estimate().value, solid_angle * power.estimate().standard_error};

@@ -113,10 +113,10 @@ TEST(Match, ReachesAsNearAsTheSensorGivesDepths) {
 TEST(Reference, OfTheSameSensorIsMadeOnce) {
   SensorModel sensor = Bench(650.0).sensor();
   const Pattern pattern(sensor.pattern, sensor.ir_scale());
-  const auto first = remembered(sensor, pattern, 1);
-  EXPECT_EQ(remembered(sensor, pattern, 1), first);
+  const auto first = reference_image(sensor, pattern, 1);
+  EXPECT_EQ(reference_image(sensor, pattern, 1), first);
   sensor.unit.serial = 7;
-  EXPECT_NE(remembered(sensor, pattern, 1), first);
+  EXPECT_NE(reference_image(sensor, pattern, 1), first);
 }
 
 TEST(Match, WithoutContrastThereIsNoMatch) {

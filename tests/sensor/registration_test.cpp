@@ -1,4 +1,4 @@
-#include "sim/sensor/registration.h"
+#include "sim/sensor/colour_registration.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kConditions = 60, kTwice = 2, kEffects = 8;
 constexpr double kSd = 0.25;
 
-/// Conditions that were measured twice, and effects with signatures drawn at random. `strength`: of effect 3, in
+/// Conditions that were measured twice, and effects with sensitivities drawn at random. `strength`: of effect 3, in
 /// standard errors of its size; `unseen`: the effect, if any, that no observation sees.
 Evidence measured(std::uint64_t seed, double strength, int unseen = -1) {
   Rng rng(seed, 1);
@@ -23,13 +23,13 @@ Evidence measured(std::uint64_t seed, double strength, int unseen = -1) {
   const int n = kConditions * kTwice;
   evidence.predicted = Eigen::VectorXd::Zero(n);
   for (int k = 0; k < kEffects; ++k) {
-    Candidate candidate{.effect = "effect_" + std::to_string(k), .parameters = {{.name = "size"}}, .signature = {}};
-    candidate.signature = Eigen::MatrixXd::Zero(n, 1);
+    Candidate candidate{.effect = "effect_" + std::to_string(k), .parameters = {{.name = "size"}}, .sensitivity = {}};
+    candidate.sensitivity = Eigen::MatrixXd::Zero(n, 1);
     for (int c = 0; c < kConditions; ++c)
-      candidate.signature.middleRows(c * kTwice, kTwice).setConstant(k == unseen ? 0.0 : rng.normal());
+      candidate.sensitivity.middleRows(c * kTwice, kTwice).setConstant(k == unseen ? 0.0 : rng.normal());
     evidence.candidates.push_back(std::move(candidate));
   }
-  const Eigen::VectorXd there = evidence.candidates[3].signature.col(0);
+  const Eigen::VectorXd there = evidence.candidates[3].sensitivity.col(0);
   const double size = strength == 0.0 ? 0.0 : strength * kSd / there.norm();
   for (int i = 0; i < n; ++i) {
     Factors factors;
@@ -91,7 +91,7 @@ TEST(Baselines, OnlyGeneralisedLeastSquaresKnowsWhatAnUncertainRigExplains) {
     Evidence evidence = measured(seed, 0.0);
     // The rig is off by one of its σ, which moves the data as effect 5 does, ten standard errors far.
     const Eigen::VectorXd moved =
-        10.0 * kSd / evidence.candidates[5].signature.norm() * evidence.candidates[5].signature;
+        10.0 * kSd / evidence.candidates[5].sensitivity.norm() * evidence.candidates[5].sensitivity;
     evidence.nuisances.push_back({"height_mm", 1.0, moved});
     for (std::size_t i = 0; i < evidence.observations.size(); ++i)
       evidence.observations[i].value += moved[static_cast<Eigen::Index>(i)];
@@ -107,7 +107,7 @@ TEST(Baselines, OnlyGeneralisedLeastSquaresKnowsWhatAnUncertainRigExplains) {
 
 TEST(Baselines, AreSilentWhereNoEffectIsSeen) {
   Evidence evidence = measured(7, 12.0);
-  for (Candidate& candidate : evidence.candidates) candidate.signature.setZero();
+  for (Candidate& candidate : evidence.candidates) candidate.sensitivity.setZero();
   for (const Named& method : kMethods) EXPECT_TRUE(method.method(evidence).empty()) << method.name;
   evidence.candidates.clear();
   for (const Named& method : kMethods) EXPECT_TRUE(method.method(evidence).empty()) << method.name;

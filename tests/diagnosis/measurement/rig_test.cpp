@@ -1,4 +1,4 @@
-#include "diagnosis/measurement/rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Points of clouds that were thinned in one part of the image and not in another.
-#include "diagnosis/measurement/sampling.h"
+#include "diagnosis/measurement/cloud_sampling.h"
 
 #include <gtest/gtest.h>
 

@@ -97,7 +97,7 @@ TEST(Designs, TheEmptyCupShowsItsBottomAndNoFill) {
   for (std::size_t row = 0; row < design.evidence.observations.size(); ++row) {
     if (design.evidence.observations[row].observable != "height_mm") continue;
     // A bottom that is a millimetre higher reads so, but for the device's step of a millimetre over few rays.
-    EXPECT_NEAR(bottom.signature(static_cast<Eigen::Index>(row), 0), 1.0, 0.2) << row;
+    EXPECT_NEAR(bottom.sensitivity(static_cast<Eigen::Index>(row), 0), 1.0, 0.2) << row;
   }
 }
 

@@ -273,7 +273,7 @@ TEST(Effects, RegistryIsTheListOfTheDiagnosis) {
   for (const Effect& effect : effect_registry()) {
     EXPECT_TRUE(ids.insert(std::string(effect.id)).second) << effect.id << " twice";
     EXPECT_FALSE(effect.sentence.empty() || effect.citation.empty() || effect.discriminated_by.empty()) << effect.id;
-    for (const std::string_view twin : effect.twins) EXPECT_TRUE(find_effect(twin)) << effect.id << ": " << twin;
+    for (const std::string_view twin : effect.confounded) EXPECT_TRUE(find_effect(twin)) << effect.id << ": " << twin;
     for (const EffectParameter& p : effect.parameters)
       EXPECT_TRUE(p.lower <= p.nominal && p.nominal <= p.upper && p.scale > 0.0) << effect.id << ' ' << p.name;
   }

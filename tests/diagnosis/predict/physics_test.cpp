@@ -75,8 +75,8 @@ TEST(Nuisances, ARecordWithoutBrightnessIsTwoSigmaFromALinearOne) {
   observations[0].observable = "log_brightness";
   observations[1].observable = "height_mm";
   const Nuisance response = brightness_response(observations, Eigen::Vector2d(-0.4, 16.0));
-  EXPECT_DOUBLE_EQ(-0.4 - 2.0 * response.sigma * response.signature[0], 0.0);
-  EXPECT_EQ(response.signature[1], 0.0);
+  EXPECT_DOUBLE_EQ(-0.4 - 2.0 * response.sigma * response.sensitivity[0], 0.0);
+  EXPECT_EQ(response.sensitivity[1], 0.0);
 }
 
 TEST(Physics, RowsAreWhatTheModelPredicts) {
@@ -86,8 +86,8 @@ TEST(Physics, RowsAreWhatTheModelPredicts) {
   EXPECT_TRUE(evidence.predicted.allFinite());
   for (const Observation& observation : evidence.observations) EXPECT_NE(observation.observable, "height_sd_mm");
   for (const Candidate& candidate : evidence.candidates) {
-    EXPECT_TRUE(candidate.signature.allFinite()) << candidate.effect;
-    EXPECT_EQ(candidate.signature.rows(), evidence.predicted.size()) << candidate.effect;
+    EXPECT_TRUE(candidate.sensitivity.allFinite()) << candidate.effect;
+    EXPECT_EQ(candidate.sensitivity.rows(), evidence.predicted.size()) << candidate.effect;
   }
   EXPECT_TRUE(find(evidence, "fill_offset") && find(evidence, "fill_offset@milk"));
   for (const char* unseen : {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost"})
@@ -130,7 +130,7 @@ TEST(Physics, NuisancesAreOnePerPourPlacementAndUncertainValue) {
     EXPECT_EQ(named(key), 1) << key;
   for (const Nuisance& nuisance : physics.evidence.nuisances) {
     EXPECT_GT(nuisance.sigma, 0.0) << nuisance.name;
-    EXPECT_TRUE(nuisance.signature.allFinite()) << nuisance.name;
+    EXPECT_TRUE(nuisance.sensitivity.allFinite()) << nuisance.name;
   }
 }
 
@@ -189,8 +189,8 @@ TEST(Physics, WavesShowInHowHeightsOfClearLiquidsScatter) {
   EXPECT_NEAR(motion->value / kWaves_mm, 1.0, 0.3);  // three errors of the root of a variance of 54 degrees of freedom
   const Eigen::Index row = motion - all.begin();
   EXPECT_EQ(evidence.predicted[row], 0.0);
-  EXPECT_GT(find(evidence, "ripples")->signature(row, 0), 0.0);
-  EXPECT_EQ(find(evidence, "refractive_index")->signature(row, 0), 0.0);
+  EXPECT_GT(find(evidence, "ripples")->sensitivity(row, 0), 0.0);
+  EXPECT_EQ(find(evidence, "refractive_index")->sensitivity(row, 0), 0.0);
 }
 
 // Trials of one noise, in whole millimetres: where a height is near one, none of them scatters.
@@ -229,8 +229,8 @@ TEST(Physics, TheUsualWindowsAreAllowedForAndWiderOnesAreAnEffect) {
                                     [](const Nuisance& nuisance) { return nuisance.name == "matching window"; });
   ASSERT_NE(windows, evidence.nuisances.end());
   const auto in_errors = [&](const Eigen::VectorXd& prediction) {
-    return (prediction - evidence.predicted).dot(windows->signature) /
-           (windows->sigma * windows->signature.squaredNorm());
+    return (prediction - evidence.predicted).dot(windows->sensitivity) /
+           (windows->sigma * windows->sensitivity.squaredNorm());
   };
   const auto of_width = [&](double px) { return physics.predict({{"window_averaging", {px}}}); };
   EXPECT_NEAR(in_errors(of_width(12.0)), 1.0, 1e-9);
@@ -260,7 +260,7 @@ TEST(Physics, CloudsInTheColourCamerasViewStandBesideTheirPlaces) {
   }
 }
 
-TEST(Physics, SignaturesAreTheSlopesOfPredictions) {
+TEST(Physics, SensitivitiesAreTheSlopesOfPredictions) {
   const Physics physics = physics_of(paper_measurement(true));
   for (const char* id : {"sensor_height", "baseline", "refractive_index", "fill_scale", "cup_bottom_height"}) {
     const Candidate* candidate = find(physics.evidence, id);
@@ -269,17 +269,17 @@ TEST(Physics, SignaturesAreTheSlopesOfPredictions) {
     const Eigen::VectorXd change =
         physics.predict({{id, {candidate->parameters[0].nominal + half}}}) - physics.evidence.predicted;
     // Half a step along a curve that bends by less than a twentieth over a whole one.
-    EXPECT_GT(cosine(change, candidate->signature.col(0)), 0.998) << id;
-    EXPECT_NEAR(change.norm() / (half * candidate->signature.col(0).norm()), 1.0, 0.05) << id;
+    EXPECT_GT(cosine(change, candidate->sensitivity.col(0)), 0.998) << id;
+    EXPECT_NEAR(change.norm() / (half * candidate->sensitivity.col(0).norm()), 1.0, 0.05) << id;
   }
 }
 
-TEST(Physics, TwinsOfTheSpecAreTwins) {
+TEST(Physics, EffectsThatTheSpecCallsAliasedAre) {
   const Evidence evidence = physics_of(paper_measurement(false)).evidence;
   // A bottom that stands higher, and all pours with more in them, where what is poured is opaque: the empty cup alone
   // tells them apart.
-  const Eigen::VectorXd bottom = find(evidence, "cup_bottom_height")->signature.col(0),
-                        fill = find(evidence, "fill_offset")->signature.col(0);
+  const Eigen::VectorXd bottom = find(evidence, "cup_bottom_height")->sensitivity.col(0),
+                        fill = find(evidence, "fill_offset")->sensitivity.col(0);
   Eigen::VectorXd bottom_of_milk = bottom, fill_of_milk = fill;
   for (Eigen::Index row = 0; row < bottom.size(); ++row)
     if (evidence.observations[row].factors.liquid != "milk") bottom_of_milk[row] = fill_of_milk[row] = 0.0;
@@ -294,7 +294,7 @@ TEST(Physics, IsTheSameForAnyNumberOfThreads) {
   const Physics alone = physics_of(measurement);
   ASSERT_EQ(all.evidence.candidates.size(), alone.evidence.candidates.size());
   for (std::size_t i = 0; i < all.evidence.candidates.size(); ++i)
-    EXPECT_EQ(all.evidence.candidates[i].signature, alone.evidence.candidates[i].signature);
+    EXPECT_EQ(all.evidence.candidates[i].sensitivity, alone.evidence.candidates[i].sensitivity);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "diagnosis/measurement/cup_regions.h"
-#include "diagnosis/ray_traced/evidence.h"
 #include "diagnosis/ray_traced/frame.h"
+#include "diagnosis/ray_traced/traced_evidence.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 
 namespace fathom {
@@ -63,7 +63,7 @@ TEST(RayTraced, FewRaysMayNotStandForLightThatTheyDoNotSee) {
     }
   for (const Candidate& candidate : traced.evidence.candidates)
     if (candidate.effect == "wall_multipath") {
-      EXPECT_LT((candidate.signature.col(0) - change).norm(), 1e-9);
+      EXPECT_LT((candidate.sensitivity.col(0) - change).norm(), 1e-9);
     }
 }
 

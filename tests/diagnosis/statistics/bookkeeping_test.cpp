@@ -135,7 +135,8 @@ TEST(Screen, HoldsNoEffectTwice) {
     Candidate one = evidence.candidates[everywhere];
     one.effect += std::string("@") + liquid;
     for (std::size_t i = 0; i < evidence.observations.size(); ++i)
-      if (evidence.observations[i].factors.liquid != liquid) one.signature.row(static_cast<Eigen::Index>(i)).setZero();
+      if (evidence.observations[i].factors.liquid != liquid)
+        one.sensitivity.row(static_cast<Eigen::Index>(i)).setZero();
     evidence.candidates.push_back(one);
   }
   const int in_water = static_cast<int>(evidence.candidates.size()) - 2, in_tea = in_water + 1;

@@ -86,7 +86,7 @@ TEST(Decide, NamesOneStrongEffectWithItsSizeAndClosesTheGap) {
 
 TEST(Decide, RefitsWithTheModelItself) {
   const World world(small_design());
-  // Its response bends by a tenth at a typical departure: the signature alone would overstate it by half.
+  // Its response bends by a tenth at a typical departure: the sensitivity alone would overstate it by half.
   const EffectValue truth{"absorption", {5.0}};
   const Diagnosis diagnosis = decide(world.measure({truth}, {}, 3), world.predict());
   ASSERT_EQ(diagnosis.effects.size(), 1U);
@@ -238,7 +238,7 @@ TEST(Decide, LeavesOpenWhatLooksTheSameOnlyWhereItIsLarge) {
   Candidate bent = evidence.candidates[world.candidate("sensor_height")];
   const double scale = bent.parameters[0].prior_scale, most = 10.0 * scale, large = 5.0 * scale;
   bent.effect = "bent";
-  bent.signature *= 0.02;
+  bent.sensitivity *= 0.02;
   bent.parameters[0] = {"bent_mm", 0.0, scale, -most, most};
   evidence.candidates.push_back(bent);
   const Predict predict = [&, straight = world.predict()](const std::vector<EffectValue>& effects) {
@@ -329,14 +329,15 @@ TEST(Decide, DoesNotNameWhatOneNumberAloneShows) {
   const World world(small_design());
   Evidence evidence = world.measure({}, {}, 3);
   evidence.observations[0].value += 10.0;
-  Candidate candidate{.effect = "of_one_number", .parameters = {{"departure", 0.0, 1.0, -20.0, 20.0}}, .signature = {}};
-  candidate.signature = Eigen::VectorXd::Unit(evidence.predicted.size(), 0);
+  Candidate candidate{
+      .effect = "of_one_number", .parameters = {{"departure", 0.0, 1.0, -20.0, 20.0}}, .sensitivity = {}};
+  candidate.sensitivity = Eigen::VectorXd::Unit(evidence.predicted.size(), 0);
   evidence.candidates.push_back(candidate);
   const Predict predict = [&](std::vector<EffectValue> values) {
     const auto own = std::partition(values.begin(), values.end(),
                                     [](const EffectValue& value) { return value.effect != "of_one_number"; });
     Eigen::VectorXd predicted = world.predict()({values.begin(), own});
-    for (auto value = own; value != values.end(); ++value) predicted += value->values[0] * candidate.signature;
+    for (auto value = own; value != values.end(); ++value) predicted += value->values[0] * candidate.sensitivity;
     return predicted;
   };
   const Diagnosis diagnosis = decide(evidence, predict);
@@ -443,8 +444,8 @@ Evidence with_shape(Evidence evidence, double high_mm) {
   };
   evidence.predicted = longer(evidence.predicted);
   if (evidence.numerical_sd.size() > 0) evidence.numerical_sd = longer(evidence.numerical_sd);
-  for (Nuisance& nuisance : evidence.nuisances) nuisance.signature = longer(nuisance.signature);
-  for (Candidate& candidate : evidence.candidates) candidate.signature = longer(candidate.signature);
+  for (Nuisance& nuisance : evidence.nuisances) nuisance.sensitivity = longer(nuisance.sensitivity);
+  for (Candidate& candidate : evidence.candidates) candidate.sensitivity = longer(candidate.sensitivity);
   for (SharedError& error : evidence.shared_errors) error.group_of.resize(static_cast<std::size_t>(all), -1);
   return evidence;
 }

@@ -67,7 +67,7 @@ TEST(VarianceComponents, DoNotChangeWithAnEffectThatNothingSees) {
   Evidence evidence = with_errors_of_pours(world.measure({}, {}, 300), 0.4, 900);
   const Eigen::MatrixXd before = estimate_covariance(evidence, residual_of(evidence)).total;
   Candidate unseen = evidence.candidates.front();
-  unseen.signature.setZero();
+  unseen.sensitivity.setZero();
   evidence.candidates.push_back(unseen);
   const Eigen::MatrixXd after = estimate_covariance(evidence, residual_of(evidence)).total;
   EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
@@ -176,7 +176,7 @@ TEST(SharedErrors, AreBlindToCandidates) {
   const Candidate& candidate = with.candidates[world.candidate("radial_distortion")];
   for (std::size_t i = 0; i < with.observations.size(); ++i)
     with.observations[i].value +=
-        20.0 * candidate.parameters[0].prior_scale * candidate.signature(static_cast<Eigen::Index>(i), 0);
+        20.0 * candidate.parameters[0].prior_scale * candidate.sensitivity(static_cast<Eigen::Index>(i), 0);
   EXPECT_NEAR(shared_variance(with) / shared_variance(without), 1.0,
               1e-3);  // rounding, through thirty steps of scoring
 }

@@ -192,11 +192,11 @@ World::World(const CampaignDesign& design) {
   for (Eigen::Index i = 0; i < n; ++i) {
     const Observation& o = nominal_.observations[i];
     if (o.factors.fill_mm == 0.0) continue;
-    auto& signature = pours.try_emplace(o.factors.pour, Eigen::VectorXd::Zero(n)).first->second;
-    signature[i] = effects()[23].change(o);
+    auto& sensitivity = pours.try_emplace(o.factors.pour, Eigen::VectorXd::Zero(n)).first->second;
+    sensitivity[i] = effects()[23].change(o);
   }
-  for (const auto& [pour, signature] : pours)
-    nominal_.nuisances.push_back({"fill of pour " + std::to_string(pour), 0.3, signature});
+  for (const auto& [pour, sensitivity] : pours)
+    nominal_.nuisances.push_back({"fill of pour " + std::to_string(pour), 0.3, sensitivity});
   for (const Effect& effect : effects()) {
     const Parameter parameter{"departure", 0.0, 1.0, effect.is_positive ? 0.0 : -20.0, 20.0};
     nominal_.candidates.push_back({effect.name, {parameter}, column(effect.change)});
@@ -204,7 +204,7 @@ World::World(const CampaignDesign& design) {
 
   covariance_ = Eigen::MatrixXd::Zero(n, n);
   for (const Nuisance& nuisance : nominal_.nuisances)
-    covariance_ += nuisance.sigma * nuisance.sigma * nuisance.signature * nuisance.signature.transpose();
+    covariance_ += nuisance.sigma * nuisance.sigma * nuisance.sensitivity * nuisance.sensitivity.transpose();
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       const Observation &a = nominal_.observations[i], &b = nominal_.observations[j];
@@ -223,7 +223,7 @@ Predict World::predict() const {
     Eigen::VectorXd predicted = nominal_.predicted;
     for (const EffectValue& value : values) {
       const int k = candidate(value.effect);
-      predicted += response(effects()[k], value.values[0]) * nominal_.candidates[k].signature.col(0);
+      predicted += response(effects()[k], value.values[0]) * nominal_.candidates[k].sensitivity.col(0);
     }
     return predicted;
   };
@@ -245,7 +245,7 @@ Evidence World::measure(const std::vector<EffectValue>& truth, const Errors& err
   if (errors.dust > 0.0)
     for (std::uint64_t k = 0; k < 3; ++k) value += escaping(errors.dust, mix_bits(seed) + k);
   for (const Nuisance& nuisance : nominal_.nuisances)
-    value += nuisance.sigma * errors.scale * rng.normal() * nuisance.signature;
+    value += nuisance.sigma * errors.scale * rng.normal() * nuisance.sensitivity;
   std::map<std::string, double> shared;
   const auto common = [&](const std::string& key, double sd) {
     const auto [entry, is_new] = shared.try_emplace(key, 0.0);
@@ -278,7 +278,7 @@ double World::strength(const Eigen::VectorXd& change) const { return factor_.mat
 
 EffectValue World::at_strength(const std::string& effect, double strength_wanted, double sign) const {
   const int k = candidate(effect);
-  const double per_unit = strength(nominal_.candidates[k].signature.col(0));
+  const double per_unit = strength(nominal_.candidates[k].sensitivity.col(0));
   const double departure = (effects()[k].is_positive ? 1.0 : sign) * strength_wanted / per_unit;
   return {effect, {departure}};
 }
@@ -296,9 +296,10 @@ Eigen::VectorXd World::escaping(double escape, std::uint64_t seed) const {
     shapes << 1.0, d(o), x(o), f(o), d(o) * d(o), x(o) * x(o), f(o) * f(o), d(o) * x(o);
     change[i] = kNoise.at(o.observable).placement * shapes.dot(entry->second);
   }
-  Eigen::MatrixXd signatures(change.size(), static_cast<Eigen::Index>(nominal_.candidates.size()));
-  for (Eigen::Index k = 0; k < signatures.cols(); ++k) signatures.col(k) = nominal_.candidates[k].signature.col(0);
-  const Eigen::MatrixXd spanned = factor_.matrixL().solve(signatures);
+  Eigen::MatrixXd sensitivities(change.size(), static_cast<Eigen::Index>(nominal_.candidates.size()));
+  for (Eigen::Index k = 0; k < sensitivities.cols(); ++k)
+    sensitivities.col(k) = nominal_.candidates[k].sensitivity.col(0);
+  const Eigen::MatrixXd spanned = factor_.matrixL().solve(sensitivities);
   const Eigen::VectorXd whitened = factor_.matrixL().solve(change);
   const double outside = (whitened - spanned * least_squares(spanned, whitened)).norm();
   return change * (escape / outside);

@@ -36,7 +36,7 @@ class World {
  public:
   explicit World(const CampaignDesign& design = {});
 
-  /// As the laboratory sees it: nominal predictions, nuisances with priors, candidates with signatures.
+  /// As the laboratory sees it: nominal predictions, nuisances with priors, candidates with sensitivities.
   const Evidence& nominal() const { return nominal_; }
   Predict predict() const;
   int candidate(const std::string& effect) const;

@@ -10,8 +10,8 @@
 
 #include "detector/read_cloud.h"
 #include "diagnosis/unit/bias_learner.h"
+#include "diagnosis/unit/calibration_view.h"
 #include "diagnosis/unit/desk_difference.h"
-#include "diagnosis/unit/desk_view.h"
 
 namespace fathom {
 namespace real_desks_test {
