@@ -8,13 +8,14 @@
 
 #include "app/commands.h"
 #include "app/detector_options.h"
-#include "app/gnuplot.h"
 #include "app/number_option.h"
 #include "app/print.h"
-#include "app/unit_report.h"
+#include "app/results.h"
 #include "core/folder_owner.h"
 #include "core/input_policy.h"
 #include "core/table.h"
+#include "report/gnuplot.h"
+#include "report/unit_report.h"
 
 namespace fathom {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <memory>
 
-#include "app/campaign_spec.h"
 #include "app/commands.h"
-#include "app/nominal_rig.h"
 #include "app/output_size.h"
 #include "app/print.h"
+#include "campaign/campaign_spec.h"
+#include "campaign/nominal_rig.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/check_words.h"
 #include "app/commands.h"
 #include "app/measurement_folder.h"
 #include "app/results.h"
@@ -13,6 +12,7 @@
 #include "core/units.h"
 #include "core/visible_text.h"
 #include "diagnosis/predict/nominal_model.h"
+#include "report/check_words.h"
 
 namespace fathom {
 namespace {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/detection_report.h"
 #include "app/detector_options.h"
 #include "app/live_cloud.h"
 #include "app/poses.h"
@@ -18,6 +17,7 @@
 #include "detector/fuse.h"
 #include "detector/read_cloud.h"
 #include "detector/robust.h"
+#include "report/detection_report.h"
 
 namespace fathom {
 namespace {

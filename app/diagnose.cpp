@@ -10,14 +10,10 @@
 #include <tuple>
 
 #include "app/commands.h"
-#include "app/diagnosis_report.h"
-#include "app/diagnosis_words.h"
-#include "app/gnuplot.h"
-#include "app/next_campaign.h"
 #include "app/print.h"
-#include "app/ray_traced_report.h"
 #include "app/remove_diagnosis.h"
-#include "app/shots.h"
+#include "app/results.h"
+#include "campaign/next_campaign.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/input_policy.h"
@@ -33,6 +29,11 @@
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/predict/predictable.h"
 #include "diagnosis/statistics/evidence.h"
+#include "report/diagnosis_report.h"
+#include "report/diagnosis_words.h"
+#include "report/gnuplot.h"
+#include "report/ray_traced_report.h"
+#include "report/shots.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 

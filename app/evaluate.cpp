@@ -7,22 +7,22 @@
 #include <cmath>
 #include <memory>
 
-#include "app/clutter_templates.h"
 #include "app/commands.h"
 #include "app/detector_options.h"
 #include "app/evaluate_clutter.h"
-#include "app/failure_gallery.h"
-#include "app/gnuplot.h"
-#include "app/labelled_clouds.h"
-#include "app/liquid_rates.h"
 #include "app/print.h"
 #include "app/results.h"
-#include "app/share_rows.h"
 #include "core/files.h"
 #include "core/input_record.h"
 #include "core/median.h"
 #include "core/rows.h"
 #include "core/units.h"
+#include "report/gnuplot.h"
+#include "trials/clutter_templates.h"
+#include "trials/failure_gallery.h"
+#include "trials/labelled_clouds.h"
+#include "trials/liquid_rates.h"
+#include "trials/share_rows.h"
 
 namespace fathom {
 namespace {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/liquid_rates.h"
 #include "app/results.h"
-#include "app/share_rows.h"
 #include "core/median.h"
 #include "core/progress.h"
 #include "core/rng.h"
+#include "trials/liquid_rates.h"
+#include "trials/share_rows.h"
 
 namespace fathom {
 namespace {

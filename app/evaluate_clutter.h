@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "app/clutter_trial.h"
 #include "app/command.h"
-#include "app/trial_folder.h"
 #include "core/rows.h"
 #include "core/table.h"
 #include "sim/scene/clutter.h"
+#include "trials/clutter_trial.h"
+#include "trials/trial_folder.h"
 
 namespace fathom {
 

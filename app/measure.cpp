@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/cup_height.h"
 #include "app/measurement_folder.h"
 #include "app/print.h"
+#include "campaign/cup_height.h"
 #include "core/folder_owner.h"
 #include "core/name_list.h"
 #include "core/progress.h"

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/gnuplot.h"
-#include "app/results.h"
+#include "core/files.h"
+#include "report/gnuplot.h"
 
 namespace fathom {
 namespace {

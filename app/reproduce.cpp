@@ -1,5 +1,5 @@
 // `fathom reproduce`: the paper's figures, simulated beside printed.
-#include "app/reproduce.h"
+#include "paper/figures.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +11,13 @@
 #include <variant>
 
 #include "app/commands.h"
-#include "app/gnuplot.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
 #include "core/json_text.h"
+#include "report/gnuplot.h"
 
 namespace fathom {
 namespace {

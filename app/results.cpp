@@ -26,12 +26,9 @@ void remove_results(const CommonOptions& common, const std::string& name, const 
     std::filesystem::remove(common.output / (name + ending));
 }
 
-void remove_if_ours(const std::filesystem::path& file, std::string_view words) {
-  if (!std::filesystem::is_regular_file(file)) return;
-  std::string head(1000, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (head.find(words) != std::string::npos) std::filesystem::remove(file);
+void require_report(const CommonOptions& common) {
+  require_output(common);
+  require_gnuplot();
 }
 
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,

@@ -21,8 +21,9 @@ void write_results(const CommonOptions& common, const std::string& name, const s
 /// Removes DIR/NAME.json and DIR/NAME with `extension`, where they say that the files beside them are complete.
 void remove_results(const CommonOptions& common, const std::string& name, const std::string& extension);
 
-/// Removes a file if its first 1,000 bytes hold these words, by which ours is known.
-void remove_if_ours(const std::filesystem::path& file, std::string_view words);
+/// For a command that writes its report to the folder of -o, before it starts. Throws UsageError when that is missing,
+/// Error when gnuplot is.
+void require_report(const CommonOptions& common);
 
 /// Prints the text, and keeps it.
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,

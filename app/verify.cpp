@@ -43,7 +43,7 @@ using Estimates = std::vector<std::pair<std::string, Estimate>>;
 
 constexpr Range kIndex{0.0, 10.0, true};
 constexpr Range kPerMm{0.0, 1e9};
-constexpr Range kAnisotropy{-0.9999, 0.9999};
+constexpr Range kAnisotropies{-0.9999, 0.9999};
 constexpr Range kBeamDeg{0.0, 89.99};
 
 /// Empty when the text is a thickness, which may be "inf".
@@ -175,7 +175,7 @@ std::function<void()> define_verify(CLI::App& app, const CommonOptions& common) 
       ->check(number_within(kPerMm))
       ->required();
   slab->add_option("--anisotropy", options->anisotropy, "Mean cosine of the scattering angle (Henyey-Greenstein)")
-      ->check(number_within(kAnisotropy))
+      ->check(number_within(kAnisotropies))
       ->required();
   slab->add_option_function<std::string>(
           "--thickness-mm",

@@ -30,4 +30,7 @@ void make_directory(const std::filesystem::path& path);
 /// source tree, the first that exists. Throws Error when there is none.
 std::filesystem::path data_directory();
 
+/// Removes a file if its first 1,000 bytes hold these words, by which ours is known.
+void remove_if_ours(const std::filesystem::path& file, std::string_view words);
+
 }  // namespace fathom

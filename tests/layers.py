@@ -26,7 +26,11 @@ LAYERS = {
                           "diagnosis/unit"],
     "diagnosis/ray_traced": ["core", "sim/*", "diagnosis/statistics", "diagnosis/decision", "diagnosis/measurement", "diagnosis/unit",
                              "diagnosis/predict"],
-    "examples": ["core", "detector", "sim/*"],
+    "report": ["core", "detector", "sim/effects", "diagnosis/*"],
+    "trials": ["core", "detector", "sim/*", "report"],
+    "campaign": ["core", "detector", "sim/*", "diagnosis/measurement", "diagnosis/predict"],
+    "paper": ["core", "theory", "detector", "sim/*", "diagnosis/measurement", "report", "trials", "campaign"],
+    "examples": ["core", "detector", "sim/*", "diagnosis/*", "report"],
     "app": EVERYTHING,
     "bench": EVERYTHING,
     "blind": ["core"],
@@ -43,7 +47,7 @@ BORDERS = {
     "libpng": ["core/*.cpp"],
     "OpenSSL": ["core/*.cpp"],
     "CLI11": ["app/*.cpp", "blind/*"],
-    "Fontconfig": ["app/fonts.cpp"],
+    "Fontconfig": ["report/fonts.cpp"],
     "OpenCV": ["bench/*"],
     "OpenNI2": ["openni2/*", "app/live_cloud.cpp", "tests/openni2/*"],
 }
@@ -66,7 +70,7 @@ NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
 TYPE = re.compile(r"(?:struct|class|enum class|union) (\w+)[^;()]*\{")
 # What prints: libraries never do, and the program only where control characters are taken out of what files hold.
 PRINTS = re.compile(r"\b(fmt::print|f?printf|f?puts|putchar|say)\s*\(|\bstd::(cout|cerr|clog)\b")
-SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "app/*"]
+SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "report/*", "trials/*", "campaign/*", "paper/*", "app/*"]
 PRINTERS = ["app/main.cpp", "app/print.cpp", "core/progress.cpp", "core/standard_streams.*"]
 DOCUMENT = "docs/architecture.md"
 

@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <map>
 
-#include "app/whole_picture.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/rng.h"
 #include "core/table.h"
 #include "core/units.h"
+#include "report/whole_picture.h"
 #include "tests/app/run_fathom.h"
 #include "tests/app/svg_text.h"
 #include "tests/core/file_size_limit.h"

@@ -1,5 +1,5 @@
 // What a diagnosis promises to say, whatever it was of.
-#include "app/diagnosis_words.h"
+#include "report/diagnosis_words.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Text of any characters in gnuplot's scripts and in pages: it is shown, and never obeyed.
-#include "app/gnuplot_text.h"
+#include "report/gnuplot_text.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/html.h"
-#include "app/whole_picture.h"
 #include "core/files.h"
 #include "core/rng.h"
 #include "core/visible_text.h"
+#include "report/html.h"
+#include "report/whole_picture.h"
 #include "tests/app/svg_text.h"
 #include "tests/core/temporary_folder.h"
 

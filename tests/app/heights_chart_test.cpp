@@ -1,5 +1,5 @@
 // The chart of a diagnosis: what a point says, and where it leads.
-#include "app/heights_chart.h"
+#include "report/heights_chart.h"
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <set>
 
-#include "app/whole_picture.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/table.h"
 #include "core/units.h"
+#include "report/whole_picture.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/file_size_limit.h"
 #include "tests/core/temporary_folder.h"

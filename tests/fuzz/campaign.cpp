@@ -1,5 +1,5 @@
 // Campaign specs.
-#include "app/campaign_spec.h"
+#include "campaign/campaign_spec.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

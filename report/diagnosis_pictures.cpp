@@ -1,0 +1,233 @@
+#include "report/diagnosis_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/table.h"
+#include "diagnosis/measurement/cup_regions.h"
+#include "report/fonts.h"
+#include "report/gnuplot.h"
+#include "report/gnuplot_text.h"
+#include "report/heights_chart.h"
+
+namespace fathom {
+namespace {
+
+/// A label in the middle of each liquid's stretch, and a line between two.
+struct LiquidMarks {
+  std::string commands, before_svg;  ///< as draw() takes them
+};
+
+LiquidMarks liquid_marks(const std::vector<Observation>& observations, const std::vector<std::size_t>& rows) {
+  LiquidMarks marks;
+  int number = 0;
+  for (std::size_t first = 0; first < rows.size();) {
+    const std::string& liquid = observations[rows[first]].factors.liquid;
+    std::size_t end = first;
+    while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
+    ++number;
+    const auto label = [&](const std::string& text) {
+      return fmt::format("set label {} {} at {}, graph 0.96 center textcolor rgb ink noenhanced\n", number,
+                         gnuplot_text(text), 0.5 * static_cast<double>(first + end - 1));
+    };
+    const std::string drawable = drawable_text(liquid);
+    marks.commands += label(drawable);
+    if (drawable != liquid) marks.before_svg += label(liquid);
+    if (first > 0)
+      marks.commands += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
+                                    static_cast<double>(first) - 0.5);
+    first = end;
+  }
+  return marks;
+}
+
+struct Mean {
+  double before = 0.0, after = 0.0;
+  int count = 0;
+
+  void add(double was, double is) {
+    before += was;
+    after += is;
+    ++count;
+  }
+};
+
+/// One tile of the map: a third of the image, or a part of a disc.
+struct Tile {
+  double x, y, radius, from_deg, to_deg;
+};
+constexpr std::array<Tile, 5> kCupTiles{{{1.5, 1.5, 0.75, 0, 360},
+                                         {1.5, 1.5, 1.5, 225, 315},
+                                         {1.5, 1.5, 1.5, 45, 135},
+                                         {1.5, 1.5, 1.5, 135, 225},
+                                         {1.5, 1.5, 1.5, -45, 45}}};
+
+std::map<std::string, Mean> means_by_region(const DiagnosedCampaign& campaign, std::string_view observable) {
+  std::map<std::string, Mean> means;
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i)
+    if (campaign.observations[i].observable == observable)
+      means[campaign.observations[i].factors.region].add(campaign.diagnosis.before[i], campaign.diagnosis.after[i]);
+  return means;
+}
+
+}  // namespace
+
+void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  Table table({"observable", "region", "session", "pour", "placement", "liquid", "fill_mm", "distance_mm", "lateral_mm",
+               "measured", "before", "after", "sigma", "pixels"});
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i) {
+    const Observation& o = campaign.observations[i];
+    const Factors& f = o.factors;
+    table.add({o.observable, f.region, fmt::format("{}", f.session), fmt::format("{}", f.pour),
+               fmt::format("{}", f.placement), f.liquid, fmt::format("{:g}", f.fill_mm),
+               fmt::format("{:g}", f.distance_mm), fmt::format("{:g}", f.lateral_mm), fmt::format("{:.5g}", o.value),
+               fmt::format("{:.5g}", campaign.diagnosis.before[i]), fmt::format("{:.5g}", campaign.diagnosis.after[i]),
+               fmt::format("{:.5g}", campaign.diagnosis.error[i]), fmt::format("{:.5g}", o.pixels)});
+  }
+  write_table(folder / "residuals.csv", table);
+}
+
+bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  const std::vector<std::size_t> rows = heights_in_order(campaign.observations);
+  if (rows.empty()) return false;
+  Table table({"number", "before_mm", "after_mm", "sigma_mm"});
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    table.add({fmt::format("{}", i), fmt::format("{:.4f}", campaign.diagnosis.before[rows[i]]),
+               fmt::format("{:.4f}", campaign.diagnosis.after[rows[i]]),
+               fmt::format("{:.4f}", campaign.diagnosis.error[rows[i]])});
+  write_table(folder / "heights.csv", table);
+  const LiquidMarks marks = liquid_marks(campaign.observations, rows);
+  draw(folder, "heights",
+       fmt::format(R"(
+set title 'Heights in the cup: measured minus model'
+set xlabel 'heights, by liquid, fill, distance and part of the cup'
+set ylabel 'measured − model [mm]'
+set xrange [-1:{}]; set offsets 0, 0, graph 0.12, graph 0.05; set key below; set format x ''
+{}
+plot 0 lc rgb ink notitle, \
+     'heights.csv' using 'number':'before_mm' with points pt 7 ps 0.6 lc rgb orange title 'before', \
+     '' using 'number':'after_mm':'sigma_mm' with yerrorbars pt 7 ps 0.6 lc rgb blue title 'after, with 1 σ')",
+                   rows.size(), marks.commands),
+       marks.before_svg);
+  return true;
+}
+
+bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  const auto desk = means_by_region(campaign, "desk_residual_mm"), cup = means_by_region(campaign, "height_mm");
+  constexpr double kBefore = 4.6, kDesk = 4.2;  // where the upper row begins, and the right column
+  double most = 1e-3;                           // [mm] of the colours' range
+  Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"}), unseen = sectors;
+  for (const bool after : {false, true}) {
+    const double bottom = after ? 0.0 : kBefore;
+    const auto value = [after, &most](const Mean& mean) {
+      const double shown = (after ? mean.after : mean.before) / mean.count;
+      most = std::max(most, std::abs(shown));
+      return fmt::format("{:.4f}", shown);
+    };
+    for (std::size_t i = 0; i < kDeskRegionNames.size(); ++i)
+      if (const auto found = desk.find(std::string(kDeskRegionNames[i])); found != desk.end())
+        tiles.add({fmt::format("{}", kDesk + 0.5 + static_cast<double>(i % 3)),
+                   fmt::format("{}", bottom + 2.5 - static_cast<double>(i / 3)), value(found->second)});
+    // The centre last: it lies on the ring's sectors.
+    for (const std::size_t i : {1U, 2U, 3U, 4U, 0U}) {
+      const Tile& t = kCupTiles[i];
+      const auto found = cup.find(std::string(kCupRegionNames[i]));
+      (found != cup.end() ? sectors : unseen)
+          .add({fmt::format("{}", t.x), fmt::format("{}", bottom + t.y), fmt::format("{}", t.radius),
+                fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg),
+                found != cup.end() ? value(found->second) : "0"});
+    }
+  }
+  if (tiles.rows() == 0 || sectors.rows() == 0) return false;
+  write_table(folder / "map_desk.csv", tiles);
+  write_table(folder / "map_cup.csv", sectors);
+  if (unseen.rows() > 0) write_table(folder / "map_unseen.csv", unseen);
+  const std::string sector = "using 'x':'y':'radius':'from_deg':'to_deg'";
+  draw(folder, "map",
+       fmt::format(R"(
+set title 'Mean of measured minus model'
+unset border; unset xtics; unset ytics; unset grid; unset key
+set size ratio -1; set xrange [-1.6:8]; set yrange [-0.8:8.6]
+set cblabel 'measured − model [mm]'; set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00')
+set cbrange [-{0}:{0}]
+set label 'inside the cup, from above' at 1.5, 8.2 center; set label 'desk, by third of the image' at 5.7, 8.2 center
+set label 'before' at -1.3, 6.1 center rotate by 90; set label 'after' at -1.3, 1.5 center rotate by 90
+set label '↓ the sensor is on this side' at 1.5, 4.2 center; set label '↓ the sensor is on this side' at 1.5, -0.4 center
+set label 'near the sensor' at 5.7, 4.2 center; set label 'near the sensor' at 5.7, -0.4 center
+plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb ink fillcolor palette, \
+     {1}'map_cup.csv' {2}:'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)",
+                   most,
+                   unseen.rows() > 0
+                       ? fmt::format("'map_unseen.csv' {} with circles fillstyle solid border lc rgb ink fillcolor rgb "
+                                     "'#D0D0D0', ",
+                                     sector)
+                       : "",
+                   sector));
+  return true;
+}
+
+bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  constexpr double kPanel = 6.0;  // a cell is one wide
+  const bool has_after = !campaign.diagnosis.effects.empty();
+  const double before_at = has_after ? 6.4 : 0.0;
+  double width_mm = std::numeric_limits<double>::infinity();
+  for (const Observation& o : campaign.observations)
+    if (const auto& at = o.factors.within_mm)
+      for (const double along : {std::abs(at->x()), std::abs(at->y())})
+        if (along > 0.5) width_mm = std::min(width_mm, along);
+  Table cells({"x", "y", "mean_mm"});
+  std::vector<std::string> liquids;
+  double most = 1e-3;  // [mm] of the colours' range
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i) {
+    const Factors& f = campaign.observations[i].factors;
+    if (!f.within_mm) continue;
+    const auto known = std::find(liquids.begin(), liquids.end(), f.liquid);
+    const auto panel = static_cast<double>(known - liquids.begin());
+    if (known == liquids.end()) liquids.push_back(f.liquid);
+    for (int after = 0; after <= static_cast<int>(has_after); ++after) {
+      const double shown = after ? campaign.diagnosis.after[i] : campaign.diagnosis.before[i];
+      most = std::max(most, std::abs(shown));
+      cells.add({fmt::format("{:.2f}", kPanel * panel + f.within_mm->x() / width_mm),
+                 fmt::format("{:.2f}", (after ? 0.0 : before_at) + f.within_mm->y() / width_mm),
+                 fmt::format("{:.2f}", shown)});
+    }
+  }
+  if (liquids.empty()) return false;
+  write_table(folder / "shape.csv", cells);
+  const auto label = [&](std::size_t panel, const std::string& text) {
+    return fmt::format("set label {} {} at {}, {} center noenhanced\n", panel + 1, gnuplot_text(text),
+                       kPanel * static_cast<double>(panel), before_at + 3.2);
+  };
+  std::string labels, before_svg;
+  for (std::size_t panel = 0; panel < liquids.size(); ++panel) {
+    const std::string drawable = drawable_text(liquids[panel]);
+    labels += label(panel, drawable);
+    if (drawable != liquids[panel]) before_svg += label(panel, liquids[panel]);
+  }
+  draw(folder, "shape",
+       fmt::format(R"(
+set title 'Shape of what is seen in the cup, in mm: measured minus model'
+unset border; unset xtics; unset ytics; unset grid; unset key; unset colorbox
+set size ratio -1; set xrange [-4:{1}]; set yrange [-4:{2}]
+set palette defined (0 '#7DB9DC', 0.5 '#FFFFFF', 1 '#F0A57A'); set cbrange [-{0}:{0}]
+{5}
+set label 102 '↓ the sensor is on this side' at {3}, -3.4 center
+{4}
+plot 'shape.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb pale fillcolor palette, \
+     '' using 'x':'y':'mean_mm' with labels font ',8' textcolor rgb ink)",
+                   most, kPanel * static_cast<double>(liquids.size()) - 3.0, before_at + 4.2,
+                   0.5 * kPanel * static_cast<double>(liquids.size() - 1), labels,
+                   has_after
+                       ? fmt::format("set label 100 'before' at -3.3, {} center rotate by 90; set label 101 'after' "
+                                     "at -3.3, 0 center rotate by 90",
+                                     before_at)
+                       : ""),
+       before_svg);
+  return true;
+}
+
+}  // namespace fathom

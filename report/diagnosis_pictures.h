@@ -1,0 +1,20 @@
+// What the model leaves of a campaign, before and after effects were added: as a table and as pictures.
+#pragma once
+
+#include "report/diagnosis_report.h"
+
+namespace fathom {
+
+/// residuals.csv: every observation with its factors, measured minus predicted, 1 σ of that, and its pixels.
+void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+/// heights.png: the heights' residuals over the campaign, liquid by liquid. False when there are no heights.
+bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+/// map.png: mean residual in each region of the cup and of the desk. False when heights are all there is.
+bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+/// shape.png: residuals of the shape of what is seen in the cup, liquid by liquid. False where none was measured.
+bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
+}  // namespace fathom

@@ -1,0 +1,20 @@
+// The failures of an evaluation on one page: counted by kind, each with its picture and the method's words.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "trials/clutter_trial.h"
+
+namespace fathom {
+
+/// How a trial failed first, in one word for a file's name; nothing when all is right: a miss, "liquid" (one is seen in
+/// an empty cup, or none in a filled one) or "false_cup".
+std::string failure_of(const TrialResult& trial);
+
+/// Writes folder/failures/index.html, which shows failures/NUMBER_KIND.png of these trials. An earlier run may have
+/// left pictures of more.
+void write_failure_gallery(const std::filesystem::path& folder, const std::vector<TrialResult>& trials);
+
+}  // namespace fathom

@@ -1,0 +1,162 @@
+#include "trials/liquid_rates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/files.h"
+#include "report/gnuplot.h"
+#include "trials/share_rows.h"
+
+namespace fathom {
+namespace {
+
+bool is_filled(const TrialCup& cup) { return cup.liquid != "empty"; }
+
+std::vector<const TrialCup*> found_cups(const std::vector<TrialResult>& trials) {
+  std::vector<const TrialCup*> cups;
+  for (const TrialResult& trial : trials)
+    for (const TrialCup& cup : trial.cups)
+      if (cup.found) cups.push_back(&cup);
+  return cups;
+}
+
+/// How many of the cups that are `asked` for are `right`.
+template <class Asked, class Right>
+void add_share_of(const std::string& name, const std::vector<const TrialCup*>& cups, Asked asked, Right right,
+                  std::vector<Row>& rows) {
+  int hits = 0, all = 0;
+  for (const TrialCup* cup : cups)
+    if (asked(*cup)) ++all, hits += right(*cup);
+  if (all > 0) add_share(name, hits, all, rows);
+}
+
+template <class Counts>
+void add_count_of(const std::string& name, const std::vector<const TrialCup*>& cups, Counts counts,
+                  std::vector<Row>& rows) {
+  rows.push_back({name, static_cast<double>(std::count_if(cups.begin(), cups.end(),
+                                                          [&](const TrialCup* cup) { return counts(*cup); }))});
+}
+
+struct ProbabilityClass {
+  int cups = 0, filled = 0;
+  double p_sum = 0.0;
+
+  double mean_p() const { return p_sum / cups; }
+  double share() const { return static_cast<double>(filled) / cups; }
+};
+
+using ProbabilityClasses = std::array<ProbabilityClass, 10>;
+
+ProbabilityClasses classes_of(const std::vector<const TrialCup*>& cups) {
+  ProbabilityClasses classes;
+  for (const TrialCup* cup : cups) {
+    if (!cup->p_liquid) continue;
+    const auto index = static_cast<std::size_t>(*cup->p_liquid * static_cast<double>(classes.size()));
+    ProbabilityClass& its = classes[std::min(index, classes.size() - 1)];
+    ++its.cups;
+    its.filled += is_filled(*cup);
+    its.p_sum += *cup->p_liquid;
+  }
+  return classes;
+}
+
+void add_calibration(const std::vector<const TrialCup*>& cups, std::vector<Row>& rows) {
+  double off = 0.0;
+  int count = 0;
+  for (const ProbabilityClass& its : classes_of(cups)) {
+    if (its.cups == 0) continue;
+    off += its.cups * std::abs(its.mean_p() - its.share());
+    count += its.cups;
+  }
+  if (count > 0) rows.push_back({"p_liquid_calibration_error", off / count});
+}
+
+void add_levels(const std::vector<const TrialCup*>& cups, std::vector<Row>& rows) {
+  const auto error = [](const TrialCup& cup) { return std::abs(*cup.fill_found_mm - cup.fill_mm); };
+  const auto told = [](const TrialCup& cup) { return is_filled(cup) && cup.fill_found_mm.has_value(); };
+  for (const LiquidKind kind : {LiquidKind::kOpaque, LiquidKind::kTransparent}) {
+    double sum = 0.0;
+    int count = 0;
+    for (const TrialCup* cup : cups)
+      if (told(*cup) && cup->kind == name_of(kind)) sum += error(*cup), ++count;
+    if (count > 0) rows.push_back({fmt::format("fill_mean_absolute_error_{}", name_of(kind)), sum / count, "mm"});
+  }
+  constexpr double k95 = 1.96;
+  add_share_of(
+      "fill_within_95", cups, told, [&](const TrialCup& cup) { return error(cup) <= k95 * *cup.fill_sigma_mm; }, rows);
+}
+
+std::string number(double value) { return fmt::format("{:.4f}", value); }
+
+}  // namespace
+
+std::vector<Row> liquid_rates(const std::vector<TrialResult>& trials) {
+  const std::vector<const TrialCup*> cups = found_cups(trials);
+  std::vector<Row> rows;
+  const auto unknown = [](const TrialCup& cup) { return cup.liquid_found == "unknown"; };
+  const auto sure = [&](const TrialCup& cup) { return is_filled(cup) && !unknown(cup); };
+  const auto said_yes = [](const TrialCup& cup) { return cup.liquid_found == "yes"; };
+  add_share_of("sensitivity", cups, sure, said_yes, rows);
+  std::set<double> depths_mm;
+  for (const TrialCup* cup : cups)
+    if (is_filled(*cup)) depths_mm.insert(cup->fill_mm);
+  for (const double depth_mm : depths_mm)
+    add_share_of(
+        fmt::format("sensitivity_{:g}_mm", depth_mm), cups,
+        [&](const TrialCup& cup) { return sure(cup) && cup.fill_mm == depth_mm; }, said_yes, rows);
+  add_share_of(
+      "specificity", cups, [&](const TrialCup& cup) { return !is_filled(cup) && !unknown(cup); },
+      [](const TrialCup& cup) { return cup.liquid_found == "no"; }, rows);
+  add_count_of("liquid_unknown", cups, unknown, rows);
+  add_calibration(cups, rows);
+  const auto kind_known = [&](const TrialCup& cup) {
+    return is_filled(cup) && said_yes(cup) && cup.kind_found != "unknown";
+  };
+  add_share_of(
+      "kind_right", cups, kind_known, [](const TrialCup& cup) { return cup.kind_found == cup.kind; }, rows);
+  add_count_of(
+      "kind_unknown", cups,
+      [&](const TrialCup& cup) { return is_filled(cup) && said_yes(cup) && cup.kind_found == "unknown"; }, rows);
+  add_levels(cups, rows);
+  return rows;
+}
+
+Table reliability_table(const std::vector<TrialResult>& trials) {
+  Table table({"p_low", "p_high", "cups", "mean_p", "filled_share", "filled_low", "filled_high"});
+  const ProbabilityClasses classes = classes_of(found_cups(trials));
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const ProbabilityClass& its = classes[i];
+    if (its.cups == 0) continue;
+    const Interval interval = wilson_95(its.filled, its.cups);
+    const double width = 1.0 / static_cast<double>(classes.size()), low = width * static_cast<double>(i);
+    table.add({number(low), number(low + width), fmt::format("{}", its.cups), number(its.mean_p()), number(its.share()),
+               number(interval.low), number(interval.high)});
+  }
+  return table;
+}
+
+void write_reliability(const std::filesystem::path& folder, const std::vector<TrialResult>& trials) {
+  const Table table = reliability_table(trials);
+  if (table.rows() == 0) {
+    remove_drawing(folder, "reliability");
+    remove_if_ours(folder / "reliability.csv", "p_low,p_high");
+    return;
+  }
+  write_table(folder / "reliability.csv", table);
+  draw(folder, "reliability", R"(
+set title 'P(liquid) as told, and the share of such cups that are filled (95 % intervals, numbers of cups)'
+set xlabel 'mean P(liquid) of a class'
+set ylabel 'share that is filled'
+set xrange [-0.02:1.02]; set yrange [-0.02:1.1]; set size square
+set key top left reverse Left
+plot x with lines lw 1.5 dt 2 lc rgb ink title 'calibrated', \
+     'reliability.csv' using 'mean_p':'filled_share':'filled_low':'filled_high' with yerrorbars pt 7 ps 1.6 lw 2 lc rgb blue \
+       title 'told', \
+     '' using 'mean_p':'filled_high':(sprintf('%d', column('cups'))) with labels offset 0,0.8 textcolor rgb ink notitle)");
+}
+
+}  // namespace fathom
