@@ -71,7 +71,7 @@ void measure_match(benchmark::State& state, const StereoPair& pair) {
 void measure_opencv(benchmark::State& state, const StereoPair& pair, const cv::Ptr<cv::StereoMatcher>& matcher) {
   cv::setNumThreads(1);
   cv::Mat sixteenths;
-  for (auto _ : state) matcher->compute(pair.live, pair.reference, sixteenths);
+  for (auto _ : state) matcher->compute(pair.live, pair.halved_reference, sixteenths);
   report(state, match_error(pair, from_sixteenths(pair.sensor, sixteenths)));
 }
 

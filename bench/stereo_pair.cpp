@@ -60,7 +60,7 @@ StereoPair make_stereo_pair(Setup setup, const NoiseModel& noise) {
   StereoPair pair;
   pair.sensor = sensor;
   pair.live = eight_bits(halved(sensor, ir, 0));
-  pair.reference = eight_bits(halved(sensor, reference, margin));
+  pair.halved_reference = eight_bits(halved(sensor, reference, margin));
   pair.ir = std::move(ir);
   pair.reference = memorise(sensor, reference, margin);
   pair.true_disparity_px = true_disparity(sensor, trace_truth(scene.projector, rig));

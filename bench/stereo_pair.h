@@ -15,7 +15,7 @@ struct StereoPair {
   Reference reference;
   Image<float> true_disparity_px;  ///< width × height, relative to the reference plane; NaN where no dots fall
   cv::Mat live;                    ///< the halved infrared image, width × height, 8 bits
-  cv::Mat reference;  ///< the halved reference without its margin; live pixel x meets pixel x − disparity
+  cv::Mat halved_reference;  ///< the halved reference without its margin; live pixel x meets pixel x − disparity
 };
 
 StereoPair make_stereo_pair(Setup setup, const NoiseModel& noise);
