@@ -1,10 +1,9 @@
 #include "app/results.h"
 
-#include <fstream>
-
 #include "app/print.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
+#include "report/gnuplot.h"
 
 namespace fathom {
 

@@ -23,7 +23,7 @@ double whole(double value, double step) { return step > 0.0 ? step * std::round(
 
 /// p of one effect's departures beside the others': χ² by the degrees of freedom of its variance.
 double p_of(const Eigen::VectorXd& departures, const Eigen::MatrixXd& covariance, double dof) {
-  const double chi2 = departures.dot(covariance.completeOrthogonalDecomposition().solve(departures));
+  const double chi2 = departures.dot(pseudo_inverse(covariance) * departures);
   const double z = departures.size() == 1
                        ? std::sqrt(std::max(0.0, chi2))
                        : normal_quantile(0.5 * chi_squared_tail(chi2, static_cast<double>(departures.size())));

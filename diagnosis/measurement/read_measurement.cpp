@@ -163,6 +163,14 @@ void add_observations(const std::vector<std::size_t>& rows, const std::vector<Fr
     measurement.observations.push_back(observation_of(trials, measurement.frames[rows.front()], time_s, stood_s));
 }
 
+std::map<PlacementKey, std::vector<std::size_t>> rows_by_placement(const std::vector<FrameRecord>& frames,
+                                                                   const std::vector<bool>& left_out) {
+  std::map<PlacementKey, std::vector<std::size_t>> rows;
+  for (std::size_t row = 0; row < frames.size(); ++row)
+    if (!left_out[row]) rows[placement_of(frames[row])].push_back(row);
+  return rows;
+}
+
 /// "12 of 378 clouds WHAT and do not count: frames 3, 4, … and 7 more". Where it is most of them, the line of the first
 /// is an error.
 void note_clouds(const Misplaced& what, const std::vector<std::size_t>& rows, std::size_t clouds, const Table& table,
@@ -239,12 +247,10 @@ int Survey::sessions() const {
 }
 
 Desks Survey::desks() const {
-  std::map<PlacementKey, std::vector<std::size_t>> placements;
-  for (std::size_t i = 0; i < content_->readings.size(); ++i)
-    placements[placement_of(content_->measurement.frames[i])].push_back(i);
+  const std::vector<FrameRecord>& frames = content_->measurement.frames;
   Desks desks;
-  for (const auto& [key, rows] : placements) {
-    const FrameRecord& frame = content_->measurement.frames[rows.front()];
+  for (const auto& [key, rows] : rows_by_placement(frames, std::vector<bool>(frames.size()))) {
+    const FrameRecord& frame = frames[rows.front()];
     DeskCells& placement = desks[{frame.session, frame.bare_desk(), frame.distance_m, frame.lateral_m}].emplace_back();
     for (const std::size_t row : rows) placement.add(content_->readings[row].cells);
   }
@@ -264,10 +270,8 @@ Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
   leave_out_misplaced(table, readings, measurement);
   Copies copies = find_copies(measurement.frames, prints);
   std::move(copies.mistakes.begin(), copies.mistakes.end(), std::back_inserter(measurement.mistakes));
-  std::map<PlacementKey, std::vector<std::size_t>> placements;
-  for (std::size_t row = 0; row < measurement.frames.size(); ++row)
-    if (!copies.left_out[row]) placements[placement_of(measurement.frames[row])].push_back(row);
-  for (const auto& [key, rows] : placements) add_observations(rows, readings, measurement);
+  for (const auto& [key, rows] : rows_by_placement(measurement.frames, copies.left_out))
+    add_observations(rows, readings, measurement);
   note_rounding(measurement);
   for (Observation& motion : desk_motion(measurement.observations, measurement.rig))
     measurement.observations.push_back(std::move(motion));
