@@ -1,4 +1,4 @@
-// `fathom list`: the libraries that come with the program.
+// `fathom list`: the libraries that come with the program, and the keys of scene files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -60,6 +60,31 @@ std::string effects_text(bool as_json) {
   return as_json ? json_text(list) : text;
 }
 
+/// The keys of a scene file: what they mean, what is allowed, and what holds without them.
+std::string keys_text(bool as_json) {
+  Json list = Json::array();
+  std::string text;
+  for (const KeyTable& table : scene_key_tables()) {
+    Json keys = Json::array();
+    text += table.place + "\n";
+    for (const KeyRow& row : table.rows) {
+      keys.push_back({{"key", row.key},
+                      {"meaning", row.meaning},
+                      {"allowed", row.allowed},
+                      {"required", row.is_required},
+                      {"default", row.standard},
+                      {"schema", row.schema}});
+      const bool shows = row.is_required || !(row.standard.is_null() || row.standard.is_object());
+      text += fmt::format("  {:<22} {}; {}{}\n", row.key, row.meaning, row.allowed,
+                          !shows            ? ""
+                          : row.is_required ? "; required"
+                                            : "; default " + row.standard.dump());
+    }
+    list.push_back({{"place", table.place}, {"definition", table.definition}, {"title", table.title}, {"keys", keys}});
+  }
+  return as_json ? json_text(list) : text;
+}
+
 /// {"n": 1.336, "at_nm": 830} as "n 1.336, at_nm 830"; anything else as it stands.
 std::string shown(const Json& value) {
   if (!value.is_object()) return value.dump();
@@ -93,12 +118,14 @@ std::string library_text(const std::string& library, bool as_json) {
 
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common) {
   const auto library = std::make_shared<std::string>();
-  app.add_option("library", *library, "media, walls, cups, solids, sensors or effects")
+  app.add_option("library", *library, "media, walls, cups, solids, sensors, effects, or the keys of a scene")
       ->required()
-      ->check(CLI::IsMember({"media", "walls", "cups", "solids", "sensors", "effects"}));
+      ->check(CLI::IsMember({"media", "walls", "cups", "solids", "sensors", "effects", "keys"}));
   return [library, &common] {
-    const bool effects = *library == "effects";
-    print_results(common, *library, ".txt", effects ? effects_text(common.json) : library_text(*library, common.json));
+    const std::string text = *library == "effects" ? effects_text(common.json)
+                             : *library == "keys"  ? keys_text(common.json)
+                                                   : library_text(*library, common.json);
+    print_results(common, *library, ".txt", text);
   };
 }
 

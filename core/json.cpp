@@ -37,7 +37,7 @@ void JsonReader::fail_at(std::string_view key, std::string_view what) const {
   throw Error(file_, fmt::format("{}/{}", pointer_, key), what);
 }
 
-void JsonReader::allow_only(std::initializer_list<std::string_view> keys) const {
+void JsonReader::allow_only(std::span<const std::string_view> keys) const {
   if (!value_->is_object()) fail(fmt::format("must be an object, got {}", shown(*value_)));
   for (const auto& [key, ignored] : value_->items()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;

@@ -32,7 +32,10 @@ class JsonReader {
   [[noreturn]] void fail_at(std::string_view key, std::string_view what) const;
 
   /// This must be an object with no keys but these. Call first.
-  void allow_only(std::initializer_list<std::string_view> keys) const;
+  void allow_only(std::span<const std::string_view> keys) const;
+  void allow_only(std::initializer_list<std::string_view> keys) const {
+    allow_only(std::span<const std::string_view>(keys.begin(), keys.size()));
+  }
   bool has(std::string_view key) const { return value_->is_object() && value_->contains(key); }
 
   JsonReader at(std::string_view key) const;  ///< required member

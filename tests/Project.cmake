@@ -8,10 +8,10 @@ add_test(NAME links COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/
 set_tests_properties(layers layers_test skipped_test constants_page links PROPERTIES LABELS architecture)
 
 if(FATHOM_SIMULATOR)
-  add_test(NAME effects_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/effects-page --check $<TARGET_FILE:fathom>)
+  add_test(NAME pages COMMAND ${PROJECT_SOURCE_DIR}/scripts/pages --check $<TARGET_FILE:fathom>)
   add_test(NAME results_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/results_test.py)
   set_tests_properties(results_test PROPERTIES ENVIRONMENT FATHOM=$<TARGET_FILE:fathom>)
-  set_tests_properties(effects_page PROPERTIES LABELS architecture)
+  set_tests_properties(pages PROPERTIES LABELS architecture)
 endif()
 
 find_program(FATHOM_CLANG_FORMAT clang-format-14)

@@ -6,44 +6,13 @@
 namespace fathom {
 
 const std::vector<Effect>& effect_registry() {
-  static const std::vector<Effect> registry{effects::sensor_height(),
-                                            effects::sensor_pitch(),
-                                            effects::sensor_roll(),
-                                            effects::baseline(),
-                                            effects::focal_length(),
-                                            effects::principal_point(),
-                                            effects::disparity_offset(),
-                                            effects::radial_distortion(),
-                                            effects::depth_quantization(),
-                                            effects::thermal_drift(),
-                                            effects::depth_wander(),
-                                            effects::depth_step_phase(),
-                                            effects::depth_truncation(),
-                                            effects::noise_correlation(),
-                                            effects::reference_residue(),
-                                            effects::refractive_index(),
-                                            effects::absorption(),
-                                            effects::subsurface_scattering(),
-                                            effects::stratification(),
-                                            effects::meniscus(),
-                                            effects::surface_tilt(),
-                                            effects::foam(),
-                                            effects::ripples(),
-                                            effects::cup_bottom_height(),
-                                            effects::concave_bottom(),
-                                            effects::wall_albedo(),
-                                            effects::cup_placement(),
-                                            effects::wall_multipath(),
-                                            effects::specular_ghost(),
-                                            effects::fill_offset(),
-                                            effects::fill_scale(),
-                                            effects::evaporation(),
-                                            effects::label_swap(),
-                                            effects::unit_error(),
-                                            effects::wrong_cup(),
-                                            effects::window_averaging(),
-                                            effects::skew_approximation(),
-                                            effects::colour_registration()};
+  static const std::vector<Effect> registry = [] {
+    std::vector<Effect> all;
+    for (const auto family : {effects::sensor_effects, effects::liquid_effects, effects::cup_effects,
+                              effects::light_effects, effects::bookkeeping_effects, effects::processing_effects})
+      for (Effect& effect : family()) all.push_back(std::move(effect));
+    return all;
+  }();
   return registry;
 }
 

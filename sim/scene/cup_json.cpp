@@ -114,23 +114,55 @@ double depth_from_json(const JsonReader& json, const Cup& cup) {
   return depth;
 }
 
+std::span<const Field<Ripple>> ripple_fields() {
+  static const Field<Ripple> fields[] = {
+      {"wavelength_mm", Length{&Ripple::wavelength}, kLengthMm, "from crest to crest", true},
+      {"amplitude_mm", Length{&Ripple::amplitude}, kLengthOrNoneMm, "of the sine", true},
+      {"azimuth_deg", Angle{&Ripple::azimuth}, {}, "direction in which the phase grows, from +x towards +y"},
+      {"phase_deg", Angle{&Ripple::phase}, {}, "at the cup's axis; 0: level there, rising"}};
+  return fields;
+}
+
 Ripple ripple_from_json(const JsonReader& json) {
-  json.allow_only({"wavelength_mm", "amplitude_mm", "azimuth_deg", "phase_deg"});
-  return {.wavelength = metres_from_mm(json.number("wavelength_mm", kLengthMm)),
-          .amplitude = metres_from_mm(json.number("amplitude_mm", kLengthOrNoneMm)),
-          .azimuth = radians_from_deg(json.number_or("azimuth_deg", 0.0)),
-          .phase = radians_from_deg(json.number_or("phase_deg", 0.0))};
+  Ripple ripple{};
+  read_fields(json, ripple_fields(), ripple);
+  return ripple;
+}
+
+std::span<const Field<Wetting>> wetting_fields() {
+  static const Field<Wetting> fields[] = {
+      {"contact_angle_deg",
+       Angle{&Wetting::contact_angle},
+       {1.0, 179.0},
+       "of the meniscus at an upright wall, in the liquid: Young and Laplace's profile, up below 90°"},
+      {"capillary_length_mm", Length{&Wetting::capillary_length}, kLengthMm,
+       "of the liquid, beside `contact_angle_deg`"}};
+  return fields;
+}
+
+std::span<const Field<LiquidForm>> surface_fields() {
+  static const Field<LiquidForm> fields[] = {
+      {"tilt_deg", Angle{&LiquidForm::tilt}, {0.0, 45.0}, "of the surface, as a plane"},
+      {"tilt_azimuth_deg", Angle{&LiquidForm::tilt_azimuth}, {}, "direction in which it rises, from +x towards +y"},
+      {"ripples",
+       Part<LiquidForm>{[](const JsonReader& json, LiquidForm& form) {
+                          for (const JsonReader& ripple : json.items())
+                            form.ripples.push_back(ripple_from_json(ripple));
+                        },
+                        nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/ripple"}})", "a list of objects"},
+       {},
+       "sines across the surface, which are added"}};
+  return fields;
 }
 
 LiquidForm form_from_json(const JsonReader& json) {
-  json.allow_only({"contact_angle_deg", "capillary_length_mm", "tilt_deg", "tilt_azimuth_deg", "ripples"});
+  std::vector<std::string_view> of_wetting;
+  for (const auto& field : wetting_fields()) of_wetting.push_back(field.key);
   LiquidForm form;
-  form.tilt = radians_from_deg(json.number_or("tilt_deg", 0.0, {0.0, 45.0}));
-  form.tilt_azimuth = radians_from_deg(json.number_or("tilt_azimuth_deg", 0.0));
-  for (const JsonReader& ripple : json.items_or_none("ripples")) form.ripples.push_back(ripple_from_json(ripple));
+  read_fields(json, surface_fields(), form, of_wetting);
   if (json.has("contact_angle_deg") || json.has("capillary_length_mm"))
-    form.wetting = Wetting{radians_from_deg(json.number("contact_angle_deg", {1.0, 179.0})),
-                           metres_from_mm(json.number("capillary_length_mm", kLengthMm))};
+    form.wetting = Wetting{radians_from_deg(json.number("contact_angle_deg", wetting_fields()[0].range)),
+                           metres_from_mm(json.number("capillary_length_mm", wetting_fields()[1].range))};
   return form;
 }
 
@@ -200,6 +232,14 @@ Cup cup_from_json(const JsonReader& json) {
   if (is_mesh) find_cavity_of(json, std::get<MeshCup>(cup.shape));
   pour(json, cup);
   return cup;
+}
+
+std::vector<KeyTable> surface_key_tables() {
+  std::vector<KeyRow> surface = key_rows(wetting_fields(), Wetting{});
+  for (KeyRow& row : surface) row.standard = nullptr;
+  for (KeyRow& row : key_rows(surface_fields(), LiquidForm{})) surface.push_back(std::move(row));
+  return {{"cups[].surface", "surface", "A liquid's surface", std::move(surface)},
+          {"cups[].surface.ripples[]", "ripple", "Ripple", key_rows(ripple_fields(), Ripple{})}};
 }
 
 }  // namespace fathom

@@ -53,33 +53,50 @@ const std::array<std::pair<std::string, NoiseModel>, 4>& presets() {
   return all;
 }
 
-struct Part {
-  const char* key;
-  double NoiseModel::*value;
-  Range range;
-};
-
 constexpr Range kShare{0.0, 1.0};
-const std::array<Part, 12> kParts{{{"speckle_shape", &NoiseModel::speckle_shape, kNonNegative},
-                                   {"speckle_mean", &NoiseModel::speckle_mean, kPositive},
-                                   {"pixel_speckle", &NoiseModel::pixel_speckle, kShare},
-                                   {"reference_speckle", &NoiseModel::reference_speckle, kShare},
-                                   {"speckle_renewed", &NoiseModel::speckle_renewed, kShare},
-                                   {"ambient_dn", &NoiseModel::ambient_dn, kNonNegative},
-                                   {"gain", &NoiseModel::gain, kPositive},
-                                   {"electrons_per_dn", &NoiseModel::electrons_per_dn, kNonNegative},
-                                   {"read_dn", &NoiseModel::read_dn, kNonNegative},
-                                   {"offset_dn", &NoiseModel::offset_dn, {-1024.0, 1024.0}},
-                                   {"bloom_share", &NoiseModel::bloom_share, kShare},
-                                   {"bloom_ir_px", &NoiseModel::bloom_ir_px, {0.5, 64.0}}}};
 
-DisparityNoise disparity_from_json(const JsonReader& json) {
-  json.allow_only({"facing_px", "lateral_px", "renewed"});
-  DisparityNoise noise;
-  noise.facing_px = json.number_or("facing_px", noise.facing_px, {0.0, 4.0});
-  noise.lateral_px = json.number_or("lateral_px", noise.lateral_px, {0.0, 16.0});
-  noise.renewed = json.number_or("renewed", noise.renewed, kShare);
-  return noise;
+std::span<const Field<DisparityNoise>> disparity_fields() {
+  static const Field<DisparityNoise> fields[] = {
+      {"facing_px",
+       &DisparityNoise::facing_px,
+       {0.0, 4.0},
+       "standard deviation of the disparity of a surface that faces the sensor, far away"},
+      {"lateral_px",
+       &DisparityNoise::lateral_px,
+       {0.0, 16.0},
+       "standard deviation of the place that a pixel reads, along each axis"},
+      {"renewed", &DisparityNoise::renewed, kShare, "share of both variances that each frame draws anew"}};
+  return fields;
+}
+
+std::span<const Field<NoiseModel>> noise_fields() {
+  static const Field<NoiseModel> fields[] = {
+      {"speckle_shape", &NoiseModel::speckle_shape, kNonNegative,
+       "of the Gamma distribution of the dots' brightness, at least 1; 0: none"},
+      {"speckle_mean", &NoiseModel::speckle_mean, kPositive, "mean of that distribution"},
+      {"pixel_speckle", &NoiseModel::pixel_speckle, kShare,
+       "share of the light that is coherent and makes speckle on the pixels, with the grain of `optics`"},
+      {"reference_speckle", &NoiseModel::reference_speckle, kShare, "the same in the reference image"},
+      {"speckle_renewed", &NoiseModel::speckle_renewed, kShare,
+       "share of the pixels' speckle that each frame draws anew; all frames of a scene have the rest in common"},
+      {"ambient_dn", &NoiseModel::ambient_dn, kNonNegative, "ambient infrared light on albedo 1"},
+      {"gain", &NoiseModel::gain, kPositive, "of exposure and amplifier"},
+      {"electrons_per_dn", &NoiseModel::electrons_per_dn, kNonNegative,
+       "at gain 1; shot noise has the variance signal × gain / this; 0: none"},
+      {"read_dn", &NoiseModel::read_dn, kNonNegative, "standard deviation of the detector's own noise"},
+      {"offset_dn", &NoiseModel::offset_dn, {-1024.0, 1024.0}, "mean of the detector's own noise"},
+      {"bloom_share", &NoiseModel::bloom_share, kShare,
+       "share of the light above saturation that spills to the pixels around"},
+      {"bloom_ir_px", &NoiseModel::bloom_ir_px, {0.5, 64.0}, "mean distance along each axis that it spills"},
+      {"bits", &NoiseModel::bits, {0.0, 16.0}, "of rounding and saturation; 0: none"},
+      {"disparity",
+       Part<NoiseModel>{
+           [](const JsonReader& json, NoiseModel& noise) { read_fields(json, disparity_fields(), noise.disparity); },
+           [](const NoiseModel& noise) { return json_from_fields(disparity_fields(), noise.disparity); },
+           R"({"$ref": "#/$defs/disparity_noise"})", "an object"},
+       {},
+       "noise of geometric captures, which have no image that noise could come from: statistics of measured desks"}};
+  return fields;
 }
 
 }  // namespace
@@ -87,31 +104,23 @@ DisparityNoise disparity_from_json(const JsonReader& json) {
 NoiseModel basic_noise() { return basic(); }
 
 NoiseModel noise_from_json(const JsonReader& json) {
-  if (json.value().is_string()) {
-    std::vector<std::string> names;
-    for (const auto& preset : presets()) names.push_back(preset.first);
-    return presets()[json.choice(names, "noise preset")].second;
-  }
-  json.allow_only({"speckle_shape", "speckle_mean", "pixel_speckle", "reference_speckle", "speckle_renewed",
-                   "ambient_dn", "gain", "electrons_per_dn", "read_dn", "offset_dn", "bloom_share", "bloom_ir_px",
-                   "bits", "disparity"});
+  if (json.value().is_string()) return presets()[json.choice(noise_presets(), "noise preset")].second;
   NoiseModel noise;
-  for (const Part& part : kParts) noise.*part.value = json.number_or(part.key, noise.*part.value, part.range);
+  read_fields(json, noise_fields(), noise);
   if (noise.speckle_shape > 0.0 && noise.speckle_shape < 1.0)
     json.fail_at("speckle_shape", "must be 0 (none) or at least 1 (fully developed speckle)");
-  noise.bits = json.integer_or("bits", 0, 0, 16);
-  if (json.has("disparity")) noise.disparity = disparity_from_json(json.at("disparity"));
   return noise;
 }
 
-Json json_from_noise(const NoiseModel& noise) {
-  Json json = Json::object();
-  for (const Part& part : kParts) json[part.key] = noise.*part.value;
-  json["bits"] = noise.bits;
-  json["disparity"] = {{"facing_px", noise.disparity.facing_px},
-                       {"lateral_px", noise.disparity.lateral_px},
-                       {"renewed", noise.disparity.renewed}};
-  return json;
+Json json_from_noise(const NoiseModel& noise) { return json_from_fields(noise_fields(), noise); }
+
+std::vector<std::string> noise_presets() {
+  std::vector<std::string> names;
+  for (const auto& preset : presets()) names.push_back(preset.first);
+  return names;
 }
+
+std::vector<KeyRow> noise_keys() { return key_rows(noise_fields(), NoiseModel{}); }
+std::vector<KeyRow> disparity_noise_keys() { return key_rows(disparity_fields(), DisparityNoise{}); }
 
 }  // namespace fathom

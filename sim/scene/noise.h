@@ -2,7 +2,7 @@
 // captures without an image.
 #pragma once
 
-#include "core/json.h"
+#include "core/fields.h"
 
 namespace fathom {
 
@@ -41,6 +41,9 @@ struct NoiseModel {
 /// A preset's name, or an object of parts: what it does not name is off.
 NoiseModel noise_from_json(const JsonReader& json);
 Json json_from_noise(const NoiseModel& noise);
+std::vector<std::string> noise_presets();
+std::vector<KeyRow> noise_keys();
+std::vector<KeyRow> disparity_noise_keys();
 
 /// The noise that sensors have whose files name none.
 NoiseModel basic_noise();

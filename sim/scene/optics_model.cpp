@@ -1,7 +1,6 @@
 #include "sim/scene/optics_model.h"
 
 #include "core/lengths.h"
-#include "core/units.h"
 
 namespace fathom {
 
@@ -19,27 +18,25 @@ Eigen::Vector2d OpticsModel::undistorted(const Eigen::Vector2d& seen_at) const {
   return direction;
 }
 
-OpticsModel optics_from_json(const JsonReader& json, OpticsModel optics) {
-  json.allow_only({"f_number", "pixel_um", "focus_mm", "beam_mm", "camera_k1", "camera_k2", "projector_k1"});
+std::span<const Field<OpticsModel>> optics_fields() {
   constexpr Range kDistortion{-0.2, 0.2};
-  optics.f_number = json.number_or("f_number", optics.f_number, {0.7, 64.0});
-  optics.pixel_um = json.number_or("pixel_um", optics.pixel_um, {0.5, 50.0});
-  optics.focus = json.metres_or("focus_mm", optics.focus, kLengthOrNoneMm);
-  optics.beam = json.metres_or("beam_mm", optics.beam, {0.0, 5.0});
-  optics.camera_k1 = json.number_or("camera_k1", optics.camera_k1, kDistortion);
-  optics.camera_k2 = json.number_or("camera_k2", optics.camera_k2, kDistortion);
-  optics.projector_k1 = json.number_or("projector_k1", optics.projector_k1, kDistortion);
-  return optics;
-}
-
-Json json_from_optics(const OpticsModel& optics) {
-  return {{"f_number", optics.f_number},
-          {"pixel_um", optics.pixel_um},
-          {"focus_mm", mm_from_metres(optics.focus)},
-          {"beam_mm", mm_from_metres(optics.beam)},
-          {"camera_k1", optics.camera_k1},
-          {"camera_k2", optics.camera_k2},
-          {"projector_k1", optics.projector_k1}};
+  static const Field<OpticsModel> fields[] = {
+      {"f_number",
+       &OpticsModel::f_number,
+       {0.7, 64.0},
+       "of the infrared camera, whose speckle has grains of the wavelength times this"},
+      {"pixel_um", &OpticsModel::pixel_um, {0.5, 50.0}, "pitch of the infrared camera's pixels"},
+      {"focus_mm", Length{&OpticsModel::focus}, kLengthOrNoneMm, "distance that the camera sees sharply; 0: all"},
+      {"beam_mm",
+       Length{&OpticsModel::beam},
+       {0.0, 5.0},
+       "width (4 standard deviations) of the projector's beams where they leave it; 0: rays"},
+      {"camera_k1", &OpticsModel::camera_k1, kDistortion,
+       "radial distortion of the camera; negative: barrel. Clouds are made as if there were none, as the device does"},
+      {"camera_k2", &OpticsModel::camera_k2, kDistortion, "the same, with the fourth power of the radius"},
+      {"projector_k1", &OpticsModel::projector_k1, kDistortion,
+       "radial distortion of the projected pattern; positive: pincushion"}};
+  return fields;
 }
 
 }  // namespace fathom

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/json.h"
+#include "core/fields.h"
 
 namespace fathom {
 
@@ -13,7 +13,7 @@ struct OpticsModel {
   double f_number = 3.2;  ///< of the infrared camera, whose speckle has grains of λ F
   double pixel_um = 5.2;  ///< pitch of its pixels (MT9M001's)
   double focus = 0.0;     ///< [m] distance that it sees sharply; 0 = all
-  double beam = 0.0;      ///< [m] width (4 σ) of the projector's beams as they leave it; 0 = pencils of light
+  double beam = 0.0;      ///< [m] width (4 σ) of the projector's beams as they leave it; 0 = rays
   double camera_k1 = 0.0, camera_k2 = 0.0;
   double projector_k1 = 0.0;
 
@@ -29,7 +29,6 @@ struct OpticsModel {
   bool operator==(const OpticsModel&) const = default;
 };
 
-OpticsModel optics_from_json(const JsonReader& json, OpticsModel optics);
-Json json_from_optics(const OpticsModel& optics);
+std::span<const Field<OpticsModel>> optics_fields();
 
 }  // namespace fathom

@@ -56,7 +56,8 @@ class Resolver {
       }
       sensor = std::move(model);
     }
-    if (setup_.rig.sensor.pattern.image) sensor["pattern"]["image"] = copied(setup_.rig.sensor.pattern.image_file);
+    if (const PatternImage& image = setup_.rig.sensor.pattern.image; image.brightness)
+      sensor["pattern"]["image"] = copied(image.file);
     if (setup_.rig.sensor.unit.learned.map) sensor["unit"]["learned"] = copied_unit(setup_.rig.sensor.unit.learned);
   }
 

@@ -8,15 +8,25 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/fields.h"
 #include "core/image.h"
-#include "core/json.h"
 #include "core/pose.h"
 #include "sim/scene/noise.h"
 #include "sim/scene/optics_model.h"
 #include "sim/scene/unit_model.h"
 
 namespace fathom {
+
+/// Brightness of every position of the grid, 0 … 1, from a file.
+struct PatternImage {
+  std::shared_ptr<const Image<float>> brightness;  ///< nothing: none
+  std::string file;
+
+  /// Images are the same that have the same brightness, whatever files they came from.
+  bool operator==(const PatternImage& other) const;
+};
 
 /// The projected dots. A grid of positions, one step of `step_px` depth pixels of angle apart, made of equal tiles.
 struct PatternModel {
@@ -28,12 +38,9 @@ struct PatternModel {
   double zero_order = 1.0;       ///< brightness of the spot in each tile's middle over that of a dot
   double tile_spread = 0.0;      ///< standard deviation of the tiles' brightness over their mean
   std::uint64_t seed = 1;
-  /// Brightness of every position of the grid, 0 … 1, instead of dots of our own; and the file that it came from.
-  std::shared_ptr<const Image<float>> image;
-  std::string image_file;
+  PatternImage image;  ///< instead of dots of our own
 
-  /// Images are the same that have the same brightness, whatever file they came from.
-  bool operator==(const PatternModel& other) const;
+  bool operator==(const PatternModel&) const = default;
 };
 
 enum class MatchMethod {
@@ -138,6 +145,9 @@ Rig rig_from_json(const JsonReader& json);
 
 /// The whole description, as it can be read back.
 Json json_from_rig(const Rig& rig);
+
+/// What may stand in a sensor's description.
+std::vector<KeyTable> sensor_key_tables();
 
 /// Four rows of four numbers; lengths in metres.
 Json json_from_pose(const Pose& pose);

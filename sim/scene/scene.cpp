@@ -13,31 +13,67 @@
 #include "sim/scene/cup.h"
 #include "sim/scene/medium_json.h"
 #include "sim/scene/mesh_memory.h"
+#include "sim/scene/rig.h"
 
 namespace fathom {
 namespace {
 
 constexpr Range kAlbedo{0.0, 1.0};
 
+/// Lengths along x and y, in mm.
+constexpr std::string_view kPlaceSchema = R"({"$ref": "#/$defs/place2"})",
+                           kGlazeSchema = R"({"$ref": "#/$defs/glaze"})";
+
+std::span<const Field<Coat>> glaze_fields() {
+  static const Field<Coat> fields[] = {
+      {"roughness", &Coat::roughness, {kLeastRoughness, 1.0}, "α of the slopes of its facets (GGX)", true},
+      {"index", &Coat::index, {1.0, 4.0}, "refractive index"}};
+  return fields;
+}
+
+std::span<const Field<Desk>> desk_fields() {
+  static const Field<Desk> fields[] = {
+      {"albedo", &Desk::albedo, kAlbedo, "share of the light that it scatters back"},
+      {"glaze", Part<Desk>{nullptr, nullptr, kGlazeSchema, "an object"}, {}, "a clear coat, which mirrors"},
+      {"size_mm",
+       Part<Desk>{[](const JsonReader& json, Desk& desk) { desk.size = json.vector2(kPlaceMm) * kMetresPerMm; },
+                  [](const Desk& desk) {
+                    return Json{mm_that_read_back(desk.size.x()), mm_that_read_back(desk.size.y())};
+                  },
+                  R"({"$ref": "#/$defs/size2"})", "two lengths above 0"},
+       {},
+       "along x and y"},
+      {"centre_mm",
+       Part<Desk>{[](const JsonReader& json, Desk& desk) { desk.centre = json.vector2(kPlaceMm) * kMetresPerMm; },
+                  [](const Desk& desk) {
+                    return Json{mm_that_read_back(desk.centre.x()), mm_that_read_back(desk.centre.y())};
+                  },
+                  kPlaceSchema, "[x, y]"},
+       {},
+       "its middle"}};
+  return fields;
+}
+
 Desk desk_from_json(const JsonReader& json) {
-  json.allow_only({"albedo", "glaze", "size_mm", "centre_mm"});
   Desk desk;
-  desk.albedo = json.number_or("albedo", desk.albedo, kAlbedo);
+  read_fields(json, desk_fields(), desk);
   desk.glaze = glaze_from_json(json);
-  if (json.has("size_mm")) desk.size = json.at("size_mm").vector2(kPlaceMm) * kMetresPerMm;
   if (desk.size.minCoeff() <= 0.0) json.fail_at("size_mm", "must be two lengths above 0");
-  if (json.has("centre_mm")) desk.centre = json.at("centre_mm").vector2(kPlaceMm) * kMetresPerMm;
   return desk;
 }
 
+std::span<const Field<Handle>> handle_fields() {
+  static const Field<Handle> fields[] = {
+      {"low_mm", Length{&Handle::low}, kCupLengthMm, "height where it leaves the wall"},
+      {"high_mm", Length{&Handle::high}, kCupLengthMm, "height where it joins the wall again"},
+      {"reach_mm", Length{&Handle::reach}, kCupLengthMm, "how far its centre line stands out of the wall"},
+      {"tube_radius_mm", Length{&Handle::tube_radius}, kCupLengthMm, "radius of its section"}};
+  return fields;
+}
+
 Handle handle_from_json(const JsonReader& json) {
-  json.allow_only({"low_mm", "high_mm", "reach_mm", "tube_radius_mm"});
   Handle handle;
-  handle.low = metres_from_mm(json.number_or("low_mm", mm_from_metres(handle.low), kCupLengthMm));
-  handle.high = metres_from_mm(json.number_or("high_mm", mm_from_metres(handle.high), kCupLengthMm));
-  handle.reach = metres_from_mm(json.number_or("reach_mm", mm_from_metres(handle.reach), kCupLengthMm));
-  handle.tube_radius =
-      metres_from_mm(json.number_or("tube_radius_mm", mm_from_metres(handle.tube_radius), kCupLengthMm));
+  read_fields(json, handle_fields(), handle);
   if (handle.high <= handle.low) json.fail_at("high_mm", "must be above low_mm");
   return handle;
 }
@@ -100,10 +136,8 @@ CupShape cup_shape_from_json(const JsonReader& json) {
 
 std::optional<Coat> glaze_from_json(const JsonReader& json) {
   if (!json.has("glaze")) return std::nullopt;
-  const JsonReader glaze = json.at("glaze");
-  glaze.allow_only({"roughness", "index"});
-  Coat coat{glaze.number("roughness", {kLeastRoughness, 1.0})};
-  coat.index = glaze.number_or("index", coat.index, {1.0, 4.0});
+  Coat coat{};
+  read_fields(json.at("glaze"), glaze_fields(), coat);
   return coat;
 }
 
@@ -135,6 +169,15 @@ Scene scene_from_json(const JsonReader& json) {
   }
   for (const JsonReader& object : json.items_or_none("objects")) scene.objects.push_back(object_from_json(object));
   return scene;
+}
+
+std::vector<KeyTable> scene_key_tables() {
+  std::vector<KeyTable> tables = sensor_key_tables();
+  tables.push_back({"desk", "desk", "Desk", key_rows(desk_fields(), Desk{})});
+  tables.push_back({"cups[].shape.handle", "handle", "Handle", key_rows(handle_fields(), Handle{})});
+  tables.push_back({"desk.glaze, cups[].glaze", "glaze", "Glaze", key_rows(glaze_fields(), Coat{})});
+  for (KeyTable& table : surface_key_tables()) tables.push_back(std::move(table));
+  return tables;
 }
 
 }  // namespace fathom

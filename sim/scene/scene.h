@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/cup_profile.h"
-#include "core/json.h"
+#include "core/fields.h"
 #include "core/pose.h"
 #include "sim/optics/medium.h"
 #include "sim/scene/cavity.h"
@@ -166,6 +166,10 @@ Eigen::Quaterniond rotation_from_json(const JsonReader& json);
 /// The member position_mm of a thing that is put down, given its lowest point's height [m] before: two numbers place it
 /// on the desk, a third is the height of its lowest point.
 Eigen::Translation3d put_down(const JsonReader& json, double lowest);
+/// The objects of a scene file whose keys stand in tables.
+std::vector<KeyTable> scene_key_tables();
+/// Those of a liquid's surface.
+std::vector<KeyTable> surface_key_tables();
 /// Whether a file's name ends as a glTF file's.
 bool names_gltf(const std::string& file);
 

@@ -50,43 +50,50 @@ Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, 
   return residue;
 }
 
+std::span<const Field<UnitModel>> unit_fields() {
+  constexpr Range kSerial{0.0, 1 << 30};
+  static const Field<UnitModel> fields[] = {
+      {"disparity_offset_px",
+       &UnitModel::disparity_offset_px,
+       {-4.0, 4.0},
+       "what this unit's disparities have too much"},
+      {"wander_px",
+       &UnitModel::wander_px,
+       {0.0, 4.0},
+       "standard deviation of an error that all disparities of a frame share"},
+      {"disparity_sigma_px",
+       &UnitModel::disparity_sigma_px,
+       {0.0, 4.0},
+       "spread of the disparity's zero from unit to unit"},
+      {"scale_sigma", &UnitModel::scale_sigma, {0.0, 0.1}, "relative spread of focal length times baseline"},
+      {"serial", &UnitModel::serial, kSerial,
+       "which unit this is: it draws its errors and the speckle of its reference image"},
+      {"residue_px",
+       &UnitModel::residue_px,
+       {0.0, 4.0},
+       "standard deviation, over the image, of what the reference image is displaced by: a unit's own bias of place"},
+      {"residue_reach_px", &UnitModel::residue_reach_px, {4.0, 1000.0}, "distance over which that changes"},
+      {"warm_up_px", &UnitModel::warm_up_px, {-4.0, 4.0}, "what the disparities of a cold unit have too much"},
+      {"warm_up_s", &UnitModel::warm_up_s, kPositive, "time in which that falls to 1/e"},
+      {"on_for_s", &UnitModel::on_for_s, kNonNegative, "time since the unit was switched on, at frame 0"},
+      {"frame_interval_s", &UnitModel::frame_interval_s, kPositive, "from frame to frame"},
+      {"learned",
+       Part<UnitModel>{[](const JsonReader& json, UnitModel& unit) { unit.learned = learned_unit_from_json(json); },
+                       [](const UnitModel& unit) { return unit.learned.map ? Json(unit.learned.file) : Json(); },
+                       R"({"type": "string"})", "a path"},
+       {},
+       "a unit.json of fathom calibrate, relative to this file: its bias over the image comes to what is drawn"}};
+  return fields;
+}
+
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit) {
   if (json.value().is_string()) {
     unit.learned = learned_unit_from_json(json);
     unit.residue_px = 0.0;
     return unit;
   }
-  json.allow_only({"learned", "disparity_offset_px", "disparity_sigma_px", "scale_sigma", "serial", "residue_px",
-                   "residue_reach_px", "warm_up_px", "warm_up_s", "on_for_s", "wander_px", "frame_interval_s"});
-  if (json.has("learned")) unit.learned = learned_unit_from_json(json.at("learned"));
-  unit.disparity_offset_px = json.number_or("disparity_offset_px", unit.disparity_offset_px, {-4.0, 4.0});
-  unit.wander_px = json.number_or("wander_px", unit.wander_px, {0.0, 4.0});
-  unit.disparity_sigma_px = json.number_or("disparity_sigma_px", unit.disparity_sigma_px, {0.0, 4.0});
-  unit.scale_sigma = json.number_or("scale_sigma", unit.scale_sigma, {0.0, 0.1});
-  unit.serial = static_cast<std::uint64_t>(json.integer_or("serial", static_cast<int>(unit.serial), 0, 1 << 30));
-  unit.residue_px = json.number_or("residue_px", unit.residue_px, {0.0, 4.0});
-  unit.residue_reach_px = json.number_or("residue_reach_px", unit.residue_reach_px, {4.0, 1000.0});
-  unit.warm_up_px = json.number_or("warm_up_px", unit.warm_up_px, {-4.0, 4.0});
-  unit.warm_up_s = json.number_or("warm_up_s", unit.warm_up_s, kPositive);
-  unit.on_for_s = json.number_or("on_for_s", unit.on_for_s, kNonNegative);
-  unit.frame_interval_s = json.number_or("frame_interval_s", unit.frame_interval_s, kPositive);
+  read_fields(json, unit_fields(), unit);
   return unit;
-}
-
-Json json_from_unit(const UnitModel& unit) {
-  Json json = {{"disparity_offset_px", unit.disparity_offset_px},
-               {"wander_px", unit.wander_px},
-               {"disparity_sigma_px", unit.disparity_sigma_px},
-               {"scale_sigma", unit.scale_sigma},
-               {"serial", unit.serial},
-               {"residue_px", unit.residue_px},
-               {"residue_reach_px", unit.residue_reach_px},
-               {"warm_up_px", unit.warm_up_px},
-               {"warm_up_s", unit.warm_up_s},
-               {"on_for_s", unit.on_for_s},
-               {"frame_interval_s", unit.frame_interval_s}};
-  if (unit.learned.map) json["learned"] = unit.learned.file;
-  return json;
 }
 
 }  // namespace fathom

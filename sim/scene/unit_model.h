@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/fields.h"
 #include "core/image.h"
-#include "core/json.h"
 #include "core/unit_map.h"
 
 namespace fathom {
@@ -44,6 +44,6 @@ Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, 
 
 /// A text is the path of a learned unit, which has nothing of a drawn residue.
 UnitModel unit_from_json(const JsonReader& json, UnitModel unit);
-Json json_from_unit(const UnitModel& unit);
+std::span<const Field<UnitModel>> unit_fields();
 
 }  // namespace fathom

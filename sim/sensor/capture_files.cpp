@@ -64,7 +64,7 @@ Json camera_matrix(const SensorModel& sensor) {
 /// The sensor after all effects, with the pattern where the record has it.
 Json sensor_record(const Rig& rig, const ResolvedScene& resolved) {
   Json sensor = json_from_rig(rig);
-  if (rig.sensor.pattern.image) sensor["pattern"]["image"] = resolved.scene["sensor"]["pattern"]["image"];
+  if (rig.sensor.pattern.image.brightness) sensor["pattern"]["image"] = resolved.scene["sensor"]["pattern"]["image"];
   if (rig.sensor.unit.learned.map) sensor["unit"]["learned"] = resolved.scene["sensor"]["unit"]["learned"];
   return sensor;
 }

@@ -177,7 +177,7 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
 }
 
 Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px, double pincushion)
-    : permanent_(model.image ? *model.image : tiled(model, make_dot_tile(model))),
+    : permanent_(model.image.brightness ? *model.image.brightness : tiled(model, make_dot_tile(model))),
       step_px_(model.step_px),
       sigma_steps_(model.dot_sigma_ir_px / (ir_px_per_depth_px * model.step_px)),
       pincushion_(pincushion) {

@@ -156,7 +156,7 @@ TEST(Pattern, MayBeAUsersImage) {
   PatternModel model;
   Image<float> own(40, 30);
   own(20, 15) = 1.0f, own(10, 15) = 0.25f;
-  model.image = std::make_shared<const Image<float>>(own);
+  model.image.brightness = std::make_shared<const Image<float>>(own);
   const Pattern pattern(model, 2.0);
   EXPECT_EQ(pattern.columns(), 40);
   EXPECT_NEAR(pattern.intensity({20.0, 15.0}), 1.0, 1e-6);
