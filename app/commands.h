@@ -13,6 +13,7 @@ std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_generate(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_check(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_calibrate(CLI::App& app, const CommonOptions& common);
@@ -47,6 +48,10 @@ inline constexpr std::array kCommands{
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
             define_campaign},
+    Command{"generate", "Labelled frames of random desks by the thousand, as BOP and COCO have them",
+            "  fathom generate --frames 20 -o out/frames\n  fathom generate --example\n"
+            "  fathom generate scenes/datasets/cups.json --frames 1000 --shard 0/4 -o out/frames",
+            define_generate},
     Command{"check",
             "Lists in seconds what a measurement directory holds and lacks, and what each lack means for a diagnosis",
             "  fathom check out/paper\n  fathom check scenes/measurements/paper_printed\n"

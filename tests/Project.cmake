@@ -12,6 +12,8 @@ if(FATHOM_SIMULATOR)
   add_test(NAME results_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/results_test.py)
   set_tests_properties(results_test PROPERTIES ENVIRONMENT FATHOM=$<TARGET_FILE:fathom>)
   set_tests_properties(pages PROPERTIES LABELS architecture)
+  add_test(NAME datasets_load COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/datasets/load_test.py $<TARGET_FILE:fathom>)
+  set_tests_properties(datasets_load PROPERTIES SKIP_RETURN_CODE 77)
 endif()
 
 find_program(FATHOM_CLANG_FORMAT clang-format-14)

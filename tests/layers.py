@@ -28,6 +28,7 @@ LAYERS = {
                              "diagnosis/predict"],
     "report": ["core", "detector", "sim/effects", "diagnosis/*"],
     "trials": ["core", "detector", "sim/*", "report"],
+    "datasets": ["core", "sim/*", "report"],
     "campaign": ["core", "detector", "sim/*", "diagnosis/measurement", "diagnosis/predict"],
     "paper": ["core", "theory", "detector", "sim/*", "diagnosis/measurement", "report", "trials", "campaign"],
     "examples": ["core", "detector", "sim/*", "diagnosis/*", "report"],
@@ -70,7 +71,7 @@ NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
 TYPE = re.compile(r"(?:struct|class|enum class|union) (\w+)[^;()]*\{")
 # What prints: libraries never do, and the program only where control characters are taken out of what files hold.
 PRINTS = re.compile(r"\b(fmt::print|f?printf|f?puts|putchar|say)\s*\(|\bstd::(cout|cerr|clog)\b")
-SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "report/*", "trials/*", "campaign/*", "paper/*", "app/*"]
+SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "report/*", "trials/*", "datasets/*", "campaign/*", "paper/*", "app/*"]
 PRINTERS = ["app/main.cpp", "app/print.cpp", "core/progress.cpp", "core/standard_streams.*"]
 DOCUMENT = "docs/architecture.md"
 

@@ -56,6 +56,7 @@ class Builder {
 
   void add_object(const Object& object, std::size_t index, bool on_desk) {
     const int number = new_object(fmt::format("object {} {}", index, object_name(object)), object.world_from_object);
+    geometry_.things.push_back(number);
     add_parts(object_parts(object), number, on_desk);
   }
 

@@ -77,6 +77,7 @@ struct Geometry {
   std::vector<std::string> objects;     ///< names, e.g. "desk", "cup 0 paper_cup", "cup 0 water"
   std::vector<Pose> world_from_object;  ///< of each; a liquid's is its cup's
   std::vector<CupObjects> cups;         ///< in the scene's order
+  std::vector<int> things;              ///< numbers of the scene's objects, in its order
   std::vector<Surface> surfaces;
   /// By rising priority: liquids in cups, glTF bodies (by rising index), walls of cups. At most 64.
   std::vector<Body> bodies;

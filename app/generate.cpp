@@ -1,0 +1,91 @@
+// `fathom generate`: labelled frames of random desks, in the layouts that others load.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/output_size.h"
+#include "app/print.h"
+#include "core/files.h"
+#include "core/input_record.h"
+#include "core/progress.h"
+#include "core/rows.h"
+#include "datasets/dataset_page.h"
+#include "datasets/scene_folder.h"
+
+namespace fathom {
+namespace {
+
+struct GenerateOptions {
+  std::filesystem::path spec;
+  int frames = 1000;
+  std::string shard = "0/1";
+  bool example = false, yes = false;
+};
+
+/// "3/8": the fourth of eight processes.
+struct Shard {
+  int number, count;
+};
+
+Shard shard_of(const std::string& text) {
+  Shard shard{};
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%6d/%6d%c", &shard.number, &shard.count, &rest) != 2 || shard.count < 1 ||
+      shard.number < 0 || shard.number >= shard.count)
+    throw UsageError(fmt::format("--shard must be i/n with i from 0 to n-1, got {}", text));
+  return shard;
+}
+
+void run_generate(const GenerateOptions& options, const CommonOptions& common) {
+  const Shard shard = shard_of(options.shard);
+  const InputRecord inputs;
+  const std::filesystem::path file = options.spec.empty() ? shipped_dataset_spec() : options.spec;
+  const Dataset dataset{.spec = read_dataset_spec(file, common.seed), .seed = common.seed, .frames = options.frames};
+  const RunIdentity identity{"generate", {{"seed", common.seed}}, inputs.files()};
+  int mine = 0;  // frames of this shard
+  for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count) mine += dataset.frames_in(scene);
+  require_same_dataset(common.output, dataset);
+  // Depths and masks of the shipped specification take 0.6 MB, infrared images as much again.
+  const double bytes = dataset.spec.mode == CaptureMode::photometric ? 1.2e6 : 0.7e6;
+  announce(common, require_space(common, {static_cast<double>(mine), bytes}, options.yes));
+
+  write_common(common.output, dataset);
+  Progress progress("frame", mine, common.quiet);
+  int made = 0;
+  for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count)
+    made += write_scene(common.output, dataset, scene, identity, [&] { progress.step(); });
+  const bool complete = is_complete(common.output, dataset);
+  if (complete) write_dataset_page(common.output, dataset);
+  print_text(format_rows({{"frames", static_cast<double>(mine)},
+                          {"frames_made_now", static_cast<double>(made)},
+                          {"complete", complete ? "yes" : "no"},
+                          {"page", complete ? (common.output / "index.html").string() : ""}},
+                         common.json));
+}
+
+}  // namespace
+
+std::function<void()> define_generate(CLI::App& app, const CommonOptions& common) {
+  const auto options = std::make_shared<GenerateOptions>();
+  app.add_option("spec", options->spec, "What is drawn (*.json); without it the one that --example prints")
+      ->type_name("SPEC");
+  app.add_option("--frames", options->frames, "How many frames the data set has; more can be added later")
+      ->check(CLI::Range(1, 100'000'000))
+      ->capture_default_str();
+  app.add_option("--shard", options->shard,
+                 "Only the i-th of n parts: every process of n makes one, on one machine or many")
+      ->type_name("i/n")
+      ->capture_default_str();
+  app.add_flag("--example", options->example, "Prints a specification to start from, and makes nothing");
+  app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
+  return [options, &common] {
+    if (options->example) return print_text(read_text(shipped_dataset_spec()));
+    require_output(common);
+    run_generate(*options, common);
+  };
+}
+
+}  // namespace fathom

@@ -1,0 +1,46 @@
+#include "datasets/frame_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+constexpr Rgb kCup{90, 200, 90}, kThing{100, 140, 230}, kSeenThrough{60, 220, 230}, kSurface{250, 160, 50};
+
+/// Colours of what is seen, black where it is the desk or nothing.
+Image<Rgb> tints(int width, int height, const std::vector<InstanceLabel>& labels) {
+  Image<Rgb> tint(width, height, Rgb{0, 0, 0});
+  const auto paint = [&](const Image<std::uint8_t>& mask, const Rgb& colour) {
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      if (mask.pixels()[i]) tint.pixels()[i] = colour;
+  };
+  for (const InstanceLabel& label : labels) {
+    paint(label.visible, label.model->is_cup ? kCup : kThing);
+    if (label.liquid) paint(label.liquid->mask, label.liquid->is_turbid ? kSurface : kSeenThrough);
+  }
+  return tint;
+}
+
+}  // namespace
+
+Image<Rgb> frame_picture(const Frame& frame, const std::vector<InstanceLabel>& labels) {
+  const Image<float>& depth = frame.depth;
+  float near = HUGE_VALF, far = 0.0f;
+  for (const float metres : depth.pixels())
+    if (metres > 0.0f) near = std::min(near, metres), far = std::max(far, metres);
+  const Image<Rgb> tint = tints(depth.width(), depth.height(), labels);
+  Image<Rgb> picture(depth.width() / 2, depth.height() / 2, Rgb{0, 0, 0});
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const float metres = depth(2 * x, 2 * y);
+      const Rgb& colour = tint(2 * x, 2 * y);
+      const bool is_labelled = colour != Rgb{0, 0, 0};
+      const double grey = metres > 0.0f ? 60.0 + 180.0 * (far - metres) / std::max(far - near, 1e-3f) : 0.0;
+      for (std::size_t c = 0; c < 3; ++c)
+        picture(x, y)[c] = static_cast<std::uint8_t>(is_labelled ? 0.45 * grey + 0.55 * colour[c] : grey);
+    }
+  return picture;
+}
+
+}  // namespace fathom

@@ -1,0 +1,226 @@
+#include "datasets/labels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/median.h"
+#include "core/units.h"
+#include "sim/scene/cup.h"
+
+namespace fathom {
+namespace {
+
+Json by_rows(const Eigen::Matrix3d& matrix) {
+  Json numbers = Json::array();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) numbers.push_back(matrix(row, column));
+  return numbers;
+}
+
+/// The pixels that may show a body with this box; the whole image where part of it lies behind the camera.
+PixelBox window_of(const Model& model, const Pose& camera_from_model, const SensorModel& sensor) {
+  constexpr double kMargin = 3.0;
+  Eigen::AlignedBox2d seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d at =
+        camera_from_model * model.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    if (at.z() <= 0.0) return {0, 0, sensor.width, sensor.height};
+    seen.extend(sensor.focal_px * sensor.optics.distorted(at.head<2>() / at.z()) + sensor.principal_px);
+  }
+  const Eigen::Vector2d size(sensor.width, sensor.height);
+  const Eigen::Vector2d low = (seen.min().array() - kMargin).floor().cwiseMax(0.0).cwiseMin(size.array());
+  const Eigen::Vector2d high = (seen.max().array() + kMargin).ceil().cwiseMax(0.0).cwiseMin(size.array());
+  const Eigen::Vector2i from = low.cast<int>(), to = high.cast<int>();
+  return {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()};
+}
+
+/// Where the thing would be seen if nothing else were there.
+Image<std::uint8_t> seen_alone(const Model& model, const Pose& world_from_model, const Rig& rig) {
+  Image<std::uint8_t> mask(rig.sensor.width, rig.sensor.height);
+  const Pose alone_from_world = model.alone_from_model * world_from_model.inverse();
+  const Eigen::Vector3d origin = alone_from_world * rig.camera_in_world();
+  const PixelBox window = window_of(model, rig.world_from_camera.inverse() * world_from_model, rig.sensor);
+  for (int y = window.y; y < window.y + window.height; ++y)
+    for (int x = window.x; x < window.x + window.width; x += static_cast<int>(kPacket)) {
+      std::array<Ray, kPacket> rays;
+      const std::size_t count = std::min<std::size_t>(kPacket, window.x + window.width - x);
+      for (std::size_t i = 0; i < count; ++i)
+        rays[i] = {origin, alone_from_world.linear() * rig.direction_in_world(x + static_cast<int>(i) + 0.5, y + 0.5)};
+      const Packet<Hit> hits = model.alone->first_hits(std::span(rays).first(count));
+      for (std::size_t i = 0; i < count; ++i)
+        if (hits.find(i)) mask(x + static_cast<int>(i), y) = 255;
+    }
+  return mask;
+}
+
+Image<std::uint8_t> first_seen(const Image<TruePixel>& truth, int object, std::optional<int> liquid = {}) {
+  Image<std::uint8_t> mask(truth.width(), truth.height());
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    if (const auto& first = truth.pixels()[i].first; first && (first->object == object || first->object == liquid))
+      mask.pixels()[i] = 255;
+  return mask;
+}
+
+/// Height above the desk of what a camera without noise measures at a pixel.
+double apparent_height(const Rig& rig, int x, int y, double apparent_depth) {
+  const Eigen::Vector3d direction = rig.direction_in_world(x + 0.5, y + 0.5);
+  const double forward = rig.world_from_camera.linear().col(2).dot(direction);
+  return (rig.camera_in_world() + apparent_depth / forward * direction).z();
+}
+
+double bottom_height(const Cup& cup) {
+  const auto* shape = std::get_if<CupShape>(&cup.shape);
+  return shape ? shape->bottom() : liquid_level(cup) - cup.filling->depth;
+}
+
+std::optional<LiquidLabel> liquid_of(const Camera& camera, std::size_t index) {
+  const Cup& cup = camera.setup().scene.cups[index];
+  const std::optional<int> number = camera.geometry().cups[index].liquid;
+  if (!cup.filling || !number) return std::nullopt;
+  const Rig& rig = camera.setup().rig;
+  const Medium& medium = cup.filling->medium;
+  LiquidLabel label{.name = medium.name,
+                    .is_turbid = medium.scatters(),
+                    .index = medium.n(rig.sensor.wavelength_nm),
+                    .fill_mm = mm_from_metres(cup.filling->depth),
+                    .surface_mm = mm_from_metres(liquid_level(cup)),
+                    .bottom_mm = mm_from_metres(bottom_height(cup)),
+                    .apparent_mm = {},
+                    .mask = first_seen(camera.truth(), *number)};
+  std::vector<double> heights;
+  for (int y = 0; y < label.mask.height(); ++y)
+    for (int x = 0; x < label.mask.width(); ++x)
+      if (const auto& depth = camera.truth()(x, y).apparent_depth; label.mask(x, y) && depth)
+        heights.push_back(mm_from_metres(apparent_height(rig, x, y, *depth)));
+  if (!heights.empty()) label.apparent_mm = median(std::move(heights));
+  return label;
+}
+
+InstanceLabel label_of(const Model& model, std::size_t index, int object, std::optional<int> liquid,
+                       const Camera& camera, const Frame& frame) {
+  const Rig& rig = camera.setup().rig;
+  const Pose world_from_model = camera.geometry().world_from_object.at(object - 1);
+  InstanceLabel label{.model = &model,
+                      .index = index,
+                      .camera_from_model = rig.world_from_camera.inverse() * world_from_model,
+                      .whole = seen_alone(model, world_from_model, rig),
+                      .visible = first_seen(camera.truth(), object, liquid),
+                      .liquid = {}};
+  for (std::size_t i = 0; i < label.whole.size(); ++i)
+    label.valid += label.whole.pixels()[i] > 0 && frame.depth.pixels()[i] > 0.0f;
+  return label;
+}
+
+Json box_entry(const std::optional<PixelBox>& box) {
+  return box ? Json{box->x, box->y, box->width, box->height} : Json{-1, -1, -1, -1};
+}
+
+}  // namespace
+
+int RunLengths::area() const {
+  int area = 0;
+  for (std::size_t i = 1; i < counts.size(); i += 2) area += counts[i];
+  return area;
+}
+
+RunLengths run_lengths(const Image<std::uint8_t>& mask) {
+  RunLengths runs{mask.width(), mask.height(), {0}};
+  bool is_inside = false;
+  for (int x = 0; x < mask.width(); ++x)
+    for (int y = 0; y < mask.height(); ++y) {
+      if ((mask(x, y) > 0) != is_inside) is_inside = !is_inside, runs.counts.push_back(0);
+      ++runs.counts.back();
+    }
+  return runs;
+}
+
+std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask) {
+  int left = mask.width(), top = mask.height(), right = -1, bottom = -1;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask(x, y)) left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = y;
+  if (right < 0) return std::nullopt;
+  return PixelBox{left, top, right - left + 1, bottom - top + 1};
+}
+
+std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, const Camera& camera,
+                                       const Frame& frame) {
+  const Geometry& geometry = camera.geometry();
+  std::vector<InstanceLabel> labels;
+  for (std::size_t i = 0; i < scene.at("cups").size(); ++i) {
+    labels.push_back(
+        label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, camera, frame));
+    labels.back().liquid = liquid_of(camera, i);
+  }
+  for (std::size_t i = 0; i < scene.at("objects").size(); ++i)
+    labels.push_back(
+        label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, camera, frame));
+  return labels;
+}
+
+Json camera_entry(const Rig& rig) {
+  const SensorModel& sensor = rig.sensor;
+  const Pose camera_from_world = rig.world_from_camera.inverse();
+  return {
+      {"cam_K",
+       {sensor.focal_px, 0.0, sensor.principal_px.x(), 0.0, sensor.focal_px, sensor.principal_px.y(), 0.0, 0.0, 1.0}},
+      {"depth_scale", kDepthUnitMm},
+      {"cam_R_w2c", by_rows(camera_from_world.linear())},
+      {"cam_t_w2c", json_in_mm(camera_from_world.translation())}};
+}
+
+Json pose_entry(const InstanceLabel& instance) {
+  return {{"cam_R_m2c", by_rows(instance.camera_from_model.linear())},
+          {"cam_t_m2c", json_in_mm(instance.camera_from_model.translation())},
+          {"obj_id", instance.model->id}};
+}
+
+Json info_entry(const InstanceLabel& instance) {
+  const int whole = run_lengths(instance.whole).area(), visible = run_lengths(instance.visible).area();
+  return {{"bbox_obj", box_entry(box_of(instance.whole))},
+          {"bbox_visib", box_entry(box_of(instance.visible))},
+          {"px_count_all", whole},
+          {"px_count_valid", instance.valid},
+          {"px_count_visib", visible},
+          {"visib_fract", whole > 0 ? std::min(1.0, static_cast<double>(visible) / whole) : 0.0}};
+}
+
+Json cup_entry(const InstanceLabel& instance, const Cup& cup) {
+  const Pose& camera_from_model = instance.camera_from_model;
+  const Eigen::AlignedBox3d& box = instance.model->box;
+  Json entry = {{"obj_id", instance.model->id},
+                {"name", instance.model->name},
+                {"box_centre_mm", json_in_mm(camera_from_model * box.center())},
+                {"box_size_mm", json_in_mm(box.sizes())},
+                {"up", {camera_from_model(0, 2), camera_from_model(1, 2), camera_from_model(2, 2)}}};
+  if (const auto* shape = std::get_if<CupShape>(&cup.shape)) {
+    entry["rim"] = {{"centre_mm", json_in_mm(camera_from_model * Eigen::Vector3d(0.0, 0.0, shape->height()))},
+                    {"inner_radius_mm", mm_from_metres(shape->inner.back().x())},
+                    {"outer_radius_mm", mm_from_metres(shape->outer.back().x())}};
+    if (const auto& handle = shape->handle) {
+      const double middle = 0.5 * (handle->low + handle->high);
+      const double out = shape->outer_radius(middle) + handle->reach;
+      entry["handle"] = {{"middle_mm", json_in_mm(camera_from_model * Eigen::Vector3d(out, 0.0, middle))},
+                         {"axis", {camera_from_model(0, 0), camera_from_model(1, 0), camera_from_model(2, 0)}},
+                         {"tube_radius_mm", mm_from_metres(handle->tube_radius)}};
+    }
+  }
+  if (!instance.liquid) {
+    entry["liquid"] = nullptr;
+    return entry;
+  }
+  const LiquidLabel& liquid = *instance.liquid;
+  entry["liquid"] = {{"name", liquid.name},
+                     {"category", liquid.is_turbid ? "liquid surface" : "liquid seen through"},
+                     {"refractive_index", liquid.index},
+                     {"fill_mm", liquid.fill_mm},
+                     {"surface_height_mm", liquid.surface_mm},
+                     {"bottom_height_mm", liquid.bottom_mm},
+                     {"apparent_height_mm", liquid.apparent_mm ? Json(*liquid.apparent_mm) : Json()},
+                     {"px_count_visib", run_lengths(liquid.mask).area()},
+                     {"bbox_visib", box_entry(box_of(liquid.mask))}};
+  return entry;
+}
+
+}  // namespace fathom

@@ -1,0 +1,132 @@
+#include "datasets/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/units.h"
+#include "sim/scene/cup.h"
+#include "sim/scene/object.h"
+
+namespace fathom {
+namespace {
+
+constexpr double kAnyWavelength_nm = 830.0;  // clear walls only have their places here, which no wavelength changes
+
+/// What says what a thing is, without its place and its contents.
+std::string key_of(bool is_cup, const Json& entry) {
+  if (!is_cup) return entry.at("solid").dump();
+  return entry.at("shape").dump() + entry.value("glaze", Json()).dump();
+}
+
+Scene alone_at_origin(bool is_cup, Json entry, const std::string& file) {
+  entry["position_mm"] = {0.0, 0.0};
+  Scene scene;
+  scene.desk.reset();
+  if (is_cup)
+    scene.cups.push_back(cup_from_json(JsonReader(entry, file)));
+  else
+    scene.objects.push_back(object_from_json(JsonReader(entry, file)));
+  return scene;
+}
+
+/// The largest distance of two vertices, as the largest width in 2,000 directions (a Fibonacci lattice): at most a
+/// thousandth too small, and linear in the number of vertices.
+double diameter_of(const Mesh& mesh) {
+  constexpr int kDirections = 2000;
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  double widest = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = (i + 0.5) / kDirections, radius = std::sqrt(1.0 - z * z);
+    const Eigen::Vector3d direction(radius * std::cos(i * golden_angle), radius * std::sin(i * golden_angle), z);
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Eigen::Vector3d& vertex : mesh.vertices) {
+      const double along = direction.dot(vertex);
+      low = std::min(low, along), high = std::max(high, along);
+    }
+    widest = std::max(widest, high - low);
+  }
+  return widest;
+}
+
+}  // namespace
+
+Json json_in_mm(const Eigen::Vector3d& metres) {
+  return {mm_from_metres(metres.x()), mm_from_metres(metres.y()), mm_from_metres(metres.z())};
+}
+
+Models::Models(const ClutterSpec& clutter) {
+  for (const ClutterThing& kind : clutter.cup_kinds) add(true, kind.entry, clutter.file);
+  for (const ClutterThing& kind : clutter.object_kinds) add(false, kind.entry, clutter.file);
+}
+
+void Models::add(bool is_cup, const Json& entry, const std::string& file) {
+  const std::string key = key_of(is_cup, entry);
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    if (keys_[i] == key && models_[i].is_cup == is_cup) return;
+  const Scene scene = alone_at_origin(is_cup, entry, file);
+  Model model{.id = static_cast<int>(models_.size()) + 1,
+              .name = is_cup ? cup_name(scene.cups[0]) : object_name(scene.objects[0]),
+              .is_cup = is_cup,
+              .mesh = {},
+              .box = {},
+              .diameter = 0.0,
+              .geometry = std::make_unique<Geometry>(build_geometry(scene, kAnyWavelength_nm)),
+              .alone = nullptr,
+              .alone_from_model = {}};
+  model.alone = std::make_unique<Intersector>(*model.geometry);
+  model.alone_from_model = model.geometry->world_from_object.at(0);
+  for (const Surface& surface : model.geometry->surfaces) model.mesh.append(surface.mesh);
+  model.mesh.transform(model.alone_from_model.inverse());
+  for (const Eigen::Vector3d& vertex : model.mesh.vertices) model.box.extend(vertex);
+  model.diameter = diameter_of(model.mesh);
+  models_.push_back(std::move(model));
+  keys_.push_back(key);
+}
+
+const Model& Models::find(bool is_cup, const Json& entry) const {
+  const std::string key = key_of(is_cup, entry);
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    if (keys_[i] == key && models_[i].is_cup == is_cup) return models_[i];
+  throw Error("data set", key, "is no kind of the specification");
+}
+
+void write_model(const std::filesystem::path& path, const Model& model) {
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\ncomment {}, mm\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      model.name, model.mesh.vertices.size(), model.mesh.triangles.size());
+  for (const Eigen::Vector3d& v : model.mesh.vertices)
+    text += fmt::format("{:.6g} {:.6g} {:.6g}\n", 1e3 * v.x(), 1e3 * v.y(), 1e3 * v.z());
+  for (const Eigen::Vector3i& t : model.mesh.triangles) text += fmt::format("3 {} {} {}\n", t.x(), t.y(), t.z());
+  write_text(path, text);
+}
+
+Json models_info(const Models& models) {
+  Json info = Json::object();
+  for (const Model& model : models.all()) {
+    const Eigen::Vector3d low = 1e3 * model.box.min(), size = 1e3 * model.box.sizes();
+    Json entry = {{"name", model.name},
+                  {"category", model.is_cup ? "cup" : "thing"},
+                  {"diameter", 1e3 * model.diameter},
+                  {"min_x", low.x()},
+                  {"min_y", low.y()},
+                  {"min_z", low.z()},
+                  {"size_x", size.x()},
+                  {"size_y", size.y()},
+                  {"size_z", size.z()}};
+    // A body of revolution is as wide as it is deep, about its axis.
+    const bool is_round = std::abs(size.x() - size.y()) < 1e-3 && std::abs(2.0 * low.x() + size.x()) < 1e-3;
+    if (model.is_cup && is_round)
+      entry["symmetries_continuous"] =
+          Json::array({{{"axis", {0, 0, 1}}, {"offset", json_in_mm(Eigen::Vector3d::Zero())}}});
+    info[fmt::format("{}", model.id)] = std::move(entry);
+  }
+  return info;
+}
+
+}  // namespace fathom

@@ -1,0 +1,284 @@
+#include "datasets/scene_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/folder_owner.h"
+#include "core/image_file.h"
+#include "core/json_text.h"
+#include "core/parallel.h"
+#include "core/rng.h"
+#include "datasets/frame_picture.h"
+
+namespace fathom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kCameraStream = 0x63616d657261ULL;
+
+std::string frame_name(int image) { return fmt::format("{:06}", image); }
+
+/// Tenths of a millimetre; 0 where there is nothing, or more than 16 bits hold.
+template <class Depth>
+Image<std::uint16_t> depth_counts(const Image<TruePixel>& truth, Depth depth) {
+  Image<std::uint16_t> counts(truth.width(), truth.height());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double count = std::round(depth(i) * 1e3 / kDepthUnitMm);
+    counts.pixels()[i] = count > 0.0 && count <= 65535.0 ? static_cast<std::uint16_t>(count) : 0;
+  }
+  return counts;
+}
+
+/// What is drawn, and by which seed.
+std::string identity_text(const Dataset& dataset) {
+  return json_text({{"seed", dataset.seed}, {"specification", dataset.spec.source}});
+}
+
+/// Writes a frame's files into the scene's folder and keeps their names.
+class FrameWriter {
+ public:
+  FrameWriter(fs::path folder, std::string frame) : folder_(std::move(folder)), frame_(std::move(frame)) {}
+
+  template <class Pixel>
+  void image(const std::string& kind, const Image<Pixel>& picture, const std::string& suffix = "") {
+    files_.push_back(fmt::format("{}/{}{}.png", kind, frame_, suffix));
+    write_png(folder_ / files_.back(), picture);
+  }
+
+  std::string text(const std::string& kind, Json content) {
+    content["files"] = files_;
+    std::string name = fmt::format("{}/{}.json", kind, frame_);
+    write_text(folder_ / name, content.dump() + "\n");
+    return name;
+  }
+
+  const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  fs::path folder_;
+  std::string frame_;
+  std::vector<std::string> files_;
+};
+
+void write_depths(const Camera& camera, const Frame& frame, FrameWriter& writer) {
+  const Image<TruePixel>& truth = camera.truth();
+  const Pose camera_from_world = camera.setup().rig.world_from_camera.inverse();
+  writer.image("depth",
+               depth_counts(truth, [&](std::size_t i) { return static_cast<double>(frame.depth.pixels()[i]); }));
+  writer.image("depth_true", depth_counts(truth, [&](std::size_t i) {
+                 const TruePixel& pixel = truth.pixels()[i];
+                 return pixel.object > 0 ? (camera_from_world * pixel.position).z() : 0.0;
+               }));
+  writer.image("depth_apparent",
+               depth_counts(truth, [&](std::size_t i) { return truth.pixels()[i].apparent_depth.value_or(0.0); }));
+  writer.image("depth_first", depth_counts(truth, [&](std::size_t i) {
+                 const auto& first = truth.pixels()[i].first;
+                 return first ? first->depth : 0.0;
+               }));
+  if (frame.ir.empty()) return;
+  const Image<float> ir = at_depth_scale(camera.setup().rig.sensor, frame.ir);
+  Image<std::uint16_t> counts(ir.width(), ir.height());
+  for (std::size_t i = 0; i < ir.size(); ++i)
+    counts.pixels()[i] = static_cast<std::uint16_t>(std::lround(std::clamp(ir.pixels()[i], 0.0f, 65535.0f)));
+  writer.image("ir", counts);
+}
+
+Json runs_json(const Image<std::uint8_t>& mask) {
+  const RunLengths runs = run_lengths(mask);
+  return {{"size", {runs.height, runs.width}}, {"counts", runs.counts}};
+}
+
+/// Shoots a frame, writes its files and returns their names, that of its labels last.
+std::vector<std::string> write_frame(const fs::path& folder, const Dataset& dataset, int number) {
+  const Json scene = dataset_scene(dataset.spec, dataset.seed, number);
+  const Setup setup = setup_from_json(scene, dataset.spec.clutter.file);
+  Camera camera(setup, dataset.spec.mode, kDefaultSamplesPerPixel, Rng(dataset.seed, kCameraStream, number).bits(),
+                dataset.spec.light);
+  const Frame frame = camera.shoot(0);
+  const std::vector<InstanceLabel> labels = label_frame(scene, dataset.models, camera, frame);
+
+  FrameWriter writer(folder, frame_name(number % dataset.frames_of_scene));
+  write_depths(camera, frame, writer);
+  Json instances = Json::array();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const InstanceLabel& label = labels[i];
+    writer.image("mask", label.whole, fmt::format("_{:06}", i));
+    writer.image("mask_visib", label.visible, fmt::format("_{:06}", i));
+    Json entry = {{"pose", pose_entry(label)}, {"info", info_entry(label)}, {"visible", runs_json(label.visible)}};
+    if (label.model->is_cup) {
+      entry["cup"] = cup_entry(label, setup.scene.cups[label.index]);
+      if (label.liquid) entry["liquid_visible"] = runs_json(label.liquid->mask);
+    }
+    instances.push_back(std::move(entry));
+  }
+  if (number < kPreviews) writer.image("preview", frame_picture(frame, labels));
+  std::vector<std::string> files = writer.files();
+  files.push_back(writer.text("labels", {{"frame", number},
+                                         {"scene", scene},
+                                         {"camera", camera_entry(setup.rig)},
+                                         {"width", setup.rig.sensor.width},
+                                         {"height", setup.rig.sensor.height},
+                                         {"instances", instances}}));
+  return files;
+}
+
+/// Whether a frame's labels, and all the files that they name, are as they were written.
+bool is_made(const fs::path& folder, const Manifest& manifest, int image) {
+  const std::string labels = fmt::format("labels/{}.json", frame_name(image));
+  if (!manifest.holds(labels)) return false;
+  const Json files = read_json(folder / labels).at("files");
+  return std::all_of(files.begin(), files.end(), [&](const Json& file) { return manifest.holds(file); });
+}
+
+/// COCO's categories.
+enum class Category { cup = 1, thing, liquid_surface, liquid_seen_through };
+
+Json categories() {
+  return Json::array({{{"id", 1}, {"name", "cup"}, {"supercategory", "vessel"}},
+                      {{"id", 2}, {"name", "thing"}, {"supercategory", "thing"}},
+                      {{"id", 3}, {"name", "liquid surface"}, {"supercategory", "liquid"}},
+                      {{"id", 4}, {"name", "liquid seen through"}, {"supercategory", "liquid"}}});
+}
+
+Json annotation(int id, int image, Category category, const Json& runs, const Json& box, const Json& area) {
+  return {{"id", id},     {"image_id", image},    {"category_id", static_cast<int>(category)},
+          {"iscrowd", 0}, {"segmentation", runs}, {"bbox", box},
+          {"area", area}};
+}
+
+/// The labels of a scene's frames, gathered into BOP's and COCO's files.
+void gather(const fs::path& folder, int images, bool has_infrared, Manifest& manifest) {
+  Json cameras = Json::object(), poses = Json::object(), infos = Json::object(), cups = Json::object();
+  Json shown = Json::array(), annotations = Json::array();
+  for (int image = 0; image < images; ++image) {
+    const std::string key = fmt::format("{}", image);
+    const Json labels = read_json(folder / fmt::format("labels/{}.json", frame_name(image)));
+    cameras[key] = labels.at("camera");
+    poses[key] = infos[key] = cups[key] = Json::array();
+    shown.push_back({{"id", image},
+                     {"file_name", fmt::format("{}/{}.png", has_infrared ? "ir" : "depth", frame_name(image))},
+                     {"width", labels.at("width")},
+                     {"height", labels.at("height")}});
+    for (const Json& instance : labels.at("instances")) {
+      poses[key].push_back(instance.at("pose"));
+      infos[key].push_back(instance.at("info"));
+      const bool is_cup = instance.contains("cup");
+      const Json& info = instance["info"];
+      if (info.at("px_count_visib") > 0)
+        annotations.push_back(annotation(static_cast<int>(annotations.size()) + 1, image,
+                                         is_cup ? Category::cup : Category::thing, instance.at("visible"),
+                                         info.at("bbox_visib"), info.at("px_count_visib")));
+      if (!is_cup) continue;
+      Json cup = instance["cup"];
+      cup["instance"] = poses[key].size() - 1;
+      const Json& liquid = cup["liquid"];
+      if (!liquid.is_null() && liquid.at("px_count_visib") > 0)
+        annotations.push_back(annotation(
+            static_cast<int>(annotations.size()) + 1, image,
+            liquid.at("category") == "liquid surface" ? Category::liquid_surface : Category::liquid_seen_through,
+            instance.at("liquid_visible"), liquid.at("bbox_visib"), liquid.at("px_count_visib")));
+      cups[key].push_back(std::move(cup));
+    }
+  }
+  const Json coco = {{"info", {{"description", "simulated by Fathom"}}},
+                     {"licenses", Json::array()},
+                     {"categories", categories()},
+                     {"images", shown},
+                     {"annotations", annotations}};
+  for (const auto& [name, content] :
+       std::initializer_list<std::pair<const char*, const Json*>>{{"scene_camera.json", &cameras},
+                                                                  {"scene_gt_info.json", &infos},
+                                                                  {"scene_cups.json", &cups},
+                                                                  {"coco.json", &coco},
+                                                                  {"scene_gt.json", &poses}}) {
+    write_text(folder / name, content->dump() + "\n");
+    manifest.add(name);
+  }
+}
+
+}  // namespace
+
+std::string scene_folder(int scene) { return fmt::format("train/{:06}", scene); }
+
+void require_same_dataset(const fs::path& folder, const Dataset& dataset) {
+  const fs::path file = folder / "dataset.json";
+  if (fs::exists(file) && read_text(file) != identity_text(dataset))
+    throw Error(file.string(), "says that frames from another specification or seed stand here; choose another folder");
+  for (const char* name : {"train", "models"})
+    if (!fs::exists(file) && fs::exists(folder / name))
+      throw Error((folder / name).string(), "is there already; choose another folder");
+}
+
+void write_common(const fs::path& folder, const Dataset& dataset) {
+  make_directory(folder);
+  write_text(folder / "dataset.json", identity_text(dataset));
+  make_directory(folder / "models");
+  make_directory(folder / "train");
+  for (const Model& model : dataset.models.all())
+    write_model(folder / fmt::format("models/obj_{:06}.ply", model.id), model);
+  write_json(folder / "models/models_info.json", models_info(dataset.models));
+  const SensorModel sensor =
+      setup_from_json(dataset_scene(dataset.spec, dataset.seed, 0), dataset.spec.clutter.file).rig.sensor;
+  write_json(folder / "camera.json", {{"fx", sensor.focal_px},
+                                      {"fy", sensor.focal_px},
+                                      {"cx", sensor.principal_px.x()},
+                                      {"cy", sensor.principal_px.y()},
+                                      {"width", sensor.width},
+                                      {"height", sensor.height},
+                                      {"depth_scale", kDepthUnitMm}});
+}
+
+int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, const RunIdentity& identity,
+                const std::function<void()>& step) {
+  const fs::path folder = data_set / scene_folder(scene);
+  const FolderOwner owner(folder);
+  Manifest manifest(folder, identity);
+  manifest.require_same_run();
+  if (!manifest.exists() && fs::exists(folder / "labels"))
+    throw Error((folder / "labels").string(), "is there already; choose another folder");
+  manifest.begin();
+  std::vector<std::string> kinds{"depth", "depth_true", "depth_apparent", "depth_first",
+                                 "mask",  "mask_visib", "labels"};
+  const bool has_infrared = dataset.spec.mode == CaptureMode::photometric;
+  if (has_infrared) kinds.emplace_back("ir");
+  if (scene * dataset.frames_of_scene < kPreviews) kinds.emplace_back("preview");
+  for (const std::string& kind : kinds) {
+    make_directory(folder / kind);
+    remove_leftovers(folder / kind);
+  }
+  const int images = dataset.frames_in(scene);
+  std::vector<int> missing;
+  for (int image = 0; image < images; ++image) {
+    if (is_made(folder, manifest, image))
+      step();
+    else
+      missing.push_back(image);
+  }
+  if (!missing.empty()) fs::remove(folder / "scene_gt.json");  // while it is there the scene counts as complete
+  std::mutex noting;
+  parallel_ranges(static_cast<int>(missing.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const std::vector<std::string> files = write_frame(folder, dataset, scene * dataset.frames_of_scene + missing[i]);
+      const std::lock_guard lock(noting);
+      for (const std::string& file : files) manifest.add(file);
+      step();
+    }
+  });
+  gather(folder, images, has_infrared, manifest);
+  manifest.finish();
+  return static_cast<int>(missing.size());
+}
+
+bool is_complete(const fs::path& folder, const Dataset& dataset) {
+  for (int scene = 0; scene < dataset.scenes(); ++scene)
+    if (!fs::exists(folder / scene_folder(scene) / "scene_gt.json")) return false;
+  return true;
+}
+
+}  // namespace fathom

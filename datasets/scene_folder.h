@@ -1,0 +1,49 @@
+// A data set on disk: folders of a hundred frames in BOP's layout, each with COCO's annotations, that grow frame by
+// frame.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "core/manifest.h"
+#include "datasets/dataset_spec.h"
+#include "datasets/labels.h"
+#include "datasets/model.h"
+
+namespace fathom {
+
+inline constexpr int kPreviews = 24;  ///< of a data set's first frames
+
+/// Everything that decides the frames.
+struct Dataset {
+  DatasetSpec spec;
+  std::uint64_t seed;
+  int frames;
+  int frames_of_scene = 100;  ///< of one folder
+  Models models{spec.clutter};
+
+  int scenes() const { return (frames + frames_of_scene - 1) / frames_of_scene; }
+  int frames_in(int scene) const { return std::min(frames_of_scene, frames - scene * frames_of_scene); }
+};
+
+/// "train/000012"
+std::string scene_folder(int scene);
+
+/// Throws Error where frames stand in the folder that are drawn from something else.
+void require_same_dataset(const std::filesystem::path& folder, const Dataset& dataset);
+
+/// Writes what all frames have in common: dataset.json, models/, camera.json. Several processes may do so at once.
+void write_common(const std::filesystem::path& folder, const Dataset& dataset);
+
+/// Makes the frames of a scene's folder that are not there yet, or not as they were written, and then the files that
+/// gather their labels. Calls `step` for every frame, from any thread; returns how many were made now. The folder is
+/// this process's meanwhile. Throws Error where another data set's frames are there.
+int write_scene(const std::filesystem::path& folder, const Dataset& dataset, int scene, const RunIdentity& identity,
+                const std::function<void()>& step);
+
+/// Whether every scene's labels are gathered.
+bool is_complete(const std::filesystem::path& folder, const Dataset& dataset);
+
+}  // namespace fathom
