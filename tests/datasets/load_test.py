@@ -7,6 +7,7 @@ import json
 import re
 import subprocess
 import sys
+import tarfile
 import tempfile
 from pathlib import Path
 
@@ -14,6 +15,7 @@ try:
     import cv2
     import numpy as np
 except ImportError:
+    print("... skipped 'python3-numpy and python3-opencv are not installed'")
     sys.exit(77)
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -89,6 +91,13 @@ def main(program):
         (folder / "load.py").write_text(text)
         printed = subprocess.run([sys.executable, "load.py", "out/frames"], check=True, cwd=folder, capture_output=True, text=True).stdout
         assert "mug" in printed or "cup" in printed, printed
+        archives = folder / "archives"
+        subprocess.run([ROOT / "scripts/webdataset", "out/frames", archives], check=True, cwd=folder)
+        with tarfile.open(archives / "000000.tar") as tar:
+            names = tar.getnames()
+            labels = json.load(tar.extractfile("000017.labels.json"))
+        assert labels["frame"] == 17
+        assert [name.split(".")[0] for name in names] == sorted(name.split(".")[0] for name in names), "frames are mixed"
         print(f"{boxes} things lie in their masks, {clouds} clouds on their models")
 
 
