@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "app/output_size.h"
 #include "app/print.h"
 #include "core/files.h"
+#include "core/folder_owner.h"
 #include "core/input_record.h"
 #include "core/progress.h"
 #include "core/rows.h"
@@ -52,11 +54,18 @@ void run_generate(const GenerateOptions& options, const CommonOptions& common) {
   const double bytes = dataset.spec.mode == CaptureMode::photometric ? 1.2e6 : 0.7e6;
   announce(common, require_space(common, {static_cast<double>(mine), bytes}, options.yes));
 
-  write_common(common.output, dataset);
+  // Shards share the folder: each owns it while it begins and ends, and in between its own scenes.
+  constexpr std::chrono::seconds kPatience(60);
+  {
+    const FolderOwner owner(common.output, kPatience);
+    require_same_dataset(common.output, dataset);  // another may have begun meanwhile
+    write_common(common.output, dataset);
+  }
   Progress progress("frame", mine, common.quiet);
   int made = 0;
   for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count)
     made += write_scene(common.output, dataset, scene, identity, [&] { progress.step(); });
+  const FolderOwner owner(common.output, kPatience);
   const bool complete = is_complete(common.output, dataset);
   if (complete) write_dataset_page(common.output, dataset);
   print_text(format_rows({{"frames", static_cast<double>(mine)},

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -48,7 +49,9 @@ int open_lock(const fs::path& file, bool folder_may_vanish) {
 
 }  // namespace
 
-FolderOwner::FolderOwner(fs::path folder) : folder_(std::move(folder)), file_(folder_ / ".fathom.lock") {
+FolderOwner::FolderOwner(fs::path folder, std::chrono::seconds patience)
+    : folder_(std::move(folder)), file_(folder_ / ".fathom.lock") {
+  const auto end = std::chrono::steady_clock::now() + patience;
   // An owner that wrote nothing removes its folder, which can happen between the two calls, but not every time. /proc
   // says of itself at every call that it does not exist.
   constexpr int kAttempts = 1000;
@@ -67,6 +70,11 @@ FolderOwner::FolderOwner(fs::path folder) : folder_(std::move(folder)), file_(fo
     const int problem = errno;
     const std::string owner = words_of(descriptor);
     ::close(descriptor);
+    if (problem == EWOULDBLOCK && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      attempt = 0;
+      continue;
+    }
     if (problem == EWOULDBLOCK)
       throw Error(folder_.string(), fmt::format("is being written by {}; wait for it or choose another folder", owner));
     throw Error(file_.string(), fmt::format("cannot be locked: {}", std::strerror(problem)));

@@ -209,7 +209,7 @@ std::string scene_folder(int scene) { return fmt::format("train/{:06}", scene); 
 void require_same_dataset(const fs::path& folder, const Dataset& dataset) {
   const fs::path file = folder / "dataset.json";
   if (fs::exists(file) && read_text(file) != identity_text(dataset))
-    throw Error(file.string(), "says that frames from another specification or seed stand here; choose another folder");
+    throw Error(file.string(), "is of another run: its specification or seed differs; choose another folder");
   for (const char* name : {"train", "models"})
     if (!fs::exists(file) && fs::exists(folder / name))
       throw Error((folder / name).string(), "is there already; choose another folder");
@@ -217,8 +217,11 @@ void require_same_dataset(const fs::path& folder, const Dataset& dataset) {
 
 void write_common(const fs::path& folder, const Dataset& dataset) {
   make_directory(folder);
+  if (!is_complete(folder, dataset)) fs::remove(folder / "index.html");  // it comes last
+  remove_leftovers(folder);
   write_text(folder / "dataset.json", identity_text(dataset));
   make_directory(folder / "models");
+  remove_leftovers(folder / "models");
   make_directory(folder / "train");
   for (const Model& model : dataset.models.all())
     write_model(folder / fmt::format("models/obj_{:06}.ply", model.id), model);

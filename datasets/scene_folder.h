@@ -34,7 +34,7 @@ std::string scene_folder(int scene);
 /// Throws Error where frames stand in the folder that are drawn from something else.
 void require_same_dataset(const std::filesystem::path& folder, const Dataset& dataset);
 
-/// Writes what all frames have in common: dataset.json, models/, camera.json. Several processes may do so at once.
+/// Writes what all frames have in common: dataset.json, models/, camera.json. For the folder's owner.
 void write_common(const std::filesystem::path& folder, const Dataset& dataset);
 
 /// Makes the frames of a scene's folder that are not there yet, or not as they were written, and then the files that

@@ -32,7 +32,8 @@ def make_works(program, folder, env):
                                                              "focal_px": 285}}
     seen = {**TINY, "noise": "device", "ir_size_px": [640, 480], "depth_size_px": [320, 240], "focal_px": 285}
     measured = {**campaign(), "sensor": seen, "distance_mm": [250, 350], "trials": 2, "bare_desk_views": 2}
-    for name, value in {"scene": scene, "spec": spec, "clutter": clutter, "measured": measured,
+    frames = {"cups": {"number": [1, 2], "kinds": [{"shape": "mug"}]}, "objects": {"number": [0, 1], "kinds": [{"solid": "can"}]}}
+    for name, value in {"scene": scene, "frames": frames, "spec": spec, "clutter": clutter, "measured": measured,
                         "hidden": {**measured, "effects": []}}.items():
         (folder / f"{name}.json").write_text(json.dumps(value))
     for name in ("measured", "hidden"):
@@ -45,6 +46,8 @@ def make_works(program, folder, env):
         Work("campaign", "frames.csv", ["campaign", "spec.json", "--quiet"], ["campaign", "spec.json", "--quiet", "--seed", "2"],
              resumes=True),
         Work("diagnose", "report.json", ["diagnose", "measured", "--quiet"], ["diagnose", "hidden", "--quiet"]),
+        Work("generate", "index.html", ["generate", "frames.json", "--frames", "8", "--quiet"],
+             ["generate", "frames.json", "--frames", "8", "--quiet", "--seed", "2"], resumes=True),
         Work("evaluate", "rates.txt", evaluate, [*evaluate, "--seed", "2"], resumes=True),
     ]
 
