@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -41,26 +42,52 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
+/// The shipped specification, without the name of a schema that does not lie beside a copy.
+std::string example_text() {
+  std::string text = read_text(shipped_dataset_spec());
+  if (const std::size_t begin = text.find("  \"$schema\""); begin != std::string::npos)
+    text.erase(begin, text.find('\n', begin) + 1 - begin);
+  return text;
+}
+
+/// Where a specification asks for more things than have room, the first frames say so before a folder is made.
+void try_scenes(const Dataset& dataset) {
+  constexpr int kTried = 50;
+  for (int frame = 0; frame < std::min(dataset.frames, kTried); ++frame)
+    dataset_scene(dataset.spec, dataset.seed, frame);
+}
+
+/// The data set, and in `identity` what it was read from: the record ends before frames are made, which would note
+/// every file of theirs.
+Dataset read_dataset(const std::filesystem::path& file, const GenerateOptions& options, const CommonOptions& common,
+                     RunIdentity& identity) {
+  const InputRecord inputs;
+  Dataset dataset{.spec = read_dataset_spec(file, common.seed), .seed = common.seed, .frames = options.frames};
+  try_scenes(dataset);
+  identity.inputs = inputs.files();
+  return dataset;
+}
+
 void run_generate(const GenerateOptions& options, const CommonOptions& common) {
   const Shard shard = shard_of(options.shard);
-  const InputRecord inputs;
   const std::filesystem::path file = options.spec.empty() ? shipped_dataset_spec() : options.spec;
-  const Dataset dataset{.spec = read_dataset_spec(file, common.seed), .seed = common.seed, .frames = options.frames};
-  const RunIdentity identity{"generate", {{"seed", common.seed}}, inputs.files()};
-  int mine = 0;  // frames of this shard
-  for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count) mine += dataset.frames_in(scene);
-  require_same_dataset(common.output, dataset);
-  // Depths and masks of the shipped specification take 0.6 MB, infrared images as much again.
+  RunIdentity identity{"generate", {{"seed", common.seed}}};
+  const Dataset dataset = read_dataset(file, options, common, identity);
+  int mine = 0, missing = 0;  // frames of this shard
+  for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count) {
+    mine += dataset.frames_in(scene);
+    missing += missing_frames(common.output, dataset, scene);
+  }
+  // Depths and masks of the shipped specification take 0.3 MB, infrared images as much again.
   const double bytes = dataset.spec.mode == CaptureMode::photometric ? 1.2e6 : 0.7e6;
-  announce(common, require_space(common, {static_cast<double>(mine), bytes}, options.yes));
-
+  const std::string size = require_space(common, {static_cast<double>(missing), bytes}, options.yes);
   // Shards share the folder: each owns it while it begins and ends, and in between its own scenes.
-  constexpr std::chrono::seconds kPatience(60);
+  constexpr std::chrono::seconds kPatience(600);
   {
     const FolderOwner owner(common.output, kPatience);
-    require_same_dataset(common.output, dataset);  // another may have begun meanwhile
-    write_common(common.output, dataset);
+    write_common(common.output, dataset, identity);
   }
+  if (missing > 0) announce(common, size);
   Progress progress("frame", mine, common.quiet);
   int made = 0;
   for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count)
@@ -91,7 +118,7 @@ std::function<void()> define_generate(CLI::App& app, const CommonOptions& common
   app.add_flag("--example", options->example, "Prints a specification to start from, and makes nothing");
   app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
   return [options, &common] {
-    if (options->example) return print_text(read_text(shipped_dataset_spec()));
+    if (options->example) return print_text(example_text());
     require_output(common);
     run_generate(*options, common);
   };

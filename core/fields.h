@@ -58,6 +58,7 @@ struct Field {
   Range range;
   std::string_view meaning;  ///< one line
   bool is_required = false;
+  std::string_view schema = {};  ///< as JSON, where the range does not say all
 };
 
 /// A key as people and programs read of it.
@@ -84,7 +85,7 @@ template <class T>
 void read_fields(const JsonReader& json, std::span<const Field<T>> fields, T& object,
                  std::span<const std::string_view> besides = {});
 
-/// All keys, in the table's order, with numbers that read back as they are.
+/// All keys, in the table's order, with numbers that read back as they are; angles to the last bit but one.
 template <class T>
 Json json_from_fields(std::span<const Field<T>> fields, const T& object);
 
@@ -109,21 +110,22 @@ struct Overloaded : Readers... {
 
 template <class T>
 void read_value(const JsonReader& json, const Field<T>& field, T& object) {
-  const int low = static_cast<int>(field.range.low), high = static_cast<int>(field.range.high);
-  std::visit(
-      Overloaded{
-          [&](double T::*member) { object.*member = json.number(field.range); },
-          [&](Length<T> length) { object.*length.metres = metres_from_mm(json.number(field.range)); },
-          [&](Angle<T> angle) { object.*angle.radians = radians_from_deg(json.number(field.range)); },
-          [&](int T::*member) { object.*member = json.integer(low, high); },
-          [&](std::uint64_t T::*member) { object.*member = static_cast<std::uint64_t>(json.integer(low, high)); },
-          [&](Eigen::Vector2d T::*member) { object.*member = json.vector2(field.range); },
-          [&](const Choice<T>& choice) { choice.set(object, json.choice(choice.names, field.key)); },
-          [&](const Part<T>& part) {
-            if (part.read) part.read(json, object);
-          },
-      },
-      field.value);
+  const auto integer = [&] {
+    return json.integer(static_cast<int>(field.range.low), static_cast<int>(field.range.high));
+  };
+  std::visit(Overloaded{
+                 [&](double T::*member) { object.*member = json.number(field.range); },
+                 [&](Length<T> length) { object.*length.metres = metres_from_mm(json.number(field.range)); },
+                 [&](Angle<T> angle) { object.*angle.radians = radians_from_deg(json.number(field.range)); },
+                 [&](int T::*member) { object.*member = integer(); },
+                 [&](std::uint64_t T::*member) { object.*member = static_cast<std::uint64_t>(integer()); },
+                 [&](Eigen::Vector2d T::*member) { object.*member = json.vector2(field.range); },
+                 [&](const Choice<T>& choice) { choice.set(object, json.choice(choice.names, field.key)); },
+                 [&](const Part<T>& part) {
+                   if (part.read) part.read(json, object);
+                 },
+             },
+             field.value);
 }
 
 template <class T>
@@ -188,6 +190,7 @@ std::vector<KeyRow> key_rows(std::span<const Field<T>> fields, const T& standard
                             field.value);
     row.key = field.key, row.meaning = field.meaning, row.is_required = field.is_required;
     if (!field.is_required) row.standard = field_detail::json_from_value(field, standard);
+    if (!field.schema.empty()) row.schema = Json::parse(field.schema);
     row.schema["description"] = field.meaning;
     rows.push_back(std::move(row));
   }

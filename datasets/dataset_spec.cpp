@@ -44,7 +44,8 @@ void read_view(const JsonReader& json, DatasetSpec& spec) {
   json.allow_only({"models", "units", "height_mm", "aim_x_mm", "aim_y_mm", "roll_deg"});
   if (json.has("models"))
     for (const JsonReader& model : json.at("models").items()) {
-      library_file("sensors", "sensor model", model.text(), model.file(), model.pointer());
+      const Json alone = {{"model", model.text()}, {"height_mm", 650}, {"pitch_deg", 60}};
+      spec.rigs.push_back(rig_from_json(JsonReader(alone, model.file(), model.pointer())));
       spec.sensors.push_back(model.text());
     }
   if (spec.sensors.empty()) json.fail_at("models", "must name at least one sensor model");
@@ -63,11 +64,24 @@ Json drawn_shape(const JsonReader& shape, Rng rng, const std::string& name) {
                       ? Json(drawn(rng, interval_from_json(shape.at(key), kNonNegative)))
                       : value;
   if (!result.contains("wall_mm")) return result;
+  if (result.contains("outer_radius_mm")) shape.fail_at("wall_mm", "cannot stand beside outer_radius_mm");
   const JsonReader lengths(result, shape.file(), shape.pointer());
   result["outer_radius_mm"] =
       rounded(lengths.number("inner_radius_mm", kPositive) + lengths.number("wall_mm", kPositive));
   result.erase("wall_mm");
   return result;
+}
+
+/// Depth [mm] of a kind of cups. Throws Error where `kind` stands.
+double depth_mm(const Json& entry, const JsonReader& kind) {
+  if (!entry.is_object()) kind.fail("must be an object");
+  for (const char* key : {"position_mm", "yaw_deg", "liquid", "fill_mm", "fill_ml", "surface"})
+    if (entry.contains(key)) kind.fail_at(key, "cannot stand here");
+  Json filled = entry;
+  filled["position_mm"] = {0.0, 0.0};
+  filled["liquid"] = "water";
+  filled["fill_mm"] = 1.0;
+  return mm_from_metres(cup_depth(cup_from_json(JsonReader(filled, kind.file(), kind.pointer()))));
 }
 
 /// The kinds of cups, those with ranges drawn as often as their `variants` say.
@@ -78,6 +92,7 @@ Json drawn_kinds(const JsonReader& cups, std::uint64_t seed) {
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
     Json entry = kinds[kind].value();
     if (!entry.is_object() || !entry.contains("variants")) {
+      depth_mm(entry, kinds[kind]);
       result.push_back(std::move(entry));
       continue;
     }
@@ -88,27 +103,25 @@ Json drawn_kinds(const JsonReader& cups, std::uint64_t seed) {
     for (int variant = 0; variant < variants; ++variant) {
       entry["shape"] =
           drawn_shape(shape, Rng(seed, Draw::shape, kind, variant), fmt::format("cup_{}_{}", kind, variant));
+      depth_mm(entry, kinds[kind]);
       result.push_back(entry);
     }
   }
   return result;
 }
 
-/// The file's keys over those of the shipped specification.
+/// The file's keys over those of the shipped specification, those of its objects as well.
 Json with_defaults(const Json& given, const std::filesystem::path& path) {
   if (!given.is_object()) throw Error(path.string(), "/", "must be an object");
   Json result = read_json(shipped_dataset_spec());
-  for (const auto& [key, value] : given.items()) result[key] = value;
+  for (const auto& [key, value] : given.items()) {
+    if (!value.is_object() || !result.contains(key)) {
+      result[key] = value;
+      continue;
+    }
+    for (const auto& [inner, content] : value.items()) result[key][inner] = content;
+  }
   return result;
-}
-
-/// Depth of a cup [mm], of a kind's entry.
-double depth_mm(const Json& cup, const std::string& file) {
-  Json entry = cup;
-  if (!entry.contains("position_mm")) entry["position_mm"] = {0.0, 0.0};
-  entry["liquid"] = "water";
-  entry["fill_mm"] = 1.0;
-  return mm_from_metres(cup_depth(cup_from_json(JsonReader(entry, file))));
 }
 
 }  // namespace
@@ -131,7 +144,8 @@ DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t s
     desk["albedo"] = spec.desk_albedo.low;
   }
   for (const JsonReader& liquid : json.items_or_none("liquids")) {
-    medium_from_json(liquid);  // a mistake shows before the first frame
+    const Medium medium = medium_from_json(liquid);  // a mistake shows before the first frame
+    for (const Rig& rig : spec.rigs) require_index(liquid, medium, rig.sensor.wavelength_nm);
     spec.liquids.push_back(liquid.value());
   }
   read_interval(json, "fill_share", kShare, spec.fill_share);
@@ -153,7 +167,6 @@ DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t s
   for (const char* key : {"objects", "region_mm", "gap_mm", "touching", "occluding"})
     if (json.has(key)) clutter[key] = json.at(key).value();
   spec.clutter = clutter_spec_from_json(JsonReader(clutter, path.string()));
-  for (const ClutterThing& kind : spec.clutter.cup_kinds) depth_mm(kind.entry, path.string());
   return spec;
 }
 
@@ -174,7 +187,9 @@ Json dataset_scene(const DatasetSpec& spec, std::uint64_t seed, std::uint64_t fr
     const bool is_empty = fill.uniform() < spec.empty;
     const double share = fill.uniform();
     const std::uint32_t which = spec.liquids.empty() ? 0 : fill.below(static_cast<std::uint32_t>(spec.liquids.size()));
-    const double deep = depth_mm(cup, clutter.file);
+    Json empty = cup;
+    for (const char* key : {"position_mm", "yaw_deg"}) empty.erase(key);
+    const double deep = depth_mm(empty, JsonReader(empty, clutter.file, fmt::format("frame {}", frame)));
     const double fill_mm = rounded(deep * (spec.fill_share.low + share * (spec.fill_share.high - spec.fill_share.low)));
     if (is_empty || spec.liquids.empty() || fill_mm < 0.1) continue;
     cup["liquid"] = spec.liquids[which];

@@ -20,7 +20,8 @@ struct DatasetSpec {
   Json source;          ///< the file's text, with what it leaves out
   ClutterSpec clutter;  ///< its sensor, desk and fillings are drawn anew for each frame
   std::vector<std::string> sensors;
-  int units = 1000;  ///< serial numbers of the sensor, from 1
+  std::vector<Rig> rigs;  ///< of the sensors' models, somewhere
+  int units = 1000;       ///< serial numbers of the sensor, from 1
   Interval2 height_mm{500.0, 800.0}, aim_x_mm{0.0, 0.0}, aim_y_mm{350.0, 350.0}, roll_deg{0.0, 0.0};
   Interval2 desk_albedo{0.55, 0.55};
   std::vector<Json> liquids;        ///< as under a cup's "liquid"

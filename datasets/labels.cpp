@@ -7,6 +7,7 @@
 #include "core/median.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
+#include "sim/scene/cup_mesh.h"
 
 namespace fathom {
 namespace {
@@ -18,40 +19,51 @@ Json by_rows(const Eigen::Matrix3d& matrix) {
   return numbers;
 }
 
-/// The pixels that may show a body with this box; the whole image where part of it lies behind the camera.
+/// The pixels that may show a body with this box, as far as one image's width and height beyond the image, where BOP
+/// counts what is cut off as well; all of them where part of it lies behind the camera.
 PixelBox window_of(const Model& model, const Pose& camera_from_model, const SensorModel& sensor) {
   constexpr double kMargin = 3.0;
-  Eigen::AlignedBox2d seen;
+  const Eigen::Vector2d size(sensor.width, sensor.height);
+  Eigen::AlignedBox2d seen, canvas(-size, 2.0 * size);
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d at =
         camera_from_model * model.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    if (at.z() <= 0.0) return {0, 0, sensor.width, sensor.height};
+    if (at.z() <= 0.0) return {-sensor.width, -sensor.height, 3 * sensor.width, 3 * sensor.height};
     seen.extend(sensor.focal_px * sensor.optics.distorted(at.head<2>() / at.z()) + sensor.principal_px);
   }
-  const Eigen::Vector2d size(sensor.width, sensor.height);
-  const Eigen::Vector2d low = (seen.min().array() - kMargin).floor().cwiseMax(0.0).cwiseMin(size.array());
-  const Eigen::Vector2d high = (seen.max().array() + kMargin).ceil().cwiseMax(0.0).cwiseMin(size.array());
-  const Eigen::Vector2i from = low.cast<int>(), to = high.cast<int>();
+  const Eigen::Vector2d low = (seen.min().array() - kMargin).floor(), high = (seen.max().array() + kMargin).ceil();
+  const Eigen::Vector2i from = low.cwiseMax(canvas.min()).cwiseMin(canvas.max()).cast<int>(),
+                        to = high.cwiseMax(canvas.min()).cwiseMin(canvas.max()).cast<int>();
   return {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()};
 }
 
 /// Where the thing would be seen if nothing else were there.
-Image<std::uint8_t> seen_alone(const Model& model, const Pose& world_from_model, const Rig& rig) {
-  Image<std::uint8_t> mask(rig.sensor.width, rig.sensor.height);
+void see_alone(const Pose& world_from_model, const Rig& rig, InstanceLabel& label) {
+  const Model& model = *label.model;
+  label.whole = Image<std::uint8_t>(rig.sensor.width, rig.sensor.height);
   const Pose alone_from_world = model.alone_from_model * world_from_model.inverse();
   const Eigen::Vector3d origin = alone_from_world * rig.camera_in_world();
-  const PixelBox window = window_of(model, rig.world_from_camera.inverse() * world_from_model, rig.sensor);
-  for (int y = window.y; y < window.y + window.height; ++y)
-    for (int x = window.x; x < window.x + window.width; x += static_cast<int>(kPacket)) {
+  const PixelBox window = window_of(model, label.camera_from_model, rig.sensor);
+  Image<std::uint8_t> silhouette(window.width, window.height);
+  for (int y = 0; y < window.height; ++y)
+    for (int x = 0; x < window.width; x += static_cast<int>(kPacket)) {
       std::array<Ray, kPacket> rays;
-      const std::size_t count = std::min<std::size_t>(kPacket, window.x + window.width - x);
+      const std::size_t count = std::min<std::size_t>(kPacket, window.width - x);
       for (std::size_t i = 0; i < count; ++i)
-        rays[i] = {origin, alone_from_world.linear() * rig.direction_in_world(x + static_cast<int>(i) + 0.5, y + 0.5)};
+        rays[i] = {origin, alone_from_world.linear() *
+                               rig.direction_in_world(window.x + x + static_cast<int>(i) + 0.5, window.y + y + 0.5)};
       const Packet<Hit> hits = model.alone->first_hits(std::span(rays).first(count));
-      for (std::size_t i = 0; i < count; ++i)
-        if (hits.find(i)) mask(x + static_cast<int>(i), y) = 255;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!hits.find(i)) continue;
+        const int across = x + static_cast<int>(i), column = window.x + across, row = window.y + y;
+        silhouette(across, y) = 255;
+        ++label.whole_pixels;
+        if (column >= 0 && column < label.whole.width() && row >= 0 && row < label.whole.height())
+          label.whole(column, row) = 255;
+      }
     }
-  return mask;
+  label.whole_box = box_of(silhouette);
+  if (label.whole_box) label.whole_box->x += window.x, label.whole_box->y += window.y;
 }
 
 Image<std::uint8_t> first_seen(const Image<TruePixel>& truth, int object, std::optional<int> liquid = {}) {
@@ -104,9 +116,11 @@ InstanceLabel label_of(const Model& model, std::size_t index, int object, std::o
   InstanceLabel label{.model = &model,
                       .index = index,
                       .camera_from_model = rig.world_from_camera.inverse() * world_from_model,
-                      .whole = seen_alone(model, world_from_model, rig),
+                      .whole = {},
                       .visible = first_seen(camera.truth(), object, liquid),
+                      .whole_box = {},
                       .liquid = {}};
+  see_alone(world_from_model, rig, label);
   for (std::size_t i = 0; i < label.whole.size(); ++i)
     label.valid += label.whole.pixels()[i] > 0 && frame.depth.pixels()[i] > 0.0f;
   return label;
@@ -117,6 +131,10 @@ Json box_entry(const std::optional<PixelBox>& box) {
 }
 
 }  // namespace
+
+Eigen::Vector2d bop_principal_px(const SensorModel& sensor) {
+  return sensor.principal_px - Eigen::Vector2d::Constant(0.5);
+}
 
 int RunLengths::area() const {
   int area = 0;
@@ -162,12 +180,11 @@ std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, 
 Json camera_entry(const Rig& rig) {
   const SensorModel& sensor = rig.sensor;
   const Pose camera_from_world = rig.world_from_camera.inverse();
-  return {
-      {"cam_K",
-       {sensor.focal_px, 0.0, sensor.principal_px.x(), 0.0, sensor.focal_px, sensor.principal_px.y(), 0.0, 0.0, 1.0}},
-      {"depth_scale", kDepthUnitMm},
-      {"cam_R_w2c", by_rows(camera_from_world.linear())},
-      {"cam_t_w2c", json_in_mm(camera_from_world.translation())}};
+  const Eigen::Vector2d principal = bop_principal_px(sensor);
+  return {{"cam_K", {sensor.focal_px, 0.0, principal.x(), 0.0, sensor.focal_px, principal.y(), 0.0, 0.0, 1.0}},
+          {"depth_scale", kDepthUnitMm},
+          {"cam_R_w2c", by_rows(camera_from_world.linear())},
+          {"cam_t_w2c", json_in_mm(camera_from_world.translation())}};
 }
 
 Json pose_entry(const InstanceLabel& instance) {
@@ -177,8 +194,8 @@ Json pose_entry(const InstanceLabel& instance) {
 }
 
 Json info_entry(const InstanceLabel& instance) {
-  const int whole = run_lengths(instance.whole).area(), visible = run_lengths(instance.visible).area();
-  return {{"bbox_obj", box_entry(box_of(instance.whole))},
+  const int whole = instance.whole_pixels, visible = run_lengths(instance.visible).area();
+  return {{"bbox_obj", box_entry(instance.whole_box)},
           {"bbox_visib", box_entry(box_of(instance.visible))},
           {"px_count_all", whole},
           {"px_count_valid", instance.valid},
@@ -200,7 +217,7 @@ Json cup_entry(const InstanceLabel& instance, const Cup& cup) {
                     {"outer_radius_mm", mm_from_metres(shape->outer.back().x())}};
     if (const auto& handle = shape->handle) {
       const double middle = 0.5 * (handle->low + handle->high);
-      const double out = shape->outer_radius(middle) + handle->reach;
+      const double out = handle_wall(*shape) + handle->reach;
       entry["handle"] = {{"middle_mm", json_in_mm(camera_from_model * Eigen::Vector3d(out, 0.0, middle))},
                          {"axis", {camera_from_model(0, 0), camera_from_model(1, 0), camera_from_model(2, 0)}},
                          {"tube_radius_mm", mm_from_metres(handle->tube_radius)}};

@@ -41,9 +41,11 @@ struct InstanceLabel {
   const Model* model;
   std::size_t index;  ///< of the scene's cups, or of its objects
   Pose camera_from_model;
-  Image<std::uint8_t> whole;    ///< 255 where it would be seen alone
-  Image<std::uint8_t> visible;  ///< 255 where it, or a liquid in it, is the first that is seen
-  int valid = 0;                ///< pixels of `whole` with a measured depth
+  Image<std::uint8_t> whole;          ///< 255 where it would be seen alone
+  Image<std::uint8_t> visible;        ///< 255 where it, or a liquid in it, is the first that is seen
+  int whole_pixels = 0;               ///< of its silhouette, also beyond the image
+  std::optional<PixelBox> whole_box;  ///< of the silhouette, also beyond the image
+  int valid = 0;                      ///< pixels of `whole` with a measured depth
   std::optional<LiquidLabel> liquid;
 };
 
@@ -51,6 +53,8 @@ struct InstanceLabel {
 std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, const Camera& camera,
                                        const Frame& frame);
 
+/// BOP's and OpenCV's first pixel has its centre at (0, 0), Fathom's at (0.5, 0.5).
+Eigen::Vector2d bop_principal_px(const SensorModel& sensor);
 /// BOP's entry of scene_camera.json: depth images count tenths of a millimetre.
 Json camera_entry(const Rig& rig);
 /// BOP's entries of scene_gt.json and scene_gt_info.json.

@@ -53,6 +53,15 @@ double diameter_of(const Mesh& mesh) {
   return widest;
 }
 
+/// Whether it is a body of revolution about its z axis: as wide as it is deep, with nothing in the corners.
+bool is_round(const Model& model) {
+  constexpr double kRound = 1e-3;  // of its width: facets
+  const Eigen::Vector3d size = model.box.sizes();
+  double radius = 0.0;
+  for (const Eigen::Vector3d& vertex : model.mesh.vertices) radius = std::max(radius, vertex.head<2>().norm());
+  return std::abs(size.x() - size.y()) < kRound * size.x() && std::abs(2.0 * radius - size.x()) < kRound * size.x();
+}
+
 }  // namespace
 
 Json json_in_mm(const Eigen::Vector3d& metres) {
@@ -97,9 +106,9 @@ const Model& Models::find(bool is_cup, const Json& entry) const {
 
 void write_model(const std::filesystem::path& path, const Model& model) {
   std::string text = fmt::format(
-      "ply\nformat ascii 1.0\ncomment {}, mm\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+      "ply\nformat ascii 1.0\ncomment mm\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      model.name, model.mesh.vertices.size(), model.mesh.triangles.size());
+      model.mesh.vertices.size(), model.mesh.triangles.size());
   for (const Eigen::Vector3d& v : model.mesh.vertices)
     text += fmt::format("{:.6g} {:.6g} {:.6g}\n", 1e3 * v.x(), 1e3 * v.y(), 1e3 * v.z());
   for (const Eigen::Vector3i& t : model.mesh.triangles) text += fmt::format("3 {} {} {}\n", t.x(), t.y(), t.z());
@@ -119,11 +128,7 @@ Json models_info(const Models& models) {
                   {"size_x", size.x()},
                   {"size_y", size.y()},
                   {"size_z", size.z()}};
-    // A body of revolution is as wide as it is deep, about its axis.
-    const bool is_round = std::abs(size.x() - size.y()) < 1e-3 && std::abs(2.0 * low.x() + size.x()) < 1e-3;
-    if (model.is_cup && is_round)
-      entry["symmetries_continuous"] =
-          Json::array({{{"axis", {0, 0, 1}}, {"offset", json_in_mm(Eigen::Vector3d::Zero())}}});
+    if (is_round(model)) entry["symmetries_continuous"] = Json::array({{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}});
     info[fmt::format("{}", model.id)] = std::move(entry);
   }
   return info;

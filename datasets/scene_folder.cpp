@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <mutex>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
-#include "core/json_text.h"
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "datasets/frame_picture.h"
@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kComplete = "complete.json";  ///< of a scene, comes last and says how many frames it has
 constexpr std::uint64_t kCameraStream = 0x63616d657261ULL;
 
 std::string frame_name(int image) { return fmt::format("{:06}", image); }
@@ -35,9 +36,9 @@ Image<std::uint16_t> depth_counts(const Image<TruePixel>& truth, Depth depth) {
   return counts;
 }
 
-/// What is drawn, and by which seed.
-std::string identity_text(const Dataset& dataset) {
-  return json_text({{"seed", dataset.seed}, {"specification", dataset.spec.source}});
+/// Errors of a drawn scene name the specification and the frame.
+Setup setup_of(const Dataset& dataset, const Json& scene, int number) {
+  return setup_from_json(scene, dataset.spec.clutter.file, fmt::format("frame {}", number));
 }
 
 /// Writes a frame's files into the scene's folder and keeps their names.
@@ -97,7 +98,7 @@ Json runs_json(const Image<std::uint8_t>& mask) {
 /// Shoots a frame, writes its files and returns their names, that of its labels last.
 std::vector<std::string> write_frame(const fs::path& folder, const Dataset& dataset, int number) {
   const Json scene = dataset_scene(dataset.spec, dataset.seed, number);
-  const Setup setup = setup_from_json(scene, dataset.spec.clutter.file);
+  const Setup setup = setup_of(dataset, scene, number);
   Camera camera(setup, dataset.spec.mode, kDefaultSamplesPerPixel, Rng(dataset.seed, kCameraStream, number).bits(),
                 dataset.spec.light);
   const Frame frame = camera.shoot(0);
@@ -146,14 +147,16 @@ Json categories() {
                       {{"id", 4}, {"name", "liquid seen through"}, {"supercategory", "liquid"}}});
 }
 
-Json annotation(int id, int image, Category category, const Json& runs, const Json& box, const Json& area) {
+Json annotation(std::int64_t id, std::int64_t image, Category category, const Json& runs, const Json& box,
+                const Json& area) {
   return {{"id", id},     {"image_id", image},    {"category_id", static_cast<int>(category)},
           {"iscrowd", 0}, {"segmentation", runs}, {"bbox", box},
           {"area", area}};
 }
 
 /// The labels of a scene's frames, gathered into BOP's and COCO's files.
-void gather(const fs::path& folder, int images, bool has_infrared, Manifest& manifest) {
+void gather(const fs::path& folder, const std::string& name, int images, bool has_infrared, Manifest& manifest) {
+  constexpr std::int64_t kMostAnnotations = 1000;  // of a frame: numbers are unique in the whole data set
   Json cameras = Json::object(), poses = Json::object(), infos = Json::object(), cups = Json::object();
   Json shown = Json::array(), annotations = Json::array();
   for (int image = 0; image < images; ++image) {
@@ -161,8 +164,10 @@ void gather(const fs::path& folder, int images, bool has_infrared, Manifest& man
     const Json labels = read_json(folder / fmt::format("labels/{}.json", frame_name(image)));
     cameras[key] = labels.at("camera");
     poses[key] = infos[key] = cups[key] = Json::array();
-    shown.push_back({{"id", image},
-                     {"file_name", fmt::format("{}/{}.png", has_infrared ? "ir" : "depth", frame_name(image))},
+    const std::int64_t frame = labels.at("frame");
+    auto next_id = [frame, number = 0]() mutable { return frame * kMostAnnotations + ++number; };
+    shown.push_back({{"id", frame},
+                     {"file_name", fmt::format("{}/{}/{}.png", name, has_infrared ? "ir" : "depth", frame_name(image))},
                      {"width", labels.at("width")},
                      {"height", labels.at("height")}});
     for (const Json& instance : labels.at("instances")) {
@@ -171,34 +176,35 @@ void gather(const fs::path& folder, int images, bool has_infrared, Manifest& man
       const bool is_cup = instance.contains("cup");
       const Json& info = instance["info"];
       if (info.at("px_count_visib") > 0)
-        annotations.push_back(annotation(static_cast<int>(annotations.size()) + 1, image,
-                                         is_cup ? Category::cup : Category::thing, instance.at("visible"),
-                                         info.at("bbox_visib"), info.at("px_count_visib")));
+        annotations.push_back(annotation(next_id(), frame, is_cup ? Category::cup : Category::thing,
+                                         instance.at("visible"), info.at("bbox_visib"), info.at("px_count_visib")));
       if (!is_cup) continue;
       Json cup = instance["cup"];
       cup["instance"] = poses[key].size() - 1;
       const Json& liquid = cup["liquid"];
       if (!liquid.is_null() && liquid.at("px_count_visib") > 0)
         annotations.push_back(annotation(
-            static_cast<int>(annotations.size()) + 1, image,
+            next_id(), frame,
             liquid.at("category") == "liquid surface" ? Category::liquid_surface : Category::liquid_seen_through,
             instance.at("liquid_visible"), liquid.at("bbox_visib"), liquid.at("px_count_visib")));
       cups[key].push_back(std::move(cup));
     }
   }
+  const Json frames = {{"frames", images}};
   const Json coco = {{"info", {{"description", "simulated by Fathom"}}},
                      {"licenses", Json::array()},
                      {"categories", categories()},
                      {"images", shown},
                      {"annotations", annotations}};
-  for (const auto& [name, content] :
+  for (const auto& [file, content] :
        std::initializer_list<std::pair<const char*, const Json*>>{{"scene_camera.json", &cameras},
                                                                   {"scene_gt_info.json", &infos},
                                                                   {"scene_cups.json", &cups},
                                                                   {"coco.json", &coco},
-                                                                  {"scene_gt.json", &poses}}) {
-    write_text(folder / name, content->dump() + "\n");
-    manifest.add(name);
+                                                                  {"scene_gt.json", &poses},
+                                                                  {kComplete, &frames}}) {
+    write_text(folder / file, content->dump() + "\n");
+    manifest.add(file);
   }
 }
 
@@ -206,35 +212,47 @@ void gather(const fs::path& folder, int images, bool has_infrared, Manifest& man
 
 std::string scene_folder(int scene) { return fmt::format("train/{:06}", scene); }
 
-void require_same_dataset(const fs::path& folder, const Dataset& dataset) {
-  const fs::path file = folder / "dataset.json";
-  if (fs::exists(file) && read_text(file) != identity_text(dataset))
-    throw Error(file.string(), "is of another run: its specification or seed differs; choose another folder");
-  for (const char* name : {"train", "models"})
-    if (!fs::exists(file) && fs::exists(folder / name))
-      throw Error((folder / name).string(), "is there already; choose another folder");
-}
-
-void write_common(const fs::path& folder, const Dataset& dataset) {
+void write_common(const fs::path& folder, const Dataset& dataset, const RunIdentity& identity) {
   make_directory(folder);
+  Manifest manifest(folder, identity);
+  manifest.require_same_run();
+  for (const char* name : {"train", "models", "dataset.json"})
+    if (!manifest.exists() && fs::exists(folder / name))
+      throw Error((folder / name).string(), "is there already; choose another folder");
+  manifest.begin();
   if (!is_complete(folder, dataset)) fs::remove(folder / "index.html");  // it comes last
-  remove_leftovers(folder);
-  write_text(folder / "dataset.json", identity_text(dataset));
   make_directory(folder / "models");
   remove_leftovers(folder / "models");
   make_directory(folder / "train");
+  const auto write = [&](const std::string& name, const std::function<void(const fs::path&)>& write_file) {
+    if (manifest.holds(name)) return;
+    write_file(folder / name);
+    manifest.add(name);
+  };
+  write("dataset.json", [&](const fs::path& path) {
+    write_json(path, {{"seed", dataset.seed}, {"specification", dataset.spec.source}});
+  });
   for (const Model& model : dataset.models.all())
-    write_model(folder / fmt::format("models/obj_{:06}.ply", model.id), model);
-  write_json(folder / "models/models_info.json", models_info(dataset.models));
-  const SensorModel sensor =
-      setup_from_json(dataset_scene(dataset.spec, dataset.seed, 0), dataset.spec.clutter.file).rig.sensor;
-  write_json(folder / "camera.json", {{"fx", sensor.focal_px},
-                                      {"fy", sensor.focal_px},
-                                      {"cx", sensor.principal_px.x()},
-                                      {"cy", sensor.principal_px.y()},
-                                      {"width", sensor.width},
-                                      {"height", sensor.height},
-                                      {"depth_scale", kDepthUnitMm}});
+    write(fmt::format("models/obj_{:06}.ply", model.id), [&](const fs::path& path) { write_model(path, model); });
+  write("models/models_info.json", [&](const fs::path& path) { write_json(path, models_info(dataset.models)); });
+  write("camera.json", [&](const fs::path& path) {
+    const SensorModel sensor = setup_of(dataset, dataset_scene(dataset.spec, dataset.seed, 0), 0).rig.sensor;
+    write_json(path, {{"fx", sensor.focal_px},
+                      {"fy", sensor.focal_px},
+                      {"cx", bop_principal_px(sensor).x()},
+                      {"cy", bop_principal_px(sensor).y()},
+                      {"width", sensor.width},
+                      {"height", sensor.height},
+                      {"depth_scale", kDepthUnitMm}});
+  });
+  manifest.finish();
+}
+
+int missing_frames(const fs::path& folder, const Dataset& dataset, int scene) {
+  int missing = 0;
+  for (int image = 0; image < dataset.frames_in(scene); ++image)
+    missing += !fs::exists(folder / scene_folder(scene) / fmt::format("labels/{}.json", frame_name(image)));
+  return missing;
 }
 
 int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, const RunIdentity& identity,
@@ -263,7 +281,7 @@ int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, con
     else
       missing.push_back(image);
   }
-  if (!missing.empty()) fs::remove(folder / "scene_gt.json");  // while it is there the scene counts as complete
+  if (!missing.empty()) fs::remove(folder / kComplete);
   std::mutex noting;
   parallel_ranges(static_cast<int>(missing.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -273,14 +291,16 @@ int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, con
       step();
     }
   });
-  gather(folder, images, has_infrared, manifest);
+  gather(folder, scene_folder(scene), images, has_infrared, manifest);
   manifest.finish();
   return static_cast<int>(missing.size());
 }
 
 bool is_complete(const fs::path& folder, const Dataset& dataset) {
-  for (int scene = 0; scene < dataset.scenes(); ++scene)
-    if (!fs::exists(folder / scene_folder(scene) / "scene_gt.json")) return false;
+  for (int scene = 0; scene < dataset.scenes(); ++scene) {
+    const fs::path file = folder / scene_folder(scene) / kComplete;
+    if (!fs::exists(file) || read_json(file).at("frames") != dataset.frames_in(scene)) return false;
+  }
   return true;
 }
 

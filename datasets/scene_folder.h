@@ -31,11 +31,12 @@ struct Dataset {
 /// "train/000012"
 std::string scene_folder(int scene);
 
-/// Throws Error where frames stand in the folder that are drawn from something else.
-void require_same_dataset(const std::filesystem::path& folder, const Dataset& dataset);
+/// Writes what all frames have in common: dataset.json, models/, camera.json, as far as they are not there. For the
+/// folder's owner. Throws Error, before anything is written, where what stands there is another run's.
+void write_common(const std::filesystem::path& folder, const Dataset& dataset, const RunIdentity& identity);
 
-/// Writes what all frames have in common: dataset.json, models/, camera.json. For the folder's owner.
-void write_common(const std::filesystem::path& folder, const Dataset& dataset);
+/// How many of a scene's frames are not there yet, by their labels.
+int missing_frames(const std::filesystem::path& folder, const Dataset& dataset, int scene);
 
 /// Makes the frames of a scene's folder that are not there yet, or not as they were written, and then the files that
 /// gather their labels. Calls `step` for every frame, from any thread; returns how many were made now. The folder is
@@ -43,7 +44,7 @@ void write_common(const std::filesystem::path& folder, const Dataset& dataset);
 int write_scene(const std::filesystem::path& folder, const Dataset& dataset, int scene, const RunIdentity& identity,
                 const std::function<void()>& step);
 
-/// Whether every scene's labels are gathered.
+/// Whether every scene's labels are gathered, of all its frames.
 bool is_complete(const std::filesystem::path& folder, const Dataset& dataset);
 
 }  // namespace fathom

@@ -29,7 +29,7 @@ FEWEST = 40  # pixels at SIZE that are taken for a cup
 
 def points_of(depth, matrix):
     rows, columns = np.indices(depth.shape)
-    return np.stack([(columns + 0.5 - matrix[0, 2]) / matrix[0, 0] * depth, (rows + 0.5 - matrix[1, 2]) / matrix[1, 1] * depth, depth], axis=-1)
+    return np.stack([(columns - matrix[0, 2]) / matrix[0, 0] * depth, (rows - matrix[1, 2]) / matrix[1, 1] * depth, depth], axis=-1)
 
 
 def desk_of(points, random):

@@ -7,11 +7,16 @@
 #include "sim/scene/revolve.h"
 
 namespace fathom {
+double handle_wall(const CupShape& shape) {
+  const double middle = 0.5 * (shape.handle->low + shape.handle->high);
+  return 0.5 * (shape.inner_radius(middle) + shape.outer_radius(middle));
+}
+
 Mesh handle_mesh(const CupShape& shape) {
   constexpr int kAlong = 24, kAround = 12;
   const Handle& handle = *shape.handle;
   const double middle = 0.5 * (handle.low + handle.high), half = 0.5 * (handle.high - handle.low);
-  const double wall = 0.5 * (shape.inner_radius(middle) + shape.outer_radius(middle));
+  const double wall = handle_wall(shape);
   Mesh mesh;
   for (int i = 0; i <= kAlong; ++i) {
     const double t = std::numbers::pi * (static_cast<double>(i) / kAlong - 0.5);

@@ -13,6 +13,9 @@ namespace fathom {
 /// The solid between outer and inner profile, with its handle, axis at the origin, standing on z = 0.
 Mesh cup_mesh(const CupShape& shape);
 
+/// Distance [m] from the axis of the wall's middle where a handle's reach begins, of a shape that has one.
+double handle_wall(const CupShape& shape);
+
 /// The handle of a shape that has one.
 Mesh handle_mesh(const CupShape& shape);
 

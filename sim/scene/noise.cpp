@@ -64,7 +64,7 @@ std::span<const Field<DisparityNoise>> disparity_fields() {
       {"lateral_px",
        &DisparityNoise::lateral_px,
        {0.0, 16.0},
-       "standard deviation of the place that a pixel reads, along each axis"},
+       "standard deviation of the random lateral displacement of what a pixel reads, along each axis"},
       {"renewed", &DisparityNoise::renewed, kShare, "share of both variances that each frame draws anew"}};
   return fields;
 }
@@ -72,7 +72,8 @@ std::span<const Field<DisparityNoise>> disparity_fields() {
 std::span<const Field<NoiseModel>> noise_fields() {
   static const Field<NoiseModel> fields[] = {
       {"speckle_shape", &NoiseModel::speckle_shape, kNonNegative,
-       "of the Gamma distribution of the dots' brightness, at least 1; 0: none"},
+       "of the Gamma distribution of the dots' brightness, at least 1; 0: none", false,
+       R"({"anyOf": [{"const": 0}, {"type": "number", "minimum": 1}]})"},
       {"speckle_mean", &NoiseModel::speckle_mean, kPositive, "mean of that distribution"},
       {"pixel_speckle", &NoiseModel::pixel_speckle, kShare,
        "share of the light that is coherent and makes speckle on the pixels, with the grain of `optics`"},

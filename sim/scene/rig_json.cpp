@@ -113,11 +113,11 @@ std::span<const Field<MatcherModel>> matcher_fields() {
       {"relative_contrast_min",
        &MatcherModel::relative_contrast_min,
        {0.0, 2.0},
-       "least standard deviation of a block over its mean, of the device's method: light that is even, from outside or "
+       "least ratio of standard deviation to mean in a block; device method only: light that is even, from outside or "
        "smeared within a body, takes the dots' contrast"},
       {"compression_dn", &MatcherModel::compression, kNonNegative,
-       "blocks are compared in the square root of light and this, so that bright dots count for less; 0: in light; of "
-       "the device's method"},
+       "blocks are compared after √(light + this), so that bright dots count for less; 0: after nothing; "
+       "device method only"},
       {"hole_max_px",
        &MatcherModel::hole_max_px,
        {0.0, 64.0},
@@ -203,16 +203,16 @@ std::span<const Field<SensorModel>> sensor_fields() {
                       [](const Sensor& sensor) { return sensor.quantized ? std::size_t{0} : std::size_t{1}; },
                       [](Sensor& sensor, std::size_t choice) { sensor.quantized = choice == 0; }},
        {},
-       "device: the depth law; off: depths as they come"},
+       "device: depths are rounded to the device's steps of 1/8 px of disparity; off: they are not"},
       {"depth_step_phase",
        &Sensor::step_phase,
        {-2.0, 2.0},
-       "where the law's depths lie between whole codes, in steps"},
-      {"codes_per_step", &Sensor::codes_per_step, {1.0, 64.0}, "so many of the law's codes of 1/8 px come together"},
+       "offset of the depth steps, as a share of a step; 0.5: halfway between two codes"},
+      {"codes_per_step", &Sensor::codes_per_step, {1.0, 64.0}, "number of codes of 1/8 px in one depth step"},
       {"depth_cut_mm",
        Length{&Sensor::cut},
        {0.0, 100.0},
-       "the law's depths are cut to whole multiples of it; 0: they are not"},
+       "depths are truncated to multiples of this; 0: they are not"},
       {"optics",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_fields(json, optics_fields(), sensor.optics); },
                     [](const Sensor& sensor) { return json_from_fields(optics_fields(), sensor.optics); },
@@ -232,9 +232,8 @@ std::span<const Field<SensorModel>> sensor_fields() {
                     [](const Sensor& sensor) { return json_from_fields(unit_fields(), sensor.unit); },
                     R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/unit"}]})", "a path or an object"},
        {},
-       "how this sensor differs from its model: the path of a unit.json of fathom calibrate, beside which no residue "
-       "is "
-       "drawn, or an object"},
+       "how this individual device differs from its model: a unit.json of fathom calibrate, which switches residue_px "
+       "off, or an object"},
       {"pattern",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_pattern(json, sensor.pattern); },
                     [](const Sensor& sensor) { return json_from_fields(pattern_fields(), sensor.pattern); },
@@ -254,7 +253,7 @@ std::span<const Field<SensorModel>> sensor_fields() {
                     },
                     R"({"$ref": "#/$defs/calibration"})", "an object"},
        {},
-       "the numbers with which the device makes depths and points, where its calibration is wrong"}};
+       "calibration that the device computes depths and points with, where it differs from the true one"}};
   return fields;
 }
 
@@ -327,11 +326,9 @@ std::span<const Field<SensorModel>> place_fields() {
       {"model",
        part(R"({"type": "string"})", "a name"),
        {},
-       "a model of `fathom list sensors`, which the other keys change; `xtion_pro_live` and `kinect_v1` are matched "
-       "better than "
-       "the "
-       "device can, for work on what light does; with `_device` behind it a model has the device's image chain and "
-       "matching"},
+       "a model of `fathom list sensors`; the other keys change it. `xtion_pro_live` and `kinect_v1` match ideally, "
+       "for work "
+       "on what light does; names that end in `_device` imitate the real device"},
       {"name", part(R"({"type": "string"})", "a text"), {}, "what a sensor without `model` is called"},
       {"height_mm",
        part(R"({"type": "number", "exclusiveMinimum": 0, "maximum": 1000000})", "above 0 to 1000000"),
@@ -354,7 +351,7 @@ std::span<const Field<SensorModel>> place_fields() {
            R"({"type": "array", "items": {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}, "minItems": 4, "maxItems": 4})",
            "4 rows of 4 numbers"),
        {},
-       "the infrared camera's pose instead of height and angles: a turn and a place in metres"}};
+       "pose of the infrared camera instead of height and angles: rotation, and translation in metres"}};
   return fields;
 }
 

@@ -20,7 +20,6 @@ namespace {
 
 constexpr Range kAlbedo{0.0, 1.0};
 
-/// Lengths along x and y, in mm.
 constexpr std::string_view kPlaceSchema = R"({"$ref": "#/$defs/place2"})",
                            kGlazeSchema = R"({"$ref": "#/$defs/glaze"})";
 

@@ -56,7 +56,7 @@ std::span<const Field<UnitModel>> unit_fields() {
       {"disparity_offset_px",
        &UnitModel::disparity_offset_px,
        {-4.0, 4.0},
-       "what this unit's disparities have too much"},
+       "constant bias of this device's disparities"},
       {"wander_px",
        &UnitModel::wander_px,
        {0.0, 4.0},
@@ -71,9 +71,9 @@ std::span<const Field<UnitModel>> unit_fields() {
       {"residue_px",
        &UnitModel::residue_px,
        {0.0, 4.0},
-       "standard deviation, over the image, of what the reference image is displaced by: a unit's own bias of place"},
-      {"residue_reach_px", &UnitModel::residue_reach_px, {4.0, 1000.0}, "distance over which that changes"},
-      {"warm_up_px", &UnitModel::warm_up_px, {-4.0, 4.0}, "what the disparities of a cold unit have too much"},
+       "standard deviation over the image of this device's fixed disparity error, which differs from place to place"},
+      {"residue_reach_px", &UnitModel::residue_reach_px, {4.0, 1000.0}, "distance over which that error changes"},
+      {"warm_up_px", &UnitModel::warm_up_px, {-4.0, 4.0}, "additional disparity of a cold device"},
       {"warm_up_s", &UnitModel::warm_up_s, kPositive, "time in which that falls to 1/e"},
       {"on_for_s", &UnitModel::on_for_s, kNonNegative, "time since the unit was switched on, at frame 0"},
       {"frame_interval_s", &UnitModel::frame_interval_s, kPositive, "from frame to frame"},
@@ -82,7 +82,7 @@ std::span<const Field<UnitModel>> unit_fields() {
                        [](const UnitModel& unit) { return unit.learned.map ? Json(unit.learned.file) : Json(); },
                        R"({"type": "string"})", "a path"},
        {},
-       "a unit.json of fathom calibrate, relative to this file: its bias over the image comes to what is drawn"}};
+       "a unit.json of fathom calibrate, relative to this file; its map of errors is added to those that are drawn"}};
   return fields;
 }
 

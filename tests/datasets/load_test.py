@@ -43,15 +43,15 @@ def check(data_set, loader):
     boxes = clouds = 0
     for depth, matrix, instances in loader["frames"](data_set):
         for one in instances:
-            corners = models[one["model"]] @ one["turn"].T + one["place_m"]
+            corners = models[one["model"]] @ one["rotation"].T + one["translation_m"]
             pixels = corners @ matrix.T
-            pixels = pixels[:, :2] / pixels[:, 2:]
+            pixels = pixels[:, :2] / pixels[:, 2:] + 0.5  # of pixels whose corners are whole numbers
             rows, columns = np.nonzero(one["mask"])
             if len(rows) == 0:
                 continue
             seen = np.array([columns.min(), rows.min(), columns.max() + 1, rows.max() + 1])
             whole = np.concatenate([pixels.min(axis=0), pixels.max(axis=0)])
-            assert np.all(seen[:2] > whole[:2] - 1) and np.all(seen[2:] < whole[2:] + 1), (seen, whole)
+            assert np.all(seen[:2] > whole[:2] - 0.6) and np.all(seen[2:] < whole[2:] + 0.6), (seen, whole)
             boxes += 1
             cloud = loader["points"](depth, matrix, one["mask"])
             if len(cloud) < 500 or (one["cup"] and one["cup"]["liquid"]):
