@@ -193,6 +193,11 @@ def clutter(rng, seeds, here):
     return ["evaluate", rng.choice(["recognition", "recognition", "liquid"]), "--trials", "1", "--clutter", "clutter.json"]
 
 
+def dataset(rng, seeds, here):
+    (here / "frames.json").write_bytes(text_mutant(rng, seeds.dataset, here, seeds.clutter))
+    return ["generate", "frames.json", "--frames", "1"]
+
+
 def config(rng, seeds, here):
     """What detect takes beside clouds: a configuration with templates, poses, labels."""
     (here / "cloud.pcd").write_bytes(mutate_cloud.write_pcd(seeds.points, len(seeds.points), 1, "binary"))
@@ -228,7 +233,7 @@ def resumed(rng, seeds, here):
 
 # Kind: share of the mutants.
 KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, infrared: 2,
-         clutter: 2, config: 4, resumed: 2}
+         clutter: 2, dataset: 3, config: 4, resumed: 2}
 NAMES = [kind.__name__ for kind in KINDS]
 # How the program is called: what its streams lead to.
 STREAMS = ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full", ">&-", "<&-"]

@@ -117,6 +117,8 @@ class Seeds:
         self.points = points()
         self.clutter = json.dumps({**json.loads((SCENES / "clutter" / "desk.json").read_text()),
                                    "sensor": {**TINY, "aim_mm": [0, 350, 0], "noise": "basic"}})
+        self.dataset = json.dumps({**json.loads((SCENES / "datasets" / "cups.json").read_text()), "cups": {"number": [1, 2], "kinds": [
+            {"shape": "mug"}, {"shape": {"height_mm": [70, 125], "bottom_mm": [3, 8], "inner_radius_mm": [28, 46], "wall_mm": 2}, "variants": 2}]}})
         self.poses = json.dumps({"world_from_camera": [[[1, 0, 0, 0], [0, -0.6, 0.8, 0], [0, -0.8, -0.6, 0.65]]] * 2})
         self.config = json.dumps({"templates": ["cup.json"]})
         self.template = (SCENES / "templates" / "paper_cup.json").read_text().replace("paper_cup.pcd", "cup.pcd")
@@ -149,7 +151,7 @@ class Seeds:
         (good / "box.bin").write_bytes(data)
         (good / "pattern.png").write_bytes(mutate_image.grey_png(64, 64))
         few = "\n".join(self.frames.splitlines()[:10]) + "\n"  # a diagnosis of all of them takes seconds
-        for name, value in {"model.json": self.model, "clutter.json": self.clutter, "poses.json": self.poses,
+        for name, value in {"model.json": self.model, "clutter.json": self.clutter, "frames.json": self.dataset, "poses.json": self.poses,
                             "config.json": self.config, "cup.json": self.template,
                             "cups_groundtruth.csv": self.labels, "heights/rig.json": self.rig,
                             "heights/frames.csv": few}.items():
@@ -164,7 +166,8 @@ class Seeds:
             ["measure", str(self.clouds)], ["diagnose", "heights", "--model", "model.json"], ["detect", "ascii.pcd", "--config",
                                                                                               "config.json"],
             ["detect", "binary.pcd", "binary_compressed.pcd", "--poses", "poses.json"], ["template", "binary.pcd", "--name", "x"],
-            ["evaluate", "recognition", "--trials", "1", "--clutter", "clutter.json"], ["evaluate", "."],
+            ["evaluate", "recognition", "--trials", "1", "--clutter", "clutter.json"], ["generate", "frames.json", "--frames", "1"],
+            ["evaluate", "."],
         ["detect", "--live", str(self.recording)]]
         for i, command in enumerate(commands):
             subprocess.run([program, *command, "-o", str(folder / f"out{i}"), "--quiet"], cwd=good, env=env, check=True,
