@@ -107,6 +107,8 @@ template <class... Readers>
 struct Overloaded : Readers... {
   using Readers::operator()...;
 };
+template <class... Readers>
+Overloaded(Readers...) -> Overloaded<Readers...>;
 
 template <class T>
 void read_value(const JsonReader& json, const Field<T>& field, T& object) {
