@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/library.h"
 #include "core/rng.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
@@ -187,11 +186,12 @@ Json dataset_scene(const DatasetSpec& spec, std::uint64_t seed, std::uint64_t fr
     const bool is_empty = fill.uniform() < spec.empty;
     const double share = fill.uniform();
     const std::uint32_t which = spec.liquids.empty() ? 0 : fill.below(static_cast<std::uint32_t>(spec.liquids.size()));
+    if (is_empty || spec.liquids.empty()) continue;
     Json empty = cup;
     for (const char* key : {"position_mm", "yaw_deg"}) empty.erase(key);
     const double deep = depth_mm(empty, JsonReader(empty, clutter.file, fmt::format("frame {}", frame)));
     const double fill_mm = rounded(deep * (spec.fill_share.low + share * (spec.fill_share.high - spec.fill_share.low)));
-    if (is_empty || spec.liquids.empty() || fill_mm < 0.1) continue;
+    if (fill_mm < 0.1) continue;
     cup["liquid"] = spec.liquids[which];
     cup["fill_mm"] = std::min(fill_mm, deep);
   }
