@@ -24,6 +24,7 @@
 #include "core/units.h"
 #include "diagnosis/predict/uncertain_rig.h"
 #include "sim/effects/effects_json.h"
+#include "sim/sensor/capture_files.h"
 
 namespace fathom {
 namespace {
@@ -143,14 +144,6 @@ std::string cloud_file(const Placement& placement, int trial) {
 
 std::string infrared_file(const Placement& placement, int trial) {
   return fmt::format("infrared/{:06}.png", placement.first_frame + trial);
-}
-
-/// Counts of the detector, as an infrared stream has them.
-Image<std::uint16_t> whole_dn(const Image<float>& ir) {
-  Image<std::uint16_t> counts(ir.width(), ir.height());
-  for (std::size_t i = 0; i < ir.size(); ++i)
-    counts.pixels()[i] = static_cast<std::uint16_t>(std::lround(std::clamp(ir.pixels()[i], 0.0f, 65535.0f)));
-  return counts;
 }
 
 Setup setup_of(const CampaignSpec& spec, const Placement& placement, const Json& effects, const std::string& file) {

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "datasets/frame_picture.h"
+#include "sim/sensor/capture_files.h"
 
 namespace fathom {
 namespace {
@@ -83,11 +84,7 @@ void write_depths(const Camera& camera, const Frame& frame, FrameWriter& writer)
                  return first ? first->depth : 0.0;
                }));
   if (frame.ir.empty()) return;
-  const Image<float> ir = at_depth_scale(camera.setup().rig.sensor, frame.ir);
-  Image<std::uint16_t> counts(ir.width(), ir.height());
-  for (std::size_t i = 0; i < ir.size(); ++i)
-    counts.pixels()[i] = static_cast<std::uint16_t>(std::lround(std::clamp(ir.pixels()[i], 0.0f, 65535.0f)));
-  writer.image("ir", counts);
+  writer.image("ir", whole_dn(at_depth_scale(camera.setup().rig.sensor, frame.ir)));
 }
 
 Json runs_json(const Image<std::uint8_t>& mask) {
@@ -96,7 +93,7 @@ Json runs_json(const Image<std::uint8_t>& mask) {
 }
 
 /// Shoots a frame, writes its files and returns their names, that of its labels last.
-std::vector<std::string> write_frame(const fs::path& folder, const Dataset& dataset, int number) {
+std::vector<std::string> make_frame(const fs::path& folder, const Dataset& dataset, int number) {
   const Json scene = dataset_scene(dataset.spec, dataset.seed, number);
   const Setup setup = setup_of(dataset, scene, number);
   Camera camera(setup, dataset.spec.mode, kDefaultSamplesPerPixel, Rng(dataset.seed, kCameraStream, number).bits(),
@@ -285,7 +282,7 @@ int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, con
   std::mutex noting;
   parallel_ranges(static_cast<int>(missing.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const std::vector<std::string> files = write_frame(folder, dataset, scene * dataset.frames_of_scene + missing[i]);
+      const std::vector<std::string> files = make_frame(folder, dataset, scene * dataset.frames_of_scene + missing[i]);
       const std::lock_guard lock(noting);
       for (const std::string& file : files) manifest.add(file);
       step();

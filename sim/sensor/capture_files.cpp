@@ -71,6 +71,13 @@ Json sensor_record(const Rig& rig, const ResolvedScene& resolved) {
 
 }  // namespace
 
+Image<std::uint16_t> whole_dn(const Image<float>& ir) {
+  Image<std::uint16_t> counts(ir.width(), ir.height());
+  for (std::size_t i = 0; i < ir.size(); ++i)
+    counts.pixels()[i] = static_cast<std::uint16_t>(std::lround(std::clamp(ir.pixels()[i], 0.0f, 65535.0f)));
+  return counts;
+}
+
 std::vector<std::string> frame_files(bool infrared, bool device_outputs) {
   std::vector<std::string> names{"disparity.exr", "depth.exr", "depth.png", "cloud.pcd", "preview.png"};
   if (infrared) names.insert(names.begin(), {"ir.exr", "ir.png"});

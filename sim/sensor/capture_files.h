@@ -22,6 +22,9 @@ void remove_capture(const std::filesystem::path& folder);
 /// Where the frame of that number lies: in the folder itself when it is the only one, else in frame_0000 …
 std::filesystem::path frame_folder(const std::filesystem::path& folder, int frame, int frames);
 
+/// Counts of the detector, as an infrared stream has them.
+Image<std::uint16_t> whole_dn(const Image<float>& ir);
+
 /// Writes one frame: ir.exr and ir.png (photometric mode only), disparity.exr, depth.exr, depth.png, cloud.pcd and
 /// preview.png, a picture for people. `ir_bits` is the full scale of ir.png; 0 = 10.
 void write_frame(const std::filesystem::path& folder, const Frame& frame, const Image<TruePixel>& truth, int ir_bits);
