@@ -22,7 +22,7 @@ struct Tally {
   /// Of the light that meets a particle or absorber, μs of μs + μa is scattered: each scattering stands for μa / μs
   /// of its weight that is absorbed.
   void at_scattering(const Walker& walker) {
-    const Turbid& medium = space->medium(walker.region);
+    const Turbid& medium = space->medium(walker);
     absorbed += walker.weight * medium.absorption / medium.scattering;
     ++scatterings;
   }
@@ -43,7 +43,7 @@ bool gives_all_back(const std::vector<Layer>& layers) {
 
 LayerLight light_in_layers(const LayerSpace& space, double angle, std::uint64_t seed, const SamplingPlan& plan) {
   assert(angle >= 0.0 && angle < 0.5 * std::numbers::pi);
-  const double n_outside = space.n_outside(), n_first = space.medium(0).n;
+  const double n_outside = space.n_outside(), n_first = space.layers().front().medium.n;
   LayerLight light;
   light.specular = fresnel_reflectance(std::cos(angle), n_outside, n_first);
   const Eigen::Vector3d beam(std::sin(angle), 0.0, -std::cos(angle));

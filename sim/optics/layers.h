@@ -26,7 +26,7 @@ class LayerSpace {
     bool below;       ///< the layer's lower face
   };
 
-  const Turbid& medium(std::uint64_t region) const { return layers_[region].medium; }
+  const Turbid& medium(const Walker& walker) const { return layers_[walker.region].medium; }
   const std::vector<Layer>& layers() const { return layers_; }
   double n_outside() const { return n_outside_; }
 
@@ -47,8 +47,8 @@ class LayerSpace {
     }
     const std::uint64_t beyond = walker.region + (boundary.below ? 1 : -1);  // above the top: a huge number
     if (beyond >= layers_.size())
-      leave_through(walker, normal, medium(walker.region).n, n_outside_, visitor);
-    else if (cross_interface(walker, normal, medium(walker.region).n, medium(beyond).n, rng))
+      leave_through(walker, normal, medium(walker).n, n_outside_, visitor);
+    else if (cross_interface(walker, normal, medium(walker).n, layers_[beyond].medium.n, rng))
       walker.region = beyond;
     return true;
   }

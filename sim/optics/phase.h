@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/rng.h"
 
@@ -43,11 +44,34 @@ inline Eigen::Vector2d sample_disc(Rng& rng) {
   }
 }
 
-/// The direction after one scattering, drawn from the density henyey_greenstein().
-inline Eigen::Vector3d scatter(const Eigen::Vector3d& direction, double g, Rng& rng) {
-  const double cosine = sample_henyey_greenstein(g, rng.uniform());
-  return deflect(direction, cosine, sample_disc(rng));
+/// The azimuth that is a share `turn` of the circle.
+inline Eigen::Vector2d unit_vector(double turn) {
+  const double angle = 2.0 * std::numbers::pi * turn;
+  return {std::cos(angle), std::sin(angle)};
 }
+
+/// A phase function of Henyey & Greenstein's whose forward peak is flat: within a cone as much is scattered as at its
+/// edge, and the rest is left out.
+struct FlatPeak {
+  double cosine = 1.0;  ///< of the cone's half angle
+  double aside = 1.0;   ///< share of the light that the function with its peak scatters out of the cone
+  double within = 0.0;  ///< what is left of its share in the cone
+
+  FlatPeak() = default;
+  FlatPeak(double cone_cosine, double g);
+
+  /// Density over solid angle [1/sr]; integrates to 1.
+  double density(double scattering_cosine, double g) const {
+    return henyey_greenstein(std::min(scattering_cosine, cosine), g) / (aside + within);
+  }
+  double sample(double g, double uniform) const {
+    const double share = uniform * (aside + within);
+    if (share < aside) return std::min(sample_henyey_greenstein(g, share), cosine);
+    return cosine + (1.0 - cosine) * (share - aside) / within;
+  }
+  /// Of the scattering angle's cosine. g ≠ 0.
+  double mean_cosine(double g) const;
+};
 
 /// A direction from a diffuse (Lambertian) surface: density cos θ / π about its unit normal.
 inline Eigen::Vector3d sample_diffuse(const Eigen::Vector3d& normal, Rng& rng) {

@@ -10,17 +10,9 @@
 #include <limits>
 
 #include "core/rng.h"
-#include "sim/optics/phase.h"
+#include "sim/optics/turbid.h"
 
 namespace fathom {
-
-/// A medium at one wavelength.
-struct Turbid {
-  double n = 1.0;           ///< refractive index
-  double absorption = 0.0;  ///< coefficient μa [1/m]
-  double scattering = 0.0;  ///< coefficient μs [1/m]
-  double anisotropy = 0.0;  ///< mean cosine g of the scattering angle (Henyey & Greenstein)
-};
 
 /// A packet of light on its way.
 struct Walker {
@@ -28,10 +20,11 @@ struct Walker {
   Eigen::Vector3d direction;  ///< unit
   double weight = 1.0;        ///< power that is left of the packet
   std::uint64_t region = 0;   ///< which of the space's media it is in
+  int scatterings = 0;        ///< that lie behind it
 };
 
 /// What a walk goes through. A boundary is anything with a `distance` [m] (infinite where there is none):
-///   medium(region)          the medium of a region;
+///   medium(walker)          the medium that the walker is in;
 ///   next_boundary(walker, reach)
 ///                           the first boundary ahead of it; any one beyond `reach` [m] if it lies beyond;
 ///   meet(boundary, walker, rng, visitor)
@@ -39,7 +32,7 @@ struct Walker {
 ///                           lowers its weight, tells the visitor what left; false where the walk ends.
 template <class Space, class Visitor>
 concept WalkSpace = requires(const Space& space, Walker& walker, Rng& rng, Visitor& visitor) {
-  { space.medium(walker.region) } -> std::convertible_to<const Turbid&>;
+  { space.medium(walker) } -> std::convertible_to<const Turbid&>;
   { space.next_boundary(walker, 1.0).distance } -> std::convertible_to<double>;
   { space.meet(space.next_boundary(walker, 1.0), walker, rng, visitor) } -> std::same_as<bool>;
 };
@@ -71,14 +64,15 @@ template <class Space, class Visitor>
 requires WalkSpace<Space, Visitor>
 void random_walk(const Space& space, Walker walker, double least_weight, Rng& rng, Visitor& visitor) {
   while (survives(walker, least_weight, rng)) {
-    const Turbid& medium = space.medium(walker.region);
+    const Turbid& medium = space.medium(walker);
     // Where nothing scatters the flight is infinite, or no number once in 2^53 times: not shorter either way.
     const double flight = -std::log(1.0 - rng.uniform()) / medium.scattering;
     const auto boundary = space.next_boundary(walker, flight);
     if (flight < boundary.distance) {
       advance(walker, medium, flight);
       visitor.at_scattering(walker);
-      walker.direction = scatter(walker.direction, medium.anisotropy, rng);
+      walker.direction = scatter(walker.direction, medium, rng);
+      ++walker.scatterings;
     } else {
       advance(walker, medium, boundary.distance);
       if (!space.meet(boundary, walker, rng, visitor)) return;
@@ -86,13 +80,32 @@ void random_walk(const Space& space, Walker walker, double least_weight, Rng& rn
   }
 }
 
+/// How a walk begins, as numbers in [0, 1). Walks that share out such numbers evenly (see even_step) tell more than
+/// walks that draw them.
+struct FirstStep {
+  double flight;
+  double cosine;
+  double azimuth;
+};
+
+/// Number `i` of a sequence that fills the unit cube evenly at any length, moved around by `shift`: the multiples of
+/// the powers of 1/φ, with φ⁴ = φ + 1 (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+inline FirstStep even_step(int i, const FirstStep& shift) {
+  const auto at = [i](double start, double step) {
+    const double sum = start + i * step;
+    return sum - std::floor(sum);
+  };
+  return {at(shift.flight, 0.8191725134), at(shift.cosine, 0.6710436067), at(shift.azimuth, 0.5497004779)};
+}
+
 /// The same expectation, for light that starts as a beam: its first flight is split into what reaches the boundary
 /// unscattered and what scatters on the way, each walked with its share of the weight. In a nearly clear medium neither
-/// is then left to chance.
+/// is then left to chance. `first`: of what scatters; drawn if it is not given.
 template <class Space, class Visitor>
 requires WalkSpace<Space, Visitor>
-void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Visitor& visitor) {
-  const Turbid& medium = space.medium(walker.region);
+void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Visitor& visitor,
+                         const FirstStep* first = nullptr) {
+  const Turbid& medium = space.medium(walker);
   const auto boundary = space.next_boundary(walker, std::numeric_limits<double>::infinity());
   const double scattered = medium.scattering > 0.0 ? -std::expm1(-medium.scattering * boundary.distance) : 0.0;
   if (scattered < 1.0) {
@@ -105,9 +118,11 @@ void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Vis
   if (scattered > 0.0) {
     Walker turned = walker;
     turned.weight *= scattered;
-    advance(turned, medium, -std::log1p(-scattered * rng.uniform()) / medium.scattering);
+    advance(turned, medium, -std::log1p(-scattered * (first ? first->flight : rng.uniform())) / medium.scattering);
     visitor.at_scattering(turned);
-    turned.direction = scatter(turned.direction, medium.anisotropy, rng);
+    turned.direction = first ? scatter(turned.direction, medium, first->cosine, first->azimuth)
+                             : scatter(turned.direction, medium, rng);
+    ++turned.scatterings;
     random_walk(space, turned, kRouletteShare * turned.weight, rng, visitor);
   }
 }

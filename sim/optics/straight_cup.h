@@ -20,7 +20,7 @@ class StraightCupSpace {
     Face face;
   };
 
-  const Turbid& medium(std::uint64_t) const { return liquid_; }
+  const Turbid& medium(const Walker&) const { return liquid_; }
 
   Boundary next_boundary(const Walker& walker, double) const {
     const Eigen::Vector3d &p = walker.position, &d = walker.direction;

@@ -22,7 +22,7 @@ void add_straight(const Source& source, std::size_t i, const Receiver& receiver,
   const Eigen::Vector3d direction = path / length;
   if (from_behind(receiver, direction)) return;
   const double through = receiver.around ? transmittance(receiver.around->extinction(), length) : 1.0;
-  ways.set(i, {direction, direction, 1.0 / squared, through, 0, false});
+  ways.set(i, {direction, direction, 1.0 / squared, through, 0, false, false, false, length});
   pieces.set(i, {receiver.point, -direction, length});
 }
 
@@ -49,7 +49,8 @@ void add_bent(const Source& source, std::size_t i, const Receiver& receiver, Pac
   const double cos_above = std::min(-direction.z(), 1.0);
   const double through =
       (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) * transmittance(liquid.extinction(), path_in_liquid);
-  ways.set(i, {direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false});
+  ways.set(i, {direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false,
+               false, false, path_in_liquid});
   above.set(i, {bend, -direction, path_above});
   below.set(i, {receiver.point, -arrival, path_in_liquid});
 }

@@ -22,11 +22,11 @@ class Connector {
       : projector_(projector), start_(start), beam_(beam), rng_(rng), visit_(visit) {}
 
   void at_scattering(const Walker& walker) {
-    const Body* body = medium_in(projector_.world().geometry(), walker.region);
-    const double factor = std::numbers::pi * walker.weight / (body->medium.n * body->medium.n);
-    connect(walker, {walker.position, body}, [&](const Connection& way) {
+    const Place place = place_of(walker);
+    const double factor = std::numbers::pi * walker.weight / (place.medium->n * place.medium->n);
+    connect(walker, place, nullptr, [&](const Connection& way) {
       // Seen from the light: it arrives and is sent towards where the walk came from.
-      return factor * henyey_greenstein(-way.arrival.dot(walker.direction), body->medium.anisotropy);
+      return factor * phase_function(*place.medium, -way.arrival.dot(walker.direction));
     });
   }
 
@@ -41,44 +41,63 @@ class Connector {
   }
 
  private:
+  /// Where a walker is.
+  struct Place {
+    const Body* body;      ///< nullptr is air
+    const Turbid* medium;  ///< as the walker sees it
+  };
+  Place place_of(const Walker& walker) const {
+    return {medium_in(projector_.world().geometry(), walker.region), &space_.medium(walker)};
+  }
+
   /// `reflectance(way)` is π · BRDF.
   template <class Reflectance>
   void at_surface(const Walker& walker, const Eigen::Vector3d& normal, Reflectance reflectance) {
-    const Body* body = medium_in(projector_.world().geometry(), walker.region);
-    const double n = index_of(body), factor = walker.weight / (n * n);
-    connect(walker, {walker.position, body, &normal},
+    const Place place = place_of(walker);
+    const double factor = walker.weight / (place.medium->n * place.medium->n);
+    connect(walker, place, &normal,
             [&](const Connection& way) { return -factor * reflectance(way) * normal.dot(way.arrival); });
   }
 
   /// Chance with which mirrored light is looked for: it is a few hundredths of all.
   static constexpr double kMirrored = 0.25;
 
-  /// `returned(way)` is the share of a way's light that the camera receives.
+  /// `returned(way)` is the share of a way's light that the camera receives, but for the way's transmittance.
   template <class Returned>
-  void connect(const Walker& walker, const Receiver& receiver, Returned returned) {
-    const double chance = receiver.around ? worth(*receiver.around, receiver.point) : 1.0;
+  void connect(const Walker& walker, const Place& place, const Eigen::Vector3d* facing, Returned returned) {
+    const Receiver receiver{walker.position, place.body, facing};
+    const double chance = worth(place, walker.position);
     if (chance < 1.0 && rng_.uniform() >= chance) return;
-    projector_.connect(receiver, [&](const Connection& way) { give(way, returned(way) / chance, receiver.point); });
+    const auto give_with_chance = [&](const Connection& way, double of_looking) {
+      give(way, returned(way) * transmittance(way, place) / of_looking, walker.position);
+    };
+    projector_.connect(receiver, [&](const Connection& way) { give_with_chance(way, chance); });
     if (rng_.uniform() >= kMirrored) return;
-    projector_.connect_mirrored(receiver, walker.weight, rng_, [&](const Connection& way) {
-      give(way, returned(way) / (chance * kMirrored), receiver.point);
-    });
+    projector_.connect_mirrored(receiver, walker.weight, rng_,
+                                [&](const Connection& way) { give_with_chance(way, chance * kMirrored); });
+  }
+
+  /// Of a way whose last piece lies in the medium as the walker sees it.
+  static double transmittance(const Connection& way, const Place& place) {
+    if (!place.body || way.transmittance == 0.0) return way.transmittance;
+    return way.transmittance * std::exp((place.body->medium.scattering - place.medium->scattering) * way.last_piece);
   }
 
   void give(const Connection& way, double factor, const Eigen::Vector3d& point) {
     // Where walks end differs by as much as this one went aside, and so do the directions that lead there.
     const Eigen::Vector3d gone = point - start_;
     const double aside = (gone - gone.dot(beam_) * beam_).norm();
-    visit_({way.direction, factor * way.spreading * way.transmittance, aside * std::sqrt(way.spreading)});
+    visit_({way.direction, factor * way.spreading, aside * std::sqrt(way.spreading)});
   }
 
   /// Chance with which a place is joined to the projector: deep in a turbid liquid next to no light arrives
   /// unscattered.
-  double worth(const Body& body, const Eigen::Vector3d& point) const {
-    constexpr double kFaint = 0.01;
-    if (!body.scatters()) return 1.0;
-    const double least = body.plain ? 1e-30 : 0.01;  // light may come from another side than thought
-    return std::clamp(transmittance(body.extinction(), depth_in(body, point)) / kFaint, least, 1.0);
+  double worth(const Place& place, const Eigen::Vector3d& point) const {
+    constexpr double kFaint = 0.3;  // from 0.1 to 1 the time for a given error differs by a tenth
+    if (!place.body || !place.body->scatters()) return 1.0;
+    const double least = place.body->plain ? 1e-30 : 0.01;  // light may come from another side than thought
+    const double extinction = place.medium->absorption + place.medium->scattering;
+    return std::clamp(fathom::transmittance(extinction, depth_in(*place.body, point)) / kFaint, least, 1.0);
   }
 
   /// About how far [m] light goes within the body to get to a point.
@@ -90,6 +109,7 @@ class Connector {
   }
 
   const PointLight& projector_;
+  const WorldSpace space_{projector_.world()};
   const Eigen::Vector3d start_, beam_;
   Rng& rng_;
   const std::function<void(const ReturnedLight&)>& visit_;
@@ -98,7 +118,7 @@ class Connector {
 }  // namespace
 
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
-                const std::function<void(const ReturnedLight&)>& visit) {
+                const std::function<void(const ReturnedLight&)>& visit, const FirstStep* first) {
   const double n = index_of(seen.around);
   Walker walker{seen.point, seen.arriving, seen.transmittance * n * n, seen.inside};
   const WorldSpace space(projector.world());
@@ -110,14 +130,15 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
     walker.direction = *refract(seen.arriving, seen.normal, n, n_entered);
     walker.region = seen.beyond;
     Connector connector(projector, seen.point, walker.direction, rng, visit);
-    random_walk_of_beam(space, walker, rng, connector);
+    random_walk_of_beam(space, walker, rng, connector, first);
   } else if (seen.glaze) {
     if (!bounce_off_glaze(walker, seen.normal, *seen.glaze, rng)) return;
     Connector connector(projector, seen.point, walker.direction, rng, visit);  // its lobe may be narrow
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   } else {
     walker.weight *= seen.albedo;
-    walker.direction = sample_diffuse(seen.normal, rng);
+    walker.direction = first ? deflect(seen.normal, std::sqrt(1.0 - first->cosine), unit_vector(first->azimuth))
+                             : sample_diffuse(seen.normal, rng);
     Connector connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit);
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   }

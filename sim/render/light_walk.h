@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/rng.h"
+#include "sim/optics/random_walk.h"
 #include "sim/render/connection.h"
 
 namespace fathom {
@@ -20,7 +21,8 @@ struct ReturnedLight {
 /// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an unbiased estimate: where
 /// a body that scatters is entered, of all that comes out of it; at a diffuse point, of what arrives there other than
 /// from the projector or its mirror image in a liquid. Where little of it gets to the camera, most walks end at once.
+/// `first`: how it begins; drawn if it is not given.
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
-                const std::function<void(const ReturnedLight&)>& visit);
+                const std::function<void(const ReturnedLight&)>& visit, const FirstStep* first = nullptr);
 
 }  // namespace fathom

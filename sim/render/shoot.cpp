@@ -129,7 +129,8 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
                     crossings,
                     area < 0.0,
                     found->through_scattering,
-                    found->partly_mirrored};
+                    found->partly_mirrored,
+                    found->landing.distance};
 }
 
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {

@@ -23,6 +23,7 @@ struct Connection {
   /// Whether it has come out of a body that scatters; where such bodies are taken as opaque, this light is not there.
   bool through_scattering = false;
   bool partly_mirrored = false;  ///< whether an interface on it reflects in part
+  double last_piece = 0.0;       ///< [m] from the last interface, or the source, to the point
 };
 
 /// Where the light comes from, and what bodies it starts in.

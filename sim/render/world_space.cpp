@@ -5,10 +5,11 @@
 
 namespace fathom {
 
-const Turbid& WorldSpace::medium(BodySet region) const {
+const Turbid& WorldSpace::medium(const Walker& walker) const {
   static constexpr Turbid kAir;
-  const Body* body = medium_in(world_.geometry(), region);
-  return body ? body->medium : kAir;
+  const Body* body = medium_in(world_.geometry(), walker.region);
+  if (!body) return kAir;
+  return walker.scatterings == 0 ? body->medium : body->without_peak;
 }
 
 WorldSpace::Boundary WorldSpace::next_boundary(const Walker& walker, double reach) const {

@@ -19,7 +19,8 @@ class WorldSpace {
     bool level;
   };
 
-  const Turbid& medium(BodySet region) const;
+  /// The first scattering is the medium's own; for all others its forward peak is left out.
+  const Turbid& medium(const Walker& walker) const;
   Boundary next_boundary(const Walker& walker, double reach) const;
 
   /// Besides what random_walk() tells it, the visitor is told `at_wall(walker, normal, albedo)` or

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/parallel.h"
 #include "core/rng.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
 constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
+constexpr std::uint64_t kFirstStepStream = 0x6669727374ULL;
 
 /// Walks per camera ray that enters a scattering body; other surfaces get one.
 constexpr int kWalksIntoBody = 4;
@@ -61,6 +63,21 @@ struct Renderer {
     return {rig.camera_in_world(), rig.direction_in_world(x_ir_px * px_per_ir_px, y_ir_px * px_per_ir_px)};
   }
 
+  /// How the walks of a sample begin: evenly, together with those of all samples of its pixel.
+  struct Beginnings {
+    std::optional<FirstStep> shift = {};  ///< the pixel's; drawn without it
+    int sample = 0;                       ///< in the pixel
+    std::optional<FirstStep> operator()(int walk, int walks) const {
+      if (!shift) return std::nullopt;
+      return even_step(sample * walks + walk, *shift);
+    }
+  };
+  Beginnings first_steps(int y, int sample) const {
+    const std::uint64_t bits = Rng(seed, kFirstStepStream, y, sample / samples_per_pixel()).bits();
+    const auto number = [bits](int i) { return static_cast<double>(bits >> (21 * i) & 0x1fffff) * 0x1p-21; };
+    return {FirstStep{number(0), number(1), number(2)}, sample % samples_per_pixel()};
+  }
+
   /// Radiance [DN] of at most kPacket samples of row y, from `first` on.
   std::array<double, kPacket> radiances(int y, int first, int count) const {
     std::array<Ray, kPacket> rays;
@@ -71,10 +88,10 @@ struct Renderer {
       for (int i = 0; i < count; ++i) {
         Rng rng(seed, kWalkStream, y, first + i);
         const SeenPoint* at = seen.find(i);
-        if (at) sums[i] = indirect_radiance(*at, rng);
+        if (at) sums[i] = indirect_radiance(*at, rng, first_steps(y, first + i));
         if (at && !at->refracted && !at->entered) continue;
         see_mirrored(projector.world(), rays[i], rng, [&](const SeenPoint& image) {
-          sums[i] += direct_radiance(image) + indirect_radiance(image, rng);
+          sums[i] += direct_radiance(image) + indirect_radiance(image, rng, {});
         });
         if (at && at->entered) seen.reset(i);
       }
@@ -97,7 +114,7 @@ struct Renderer {
   }
 
   /// Radiance [DN] by reflections in liquids and by walks.
-  double indirect_radiance(const SeenPoint& seen, Rng& rng) const {
+  double indirect_radiance(const SeenPoint& seen, Rng& rng, const Beginnings& beginnings) const {
     double ghosts = 0.0, sum = 0.0;
     if (!seen.entered)
       projector.connect_mirrored(
@@ -105,10 +122,15 @@ struct Renderer {
             ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
           });
     const int walks = seen.entered ? kWalksIntoBody : 1;
-    for (int walk = 0; walk < walks; ++walk)
-      walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
-        sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
-      });
+    for (int walk = 0; walk < walks; ++walk) {
+      const std::optional<FirstStep> step = beginnings(walk, walks);
+      walk_light(
+          projector, seen, rng,
+          [&](const ReturnedLight& returned) {
+            sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
+          },
+          step ? &*step : nullptr);
+    }
     return ghosts + sum / walks;
   }
 };

@@ -131,7 +131,7 @@ TEST(LayerLight, AnEndlessWalkIsRefused) {
 struct Counted {
   const LayerSpace& space;
   mutable std::uint64_t steps = 0;
-  const Turbid& medium(std::uint64_t region) const { return space.medium(region); }
+  const Turbid& medium(const Walker& walker) const { return space.medium(walker); }
   LayerSpace::Boundary next_boundary(const Walker& walker, double reach) const {
     ++steps;
     return space.next_boundary(walker, reach);
