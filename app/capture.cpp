@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct CaptureOptions {
   fs::path scene, model;
-  std::string mode = "photometric", light = "direct";
+  std::string mode = "photometric", light = "auto";
   int spp = kDefaultSamplesPerPixel;
   int frames = 1;
   bool device_outputs = false;
@@ -120,7 +120,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   Setup setup = read_setup(options.scene);
   if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
-  const LightModel light = options.light == "full" ? LightModel::full : LightModel::direct;
+  std::optional<LightModel> light;
+  if (options.light != "auto") light = options.light == "full" ? LightModel::full : LightModel::direct;
   const OutputSize size{static_cast<double>(options.frames),
                         capture_bytes(setup.rig.sensor, mode == CaptureMode::photometric, options.device_outputs)};
   const std::string sentence = require_space(common, size, options.yes);
@@ -161,7 +162,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   Json record = run_record(camera, resolved);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
-  record["light"] = options.light;
+  record["light"] = camera.light() == LightModel::full ? "full" : "direct";
   if (!options.model.empty()) record["model"] = read_json(options.model);
   record["spp"] = camera.samples_per_pixel();
   record["frames"] = options.frames;
@@ -190,8 +191,8 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option(
          "--light", options->light,
          "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
-         "interreflected, mirrored and scattered as well")
-      ->check(CLI::IsMember({"direct", "full"}))
+         "interreflected, mirrored and scattered as well; auto: full where a liquid scatters, else direct")
+      ->check(CLI::IsMember({"auto", "direct", "full"}))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")
       ->check(CLI::Range(1, kMostFrames))

@@ -26,7 +26,8 @@ inline constexpr std::array kCommands{
     Command{"capture", "One simulated shot of a scene (or several): infrared image, disparity, depth, cloud, truth",
             "  fathom capture scenes/paper_water.json -o out/water\n"
             "  fathom capture scenes/paper_water.json --mode geometric -o out/exact\n"
-            "  fathom capture scenes/paper_milk_tea.json --light full -o out/milk_tea",
+            "  fathom capture scenes/paper_milk_tea.json -o out/milk_tea\n"
+            "  fathom capture scenes/glass_water.json --light full -o out/glass",
             define_capture},
     Command{"theory", "The paper's Eq. 7 and the exact triangulation of the raised bottom, as CSV",
             "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50 -o out/theory\n"

@@ -19,18 +19,18 @@ void compare_statistics() {
     compare(CaptureMode::geometric);
 }
 
-struct Part {
+struct SensorPart {
   std::string_view name;
   void (*compare)();
 };
 
-constexpr std::array<Part, 7> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
-                                      {"pots", [] { compare_pots(CaptureMode::photometric); }},
-                                      {"ranges", [] { compare_ranges(CaptureMode::photometric); }},
-                                      {"edges", [] { compare_edges(CaptureMode::photometric); }},
-                                      {"times", compare_times},
-                                      {"materials", compare_materials},
-                                      {"statistics", compare_statistics}}};
+constexpr std::array<SensorPart, 7> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
+                                            {"pots", [] { compare_pots(CaptureMode::photometric); }},
+                                            {"ranges", [] { compare_ranges(CaptureMode::photometric); }},
+                                            {"edges", [] { compare_edges(CaptureMode::photometric); }},
+                                            {"times", compare_times},
+                                            {"materials", compare_materials},
+                                            {"statistics", compare_statistics}}};
 
 }  // namespace
 }  // namespace fathom
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     return argc == 1;
   };
   try {
-    for (const fathom::Part& part : fathom::kParts)
+    for (const auto& part : fathom::kParts)
       if (asked(part.name)) part.compare();
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());

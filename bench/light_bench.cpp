@@ -2,7 +2,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -12,6 +14,7 @@
 #include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "sim/sensor/ir_camera.h"
 
 namespace fathom {
@@ -22,8 +25,7 @@ struct Case {
   Pattern pattern;
   EmbreeLoop embree;
 
-  explicit Case(const std::string& file)
-      : scene(read_setup(data_directory() / file)), pattern(with_speckle(1)), embree(scene.geometry) {}
+  explicit Case(const Setup& setup) : scene(setup), pattern(with_speckle(1)), embree(scene.geometry) {}
 
   Pattern with_speckle(std::uint64_t seed) const {
     const SensorModel& sensor = scene.setup.rig.sensor;
@@ -63,8 +65,24 @@ Noise noise_of(const Case& measured) {
 }  // namespace
 
 void register_light() {
-  for (const char* name : {"paper_water", "meniscus_water", "paper_milk_tea", "glass_water"}) {
-    const auto measured = std::make_shared<const Case>(fmt::format("{}.json", name));
+  struct Subject {
+    const char* name;
+    const char* file;
+    const char* liquid;  ///< that takes the place of the file's; nullptr: none
+  };
+  constexpr std::array kSubjects{Subject{"paper_water", "paper_water.json", nullptr},
+                                 Subject{"barley_tea", "paper_water.json", "barley_tea"},
+                                 Subject{"meniscus_water", "meniscus_water.json", nullptr},
+                                 Subject{"paper_milk_tea", "paper_milk_tea.json", nullptr},
+                                 Subject{"orange_juice", "paper_milk_tea.json", "orange_juice"},
+                                 Subject{"tomato_juice", "paper_milk_tea.json", "tomato_juice"},
+                                 Subject{"whole_milk", "paper_milk_tea.json", "whole_milk"},
+                                 Subject{"glass_water", "glass_water.json", nullptr}};
+  for (const auto& [name, file, liquid] : kSubjects) {
+    const std::filesystem::path path = data_directory() / file;
+    Json json = read_json(path);
+    if (liquid) json.at("cups").at(0)["liquid"] = liquid;
+    const auto measured = std::make_shared<const Case>(setup_from_json(json, path.string()));
     const Noise noise = noise_of(*measured);
     measure(fmt::format("light/{}/fathom", name), {{"walks_dn", noise.of_walks}, {"sensor_dn", noise.of_sensor}},
             [measured] { benchmark::DoNotOptimize(measured->image(measured->pattern, 1)); });

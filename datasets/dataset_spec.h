@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct DatasetSpec {
   Interval2 fill_share{0.1, 0.95};  ///< of the cup's depth
   double empty = 0.3;               ///< share of the cups that hold nothing
   CaptureMode mode = CaptureMode::geometric;
-  LightModel light = LightModel::direct;  ///< of photometric frames
+  std::optional<LightModel> light = {};  ///< of photometric frames; as measured if it is not given
 };
 
 /// Keys that the file leaves out have the values of the shipped specification. `seed` draws the shapes of cups that are

@@ -8,7 +8,7 @@
 namespace fathom {
 namespace {
 
-/// A scene in direct light, as `fathom capture` shoots it: rendered once, with new noise, matching and depth each time.
+/// A scene as `fathom capture` shoots it: rendered once, with new noise, matching and depth each time.
 class LiveScene : public FrameSource {
  public:
   explicit LiveScene(const std::filesystem::path& path) : setup_(with_effects(read_setup(path))) {}

@@ -121,7 +121,7 @@ wall = 0xF1ECE4)",
 Figure reproduce_view(const View& view, const ReproduceSettings& settings) {
   const Setup setup = paper_setup(view.filling, kViewedMm);
   const CupShape& cup = std::get<CupShape>(setup.scene.cups.front().shape);
-  Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, settings.seed);
+  Camera camera(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, settings.seed, LightModel::direct);
   const Image<CloudPoint> cloud = camera.shoot(0).cloud;
   const auto found = height_in_cup(cloud_from_image(cloud), paper_rig(setup), {0.0, metres_from_mm(kViewedMm)});
   const InteriorHeight* height = std::get_if<InteriorHeight>(&found);

@@ -193,7 +193,7 @@ TrialShot shoot_trial(const Json& scene, const std::string& file, std::uint64_t 
   Setup setup = setup_from_json(scene, file);
   Frame frame;
   Camera camera = timed(shoot_s, [&] {
-    Camera result(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed);
+    Camera result(setup, CaptureMode::photometric, kDefaultSamplesPerPixel, seed, LightModel::direct);
     frame = result.shoot(0);
     return result;
   });

@@ -94,7 +94,8 @@ LightModel measured_light(const Setup& setup) {
   return is_let_in ? LightModel::full : LightModel::direct;
 }
 
-Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed, LightModel light)
+Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
+               std::optional<LightModel> light)
     : setup_(with_effects(setup)), mode_(mode), seed_(seed) {
   const SensorModel& sensor = setup_.rig.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup_.scene, sensor.wavelength_nm); });
@@ -109,14 +110,15 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
     residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);
     return;
   }
-  if (setup_.light.any() && measured_light(setup_) == LightModel::full) light = LightModel::full;
+  const LightModel measured = measured_light(setup_);
+  light_ = setup_.light.any() && measured == LightModel::full ? measured : light.value_or(measured);
 
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
   reference_ = timed(statistics_.reference_s, [&] { return reference_image(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
   radiance_ = timed(statistics_.render_s,
-                    [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light, seed); });
+                    [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light_, seed); });
   statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
   speckle_ = speckle_field(sensor, sensor.noise.pixel_speckle, sensor.ir_width, sensor.ir_height, seed);
   if (sensor.noise.ambient_dn > 0.0) ambient_ = render_ambient(world, setup_.rig);

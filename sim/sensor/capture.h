@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/cloud_file.h"
 #include "core/image.h"
@@ -24,7 +25,8 @@ enum class CaptureMode {
 
 /// The light that a measurement's images are made of: all of it where a liquid lets it in before it scatters it back or
 /// an effect is about it, else direct light, which carries no noise of its own. Where a liquid sends it back from less
-/// than 0.05 mm below its surface it is direct, too: walks in there would hardly end. Effects are switched on already.
+/// than 0.05 mm below its surface it is direct, too: Monte Carlo would not converge there. Effects are switched on
+/// already.
 LightModel measured_light(const Setup& setup);
 
 struct Frame {
@@ -43,8 +45,10 @@ struct CaptureStatistics {
 /// A scene that is ready to be shot several times: traced, rendered and memorised once.
 class Camera {
  public:
+  /// `light`: of images, measured_light() if it is not given. Images that an effect is about have all their light in
+  /// any case.
   Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
-         LightModel light = LightModel::direct);
+         std::optional<LightModel> light = std::nullopt);
 
   /// What is shot: the set-up with its effects switched on.
   const Setup& setup() const { return setup_; }
@@ -52,6 +56,8 @@ class Camera {
   /// The frame of that number; only the noise differs from frame to frame.
   Frame shoot(std::uint64_t frame);
 
+  /// What its images are made of; direct in geometric mode.
+  LightModel light() const { return light_; }
   const Geometry& geometry() const { return geometry_; }
   const Image<TruePixel>& truth() const { return truth_; }
   /// What every infrared pixel receives from the projector before noise and speckle on pixels [DN], ir_width ×
@@ -68,6 +74,7 @@ class Camera {
   Setup setup_;  ///< with its effects
   CaptureMode mode_;
   std::uint64_t seed_;
+  LightModel light_ = LightModel::direct;
   int samples_across_ = 0;
   Geometry geometry_;
   Image<TruePixel> truth_;

@@ -76,7 +76,7 @@ fathom::Setup wide_vessel_of_milk(double transport_length_mm) {
 Height height_of_milk(double transport_length_mm) {
   const fathom::Setup setup = wide_vessel_of_milk(transport_length_mm);
   constexpr int kSamples = 4;
-  Camera camera(setup, CaptureMode::photometric, kSamples, 1, measured_light(setup));
+  Camera camera(setup, CaptureMode::photometric, kSamples, 1);
   const Frame frame = camera.shoot(0);
   const CupOptics optics = cup_optics(setup).value();
   const DeviceReader read(setup);
@@ -128,7 +128,7 @@ TEST(DotContrast, FallsFromOneToTheLightThatLeavesWhereItEntered) {
 /// Of the dots in the middle of a wide vessel of milk, whose walls are out of the way, over those on the desk.
 double log_contrast_in_frames(const fathom::Setup& setup) {
   constexpr int kSamples = 4;
-  Camera camera(setup, CaptureMode::photometric, kSamples, 1, measured_light(setup));
+  Camera camera(setup, CaptureMode::photometric, kSamples, 1);
   const Frame frame = camera.shoot(0);
   DotContrast inside, desk;
   for (const CloudPoint& p : frame.cloud.pixels()) {
