@@ -191,7 +191,8 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option(
          "--light", options->light,
          "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
-         "interreflected, mirrored and scattered as well; auto: full where a liquid scatters, else direct")
+         "interreflected, mirrored and scattered as well; auto: full where light enters a liquid and is scattered "
+         "there by more than 0.05 mm, else direct")
       ->check(CLI::IsMember({"auto", "direct", "full"}))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")

@@ -150,11 +150,15 @@ DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t s
   read_interval(json, "fill_share", kShare, spec.fill_share);
   spec.empty = json.number_or("empty", spec.empty, kShare);
   if (spec.liquids.empty() && spec.empty < 1.0) json.fail_at("liquids", "must hold at least one, unless empty is 1");
-  const std::array<std::string, 2> modes{"geometric", "photometric"}, lights{"direct", "full"};
+  const std::array<std::string, 2> modes{"geometric", "photometric"};
+  const std::array<std::string, 3> lights{"direct", "full", "auto"};
   if (json.has("mode"))
     spec.mode = json.at("mode").choice(modes, "mode") == 0 ? CaptureMode::geometric : CaptureMode::photometric;
   if (json.has("light"))
-    spec.light = json.at("light").choice(lights, "light") == 0 ? LightModel::direct : LightModel::full;
+    spec.light = std::array<std::optional<LightModel>, 3>{LightModel::direct, LightModel::full,
+                                                          std::nullopt}[json.at("light").choice(lights, "light")];
+  else if (spec.mode == CaptureMode::photometric)
+    spec.source["light"] = "auto";
   if (spec.light == LightModel::full && spec.mode == CaptureMode::geometric)
     json.fail_at("light", "full needs \"mode\": \"photometric\": geometric frames know direct light only");
 

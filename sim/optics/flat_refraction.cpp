@@ -8,8 +8,8 @@ namespace fathom {
 
 namespace {
 
-/// Nearly exact where either point is far from the interface, as projectors are: the light aims at where the lower
-/// point seems to be from straight above, and bends by Snell's law from there.
+/// Nearly exact where the upper point is far, as projectors are: the light aims at where the lower point seems to be
+/// from straight above, and bends by Snell's law from there.
 double first_offset(double height, double depth, double separation, double n_above, double n_below) {
   const double seeming = height + depth * n_above / n_below;
   const double paraxial = separation * height / seeming;

@@ -31,7 +31,7 @@ inline std::optional<SeenPoint> seen_on_wall(const Geometry& geometry, const Sig
   const Body* medium = medium_in(geometry, sight.inside);
   const double n = index_of(medium);
   double through = sight.through;
-  if (medium) through *= transmittance(medium->extinction(), hit.distance);
+  if (medium) through *= transmittance(extinction_of(medium), hit.distance);
   through *= sight.n_camera * sight.n_camera / (n * n);
   SeenPoint seen{hit.point, hit.normal,      0.0,     hit.surface->object, sight.inside,
                  medium,    sight.refracted, through, sight.ray.direction};
@@ -52,7 +52,7 @@ std::optional<SeenPoint> follow(const Intersector& world, Sight sight, std::opti
     if (const auto seen = seen_on_wall(world.geometry(), sight, *hit)) return seen;
     const Body* medium = medium_in(world.geometry(), inside);
     const double n_from = index_of(medium);
-    if (medium) through *= transmittance(medium->extinction(), hit->distance);
+    if (medium) through *= transmittance(extinction_of(medium), hit->distance);
     const BodySet after = beyond(*hit, inside);
     const Body* next = medium_in(world.geometry(), after);
     ray.origin = hit->point;

@@ -14,8 +14,15 @@ inline const Body* medium_in(const Geometry& geometry, BodySet inside) {
   return inside ? &geometry.bodies[std::bit_width(inside) - 1] : nullptr;
 }
 inline double index_of(const Body* medium) { return medium ? medium->medium.n : 1.0; }
-/// What unscattered light loses [1/m].
-inline double extinction_of(const Body* medium) { return medium ? medium->extinction() : 0.0; }
+
+/// What light loses in bodies that scatter: all that is scattered, or of the medium without its forward peak, where
+/// what is scattered forward goes on.
+enum class Loss { all, without_peak };
+/// [1/m]
+inline double extinction_of(const Body* medium, Loss loss = Loss::all) {
+  if (!medium) return 0.0;
+  return (loss == Loss::all ? medium->medium : medium->without_peak).extinction();
+}
 
 /// A surface's glaze as it is in front of that medium.
 inline const Glaze& glaze_under(const Geometry& geometry, const Glazed& glazed, const Body* medium) {

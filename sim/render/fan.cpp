@@ -95,7 +95,8 @@ Fan::Fan(const Intersector& world, const Source& source, Ways ways) : ways_(ways
 void Fan::send(const Intersector& world, const Source& source, const Eigen::Vector3d& direction, double spacing,
                int halvings) {
   const std::size_t sent = seeds_.size();
-  const Flight flight{ray_differential_from(source.position, direction), source.inside, 1.0};
+  const Flight flight{ray_differential_from(source.position, direction), source.inside, 1.0,
+                      Loss::without_peak};  // ways that walks would miss are kept
   const bool too_wide = follow(world, flight, direction, spacing, 0, kNoMirror);
   if (!too_wide || halvings == kMostHalvings) return;
   seeds_.resize(sent);

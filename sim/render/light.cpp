@@ -21,8 +21,8 @@ void add_straight(const Source& source, std::size_t i, const Receiver& receiver,
   const double squared = path.squaredNorm(), length = std::sqrt(squared);
   const Eigen::Vector3d direction = path / length;
   if (from_behind(receiver, direction)) return;
-  const double through = receiver.around ? transmittance(receiver.around->extinction(), length) : 1.0;
-  ways.set(i, {direction, direction, 1.0 / squared, through, 0, false, false, false, length});
+  const double through = transmittance(extinction_of(receiver.around, receiver.loss), length);
+  ways.set(i, {direction, direction, 1.0 / squared, through, 0, false});
   pieces.set(i, {receiver.point, -direction, length});
 }
 
@@ -47,10 +47,9 @@ void add_bent(const Source& source, std::size_t i, const Receiver& receiver, Pac
   const double path_above = to_bend.norm();
   const Eigen::Vector3d direction = to_bend / path_above;
   const double cos_above = std::min(-direction.z(), 1.0);
-  const double through =
-      (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) * transmittance(liquid.extinction(), path_in_liquid);
-  ways.set(i, {direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false,
-               false, false, path_in_liquid});
+  const double through = (1.0 - fresnel_reflectance(cos_above, 1.0, liquid.medium.n)) *
+                         transmittance(extinction_of(&liquid, receiver.loss), path_in_liquid);
+  ways.set(i, {direction, arrival, flat_spreading(crossing, height, depth, 1.0, liquid.medium.n), through, 1, false});
   above.set(i, {bend, -direction, path_above});
   below.set(i, {receiver.point, -arrival, path_in_liquid});
 }
@@ -97,8 +96,10 @@ Packet<Connection> PointLight::connect_straight(const Packet<Receiver>& receiver
     if (!interrupted[i]) continue;
     // Boundaries within bodies may be all that is there.
     const Eigen::Vector3d towards = ways.find(i)->direction;
+    const Receiver& receiver = *receivers.find(i);
     ways.reset(i);
-    if (const auto way = shoot(world_, source_, receivers.find(i)->point, medium, towards, 0)) ways.set(i, *way);
+    if (const auto way = shoot(world_, source_, receiver.point, medium, towards, 0, kNoMirror, receiver.loss))
+      ways.set(i, *way);
   }
   return ways;
 }
@@ -128,7 +129,7 @@ void PointLight::connect_mirrored_each(const Receiver& receiver, double share, R
     const Eigen::Vector3d towards = image - source_.position;
     const Eigen::Vector2d meeting = source_.position.head<2>() + height / (height + above) * towards.head<2>();
     if (!mirror.area.contains(meeting)) continue;
-    add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, 0));
+    add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, 0, receiver.loss));
   }
   const auto level_ones = static_cast<std::ptrdiff_t>(found.size());
   if (fan_) {
@@ -152,8 +153,8 @@ void PointLight::connect_from(const Fan& fan, const Receiver& receiver, std::vec
     if (covered || from_behind(receiver, candidate.seed->differential.direction)) continue;
     if (tried.size() == kMostShots) break;
     const Seed& seed = *candidate.seed;
-    const auto way =
-        shoot(world_, source_, receiver.point, receiver.around, seed.direction, seed.crossings, seed.mirror);
+    const auto way = shoot(world_, source_, receiver.point, receiver.around, seed.direction, seed.crossings,
+                           seed.mirror, receiver.loss);
     if (way)
       tried.push_back({seed.crossings, seed.mirror, way->turned_over, way->direction, 2.0 * seed.spacing});
     else

@@ -18,6 +18,7 @@ struct Receiver {
   Eigen::Vector3d point;                    ///< [m] world
   const Body* around;                       ///< the medium there; nullptr is air
   const Eigen::Vector3d* facing = nullptr;  ///< ways that come from behind this normal are left out
+  Loss loss = Loss::all;                    ///< on the way
 };
 
 class PointLight {

@@ -22,11 +22,12 @@ class Connector {
       : projector_(projector), start_(start), beam_(beam), rng_(rng), visit_(visit) {}
 
   void at_scattering(const Walker& walker) {
-    const Place place = place_of(walker);
-    const double factor = std::numbers::pi * walker.weight / (place.medium->n * place.medium->n);
-    connect(walker, place, nullptr, [&](const Connection& way) {
+    // The walk's own way to its first scattering and the scattering itself are the medium's; the light's way is not.
+    const Turbid& medium = space_.medium(walker);
+    const double factor = std::numbers::pi * walker.weight / (medium.n * medium.n);
+    connect(walker, nullptr, Loss::without_peak, [&](const Connection& way) {
       // Seen from the light: it arrives and is sent towards where the walk came from.
-      return factor * phase_function(*place.medium, -way.arrival.dot(walker.direction));
+      return factor * phase_function(medium, -way.arrival.dot(walker.direction));
     });
   }
 
@@ -41,63 +42,46 @@ class Connector {
   }
 
  private:
-  /// Where a walker is.
-  struct Place {
-    const Body* body;      ///< nullptr is air
-    const Turbid* medium;  ///< as the walker sees it
-  };
-  Place place_of(const Walker& walker) const {
-    return {medium_in(projector_.world().geometry(), walker.region), &space_.medium(walker)};
-  }
-
   /// `reflectance(way)` is π · BRDF.
   template <class Reflectance>
   void at_surface(const Walker& walker, const Eigen::Vector3d& normal, Reflectance reflectance) {
-    const Place place = place_of(walker);
-    const double factor = walker.weight / (place.medium->n * place.medium->n);
-    connect(walker, place, &normal,
+    const double n = space_.medium(walker).n, factor = walker.weight / (n * n);
+    connect(walker, &normal, walker.scatterings == 0 ? Loss::all : Loss::without_peak,
             [&](const Connection& way) { return -factor * reflectance(way) * normal.dot(way.arrival); });
   }
 
   /// Chance with which mirrored light is looked for: it is a few hundredths of all.
   static constexpr double kMirrored = 0.25;
 
-  /// `returned(way)` is the share of a way's light that the camera receives, but for the way's transmittance.
+  /// `returned(way)` is the share of a way's light that the camera receives.
   template <class Returned>
-  void connect(const Walker& walker, const Place& place, const Eigen::Vector3d* facing, Returned returned) {
-    const Receiver receiver{walker.position, place.body, facing};
-    const double chance = worth(place, walker.position);
+  void connect(const Walker& walker, const Eigen::Vector3d* facing, Loss loss, Returned returned) {
+    const Receiver receiver{walker.position, medium_in(projector_.world().geometry(), walker.region), facing, loss};
+    const double chance = receiver.around ? worth(receiver) : 1.0;
     if (chance < 1.0 && rng_.uniform() >= chance) return;
-    const auto give_with_chance = [&](const Connection& way, double of_looking) {
-      give(way, returned(way) * transmittance(way, place) / of_looking, walker.position);
-    };
-    projector_.connect(receiver, [&](const Connection& way) { give_with_chance(way, chance); });
+    projector_.connect(receiver, [&](const Connection& way) { give(way, returned(way) / chance, receiver.point); });
     if (rng_.uniform() >= kMirrored) return;
-    projector_.connect_mirrored(receiver, walker.weight, rng_,
-                                [&](const Connection& way) { give_with_chance(way, chance * kMirrored); });
-  }
-
-  /// Of a way whose last piece lies in the medium as the walker sees it.
-  static double transmittance(const Connection& way, const Place& place) {
-    if (!place.body || way.transmittance == 0.0) return way.transmittance;
-    return way.transmittance * std::exp((place.body->medium.scattering - place.medium->scattering) * way.last_piece);
+    projector_.connect_mirrored(receiver, walker.weight, rng_, [&](const Connection& way) {
+      give(way, returned(way) / (chance * kMirrored), receiver.point);
+    });
   }
 
   void give(const Connection& way, double factor, const Eigen::Vector3d& point) {
     // Where walks end differs by as much as this one went aside, and so do the directions that lead there.
     const Eigen::Vector3d gone = point - start_;
     const double aside = (gone - gone.dot(beam_) * beam_).norm();
-    visit_({way.direction, factor * way.spreading, aside * std::sqrt(way.spreading)});
+    visit_({way.direction, factor * way.spreading * way.transmittance, aside * std::sqrt(way.spreading)});
   }
 
   /// Chance with which a place is joined to the projector: deep in a turbid liquid next to no light arrives
   /// unscattered.
-  double worth(const Place& place, const Eigen::Vector3d& point) const {
+  double worth(const Receiver& receiver) const {
     constexpr double kFaint = 0.3;  // from 0.1 to 1 the time for a given error differs by a tenth
-    if (!place.body || !place.body->scatters()) return 1.0;
-    const double least = place.body->plain ? 1e-30 : 0.01;  // light may come from another side than thought
-    const double extinction = place.medium->absorption + place.medium->scattering;
-    return std::clamp(fathom::transmittance(extinction, depth_in(*place.body, point)) / kFaint, least, 1.0);
+    const Body& body = *receiver.around;
+    if (!body.scatters()) return 1.0;
+    const double least = body.plain ? 1e-30 : 0.01;  // light may come from another side than thought
+    const double left = transmittance(extinction_of(&body, receiver.loss), depth_in(body, receiver.point));
+    return std::clamp(left / kFaint, least, 1.0);
   }
 
   /// About how far [m] light goes within the body to get to a point.

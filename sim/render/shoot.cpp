@@ -29,9 +29,10 @@ struct Aim {
   const Body* around;
   int crossings;
   int mirror;
+  Loss loss;
 
   std::optional<Trial> trial(const Eigen::Vector3d& direction) const {
-    Trial result{{ray_differential_from(source.position, direction), source.inside, 1.0}, {}, {}};
+    Trial result{{ray_differential_from(source.position, direction), source.inside, 1.0, loss}, {}, {}};
     Flight& flight = result.flight;
     for (int i = 0; i < crossings; ++i) {
       const std::optional<Crossing> next =
@@ -102,7 +103,7 @@ double pass(const Intersector& world, const Crossing& crossing, Event event, Fli
   const double cosine = std::min(-flight.differential.direction.dot(hit.normal), 1.0);
   const double reflectance = fresnel_reflectance(cosine, n_from, n_to);  // 1 where the reflection is total
   const SurfaceFrame surface{hit.normal, world.curvature(hit)};
-  flight.transmittance *= transmittance(extinction_of(crossing.from), hit.distance);
+  flight.transmittance *= transmittance(extinction_of(crossing.from, flight.loss), hit.distance);
   advance(flight.differential, hit.point, hit.normal);
   if (event == Event::refract && refract(flight.differential, surface, n_from, n_to)) {
     flight.transmittance *= 1.0 - reflectance;
@@ -116,8 +117,9 @@ double pass(const Intersector& world, const Crossing& crossing, Event event, Fli
 }
 
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
-                                const Body* around, const Eigen::Vector3d& direction, int crossings, int mirror) {
-  const Aim aim{world, source, target, around, crossings, mirror};
+                                const Body* around, const Eigen::Vector3d& direction, int crossings, int mirror,
+                                Loss loss) {
+  const Aim aim{world, source, target, around, crossings, mirror, loss};
   const std::optional<Trial> found = aim.solve(direction);
   if (!found || !aim.open(*found)) return std::nullopt;
   const Flight& flight = found->flight;
@@ -125,12 +127,11 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
   return Connection{aim.direction_of(*found),
                     flight.differential.direction,
                     1.0 / std::fabs(area),
-                    flight.transmittance * transmittance(extinction_of(around), found->landing.distance),
+                    flight.transmittance * transmittance(extinction_of(around, loss), found->landing.distance),
                     crossings,
                     area < 0.0,
                     found->through_scattering,
-                    found->partly_mirrored,
-                    found->landing.distance};
+                    found->partly_mirrored};
 }
 
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {

@@ -23,7 +23,6 @@ struct Connection {
   /// Whether it has come out of a body that scatters; where such bodies are taken as opaque, this light is not there.
   bool through_scattering = false;
   bool partly_mirrored = false;  ///< whether an interface on it reflects in part
-  double last_piece = 0.0;       ///< [m] from the last interface, or the source, to the point
 };
 
 /// Where the light comes from, and what bodies it starts in.
@@ -37,6 +36,7 @@ struct Flight {
   RayDifferential differential;
   BodySet inside;
   double transmittance;  ///< from the source to the pencil's origin
+  Loss loss = Loss::all;
 };
 
 /// Longest chain that is followed.
@@ -56,7 +56,7 @@ double pass(const Intersector& world, const Crossing& crossing, Event event, Fli
 /// something opaque stands in it.
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
                                 const Body* around, const Eigen::Vector3d& direction, int crossings,
-                                int mirror = kNoMirror);
+                                int mirror = kNoMirror, Loss loss = Loss::all);
 
 /// Adds a way, if there is one, that has not been found before.
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way);

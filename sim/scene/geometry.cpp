@@ -137,10 +137,10 @@ class Builder {
     bodies_.push_back({{object, at_wavelength}, priority});
     if (medium.scatters()) {
       bodies_.back().body.surface_albedo = diffuse_reflectance(medium, at_wavelength.n);
-      geometry_.approximations.push_back(
-          fmt::format("{}: scatters; shown as an opaque diffuse surface of albedo {:.3f}, light does not enter it (in "
-                      "images of full light it does)",
-                      medium.name, bodies_.back().body.surface_albedo));
+      geometry_.approximations.push_back(fmt::format(
+          "{}: scatters; light enters it in images of full light, elsewhere it is an opaque diffuse surface of "
+          "albedo {:.3f}",
+          medium.name, bodies_.back().body.surface_albedo));
     }
     return static_cast<int>(bodies_.size()) - 1;
   }

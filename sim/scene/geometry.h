@@ -32,11 +32,9 @@ struct Body {
   std::optional<double> level = {};   ///< height [m] of a liquid in a cup, without tilt, ripples and meniscus
   bool plain = false;                 ///< a level liquid in an opaque cup, apart from other bodies: light bends once
   std::optional<Vessel> vessel = {};  ///< around a plain liquid in a cup of revolution
-  Turbid without_peak = without_forward_peak(medium);  ///< for light that has been scattered
+  Turbid without_peak = without_forward_peak(medium);  ///< for light that is scattered
 
   bool scatters() const { return medium.scattering > 0.0; }
-  /// What unscattered light loses on its way [1/m].
-  double extinction() const { return medium.absorption + medium.scattering; }
 };
 
 /// The bodies that a point lies in, bit i for Geometry::bodies[i]. Of bodies that overlap the last one wins.

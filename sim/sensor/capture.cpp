@@ -83,7 +83,7 @@ Eigen::Vector2d pixel_centre(int number, int width) { return {number % width + 0
 }  // namespace
 
 LightModel measured_light(const Setup& setup) {
-  // [1/m] of reduced scattering: from less than 0.05 mm deep light comes as from a surface, and walks there for ever.
+  // [1/m] of reduced scattering: from less than 0.05 mm deep light comes as from a surface, and walks take too long.
   constexpr double kSurface = 2e4;
   bool is_let_in = setup.light.any();
   for (const Cup& cup : setup.scene.cups) {

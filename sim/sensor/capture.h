@@ -25,7 +25,7 @@ enum class CaptureMode {
 
 /// The light that a measurement's images are made of: all of it where a liquid lets it in before it scatters it back or
 /// an effect is about it, else direct light, which carries no noise of its own. Where a liquid sends it back from less
-/// than 0.05 mm below its surface it is direct, too: Monte Carlo would not converge there. Effects are switched on
+/// than 0.05 mm below its surface it is direct, too: walks take too long there. Effects are switched on
 /// already.
 LightModel measured_light(const Setup& setup);
 
@@ -45,8 +45,8 @@ struct CaptureStatistics {
 /// A scene that is ready to be shot several times: traced, rendered and memorised once.
 class Camera {
  public:
-  /// `light`: of images, measured_light() if it is not given. Images that an effect is about have all their light in
-  /// any case.
+  /// `light`: of images, measured_light() if it is not given. Where an effect of light is on, direct light is not
+  /// enough, and measured_light() decides.
   Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
          std::optional<LightModel> light = std::nullopt);
 

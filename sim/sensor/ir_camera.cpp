@@ -74,7 +74,7 @@ struct Renderer {
   };
   Beginnings first_steps(int y, int sample) const {
     const std::uint64_t bits = Rng(seed, kFirstStepStream, y, sample / samples_per_pixel()).bits();
-    const auto number = [bits](int i) { return static_cast<double>(bits >> (21 * i) & 0x1fffff) * 0x1p-21; };
+    const auto number = [bits](int i) { return static_cast<double>(bits >> (21 * i) & 0x1fffff) * 0x1p-21 + 0x1p-22; };
     return {FirstStep{number(0), number(1), number(2)}, sample % samples_per_pixel()};
   }
 

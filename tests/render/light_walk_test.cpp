@@ -87,7 +87,7 @@ TEST(LightWalk, BetweenBlackWallsIsSingleScatteringWhereLittleScatters) {
   for (int i = 0; i < kSteps; ++i) {
     const double path = length * (i + 0.5) / kSteps;
     cup.projector.connect({cup.seen.point + path * inside, &body}, [&](const Connection& way) {
-      quadrature += std::exp(-body.extinction() * path) * kScattering * length / kSteps *
+      quadrature += std::exp(-body.medium.extinction() * path) * kScattering * length / kSteps *
                     henyey_greenstein(-way.arrival.dot(inside), kAnisotropy) * way.spreading * way.transmittance;
     });
   }
