@@ -18,10 +18,10 @@ struct ReturnedLight {
   double spread;              ///< [rad] how far around `direction` light is about as likely to return
 };
 
-/// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an unbiased estimate: where
-/// a body that scatters is entered, of all that comes out of it; at a diffuse point, of what arrives there other than
-/// from the projector or its mirror image in a liquid. Where little of it gets to the camera, most walks end at once.
-/// `first`: how it begins; drawn if it is not given.
+/// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an estimate, unbiased but
+/// for what without_forward_peak() changes: where a body that scatters is entered, of all that comes out of it; at a
+/// diffuse point, of what arrives there other than from the projector or its mirror image in a liquid. Where little of
+/// it gets to the camera, most walks end at once. `first`: how it begins; drawn if it is not given.
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
                 const std::function<void(const ReturnedLight&)>& visit, const FirstStep* first = nullptr);
 
