@@ -154,11 +154,11 @@ DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t s
   const std::array<std::string, 3> lights{"direct", "full", "auto"};
   if (json.has("mode"))
     spec.mode = json.at("mode").choice(modes, "mode") == 0 ? CaptureMode::geometric : CaptureMode::photometric;
-  if (json.has("light"))
-    spec.light = std::array<std::optional<LightModel>, 3>{LightModel::direct, LightModel::full,
-                                                          std::nullopt}[json.at("light").choice(lights, "light")];
-  else if (spec.mode == CaptureMode::photometric)
-    spec.source["light"] = "auto";
+  if (spec.mode == CaptureMode::photometric && !json.has("light")) spec.source["light"] = "auto";
+  if (json.has("light")) {
+    const std::size_t light = json.at("light").choice(lights, "light");
+    if (lights[light] != "auto") spec.light = lights[light] == "full" ? LightModel::full : LightModel::direct;
+  }
   if (spec.light == LightModel::full && spec.mode == CaptureMode::geometric)
     json.fail_at("light", "full needs \"mode\": \"photometric\": geometric frames know direct light only");
 

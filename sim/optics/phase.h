@@ -78,5 +78,9 @@ inline Eigen::Vector3d sample_diffuse(const Eigen::Vector3d& normal, Rng& rng) {
   const Eigen::Vector2d below = sample_disc(rng);  // Malley: the hemisphere's point above a point of the disc
   return deflect(normal, std::sqrt(1.0 - below.squaredNorm()), below);
 }
+/// The same for given numbers in [0, 1): the squared distance of the disc's point from its centre, and its azimuth.
+inline Eigen::Vector3d sample_diffuse(const Eigen::Vector3d& normal, double squared, double turn) {
+  return deflect(normal, std::sqrt(1.0 - squared), unit_vector(turn));
+}
 
 }  // namespace fathom

@@ -121,8 +121,8 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   } else {
     walker.weight *= seen.albedo;
-    walker.direction = first ? deflect(seen.normal, std::sqrt(1.0 - first->cosine), unit_vector(first->azimuth))
-                             : sample_diffuse(seen.normal, rng);
+    walker.direction =
+        first ? sample_diffuse(seen.normal, first->cosine, first->azimuth) : sample_diffuse(seen.normal, rng);
     Connector connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit);
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   }
