@@ -40,9 +40,11 @@ inline constexpr std::array kCommands{
             "  fathom detect left.pcd right.pcd --poses poses.json\n"
             "  fathom detect --live --frames 10",
             define_detect},
-    Command{"evaluate", "Detection rates over random desks, or over a folder of clouds whose containers are labelled",
+    Command{"evaluate",
+            "Detection rates over random desks, a data set, or a folder of clouds whose containers are labelled",
             "  fathom evaluate recognition --trials 20 -o out/recognition\n"
             "  fathom evaluate liquid --method paper --trials 1 -o out/table1\n"
+            "  fathom evaluate out/frames -o out/card\n"
             "  fathom evaluate mOSD --method paper -o out/paper",
             define_evaluate},
     Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/detector_options.h"
 #include "app/evaluate_clutter.h"
+#include "app/evaluate_dataset.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/files.h"
@@ -19,10 +20,12 @@
 #include "core/units.h"
 #include "report/gnuplot.h"
 #include "trials/clutter_templates.h"
+#include "trials/detection_rates.h"
 #include "trials/failure_gallery.h"
 #include "trials/labelled_clouds.h"
 #include "trials/liquid_rates.h"
 #include "trials/share_rows.h"
+#include "trials/trial_tables.h"
 
 namespace fathom {
 namespace {
@@ -34,6 +37,7 @@ struct EvaluateOptions {
   std::filesystem::path config;
   std::filesystem::path clutter;
   std::optional<int> trials;
+  std::string shard{kWhole};
 };
 
 /// The paper's experiments on random desks.
@@ -128,14 +132,18 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
     write_failure_gallery(common.output, trials);
     if (own_templates) keep_templates(common.output, evaluation);
   }
-  const std::string text = format_rows(rates(evaluation, trials), common.json);
+  const std::string text = format_rows(detection_rates(evaluation.method->name, trials), common.json);
   print_text(text);
   write_results(common, "rates", ".txt", text);
 }
 
-void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
+void require_no_trials(const EvaluateOptions& options) {
   if (options.trials || !options.clutter.empty())
     throw UsageError("--trials and --clutter are for the experiments recognition and liquid");
+}
+
+void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
+  require_no_trials(options);
   const Method& method = method_named(options.method);
   DetectorSettings settings = detector_settings(options.config);
   settings.prior = options.desk.prior();
@@ -152,8 +160,15 @@ void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
 }
 
 void run_evaluate(const EvaluateOptions& options, const CommonOptions& common) {
+  if (options.shard != kWhole && !is_dataset(options.what)) throw UsageError("--shard is for data sets");
   for (const Experiment& experiment : kExperiments)
     if (options.what == experiment.name) return run_experiment(experiment, options, common);
+  if (is_dataset(options.what)) {
+    if (options.desk.given) throw UsageError("--height-mm and --pitch-deg stand in a data set's labels");
+    require_no_trials(options);
+    return evaluate_dataset({options.what, options.config, &method_named(options.method), shard_of(options.shard)},
+                            common);
+  }
   run_folder(options, common);
 }
 
@@ -162,14 +177,15 @@ void run_evaluate(const EvaluateOptions& options, const CommonOptions& common) {
 std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<EvaluateOptions>();
   app.add_option("what", options->what,
-                 "recognition or liquid, the paper's experiments on random desks; or a folder of clouds with "
-                 "cups_groundtruth.csv beside them")
+                 "recognition or liquid, the paper's experiments on random desks; a data set of fathom generate; or a "
+                 "folder of clouds with cups_groundtruth.csv beside them")
       ->required()
       ->type_name("recognition|liquid|DIR");
   app.add_option("--trials", options->trials, "Random desks; of liquid for each filling (20, 10)")
       ->check(CLI::Range(1, 100000));
   app.add_option("--clutter", options->clutter, "What stands on the desks (scenes/clutter/desk.json, liquids.json)")
       ->type_name("SPEC.json");
+  add_shard_option(app, options->shard);
   add_method_option(app, options->method);
   add_desk_options(app, options->desk);
   app.add_option("--config", options->config, "Parameters of the method and its templates")->type_name("JSON");

@@ -4,10 +4,8 @@
 #include <vector>
 
 #include "app/command.h"
-#include "core/rows.h"
-#include "core/table.h"
 #include "sim/scene/clutter.h"
-#include "trials/clutter_trial.h"
+#include "trials/trial.h"
 #include "trials/trial_folder.h"
 
 namespace fathom {
@@ -24,14 +22,5 @@ struct ClutterEvaluation {
 /// The trials in their order; with a `folder` each is kept there, and those that it holds already are not shot again.
 std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const CommonOptions& common,
                                     TrialFolder* folder);
-
-/// Recognition, and where cups are filled sensitivity and specificity, with their intervals; misses by kind.
-std::vector<Row> rates(const ClutterEvaluation& evaluation, const std::vector<TrialResult>& trials);
-
-/// A row for each cup that stands there, and for each that does not.
-Table cups_table(const std::vector<TrialResult>& trials);
-
-/// A row for each filling: recognised and detected, as the paper's Table I.
-Table fillings_table(const std::vector<TrialResult>& trials);
 
 }  // namespace fathom

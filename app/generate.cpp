@@ -3,13 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/output_size.h"
 #include "app/print.h"
+#include "app/shard.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/input_record.h"
@@ -24,23 +23,9 @@ namespace {
 struct GenerateOptions {
   std::filesystem::path spec;
   int frames = 1000;
-  std::string shard = "0/1";
+  std::string shard{kWhole};
   bool example = false, yes = false;
 };
-
-/// "3/8": the fourth of eight processes.
-struct Shard {
-  int number, count;
-};
-
-Shard shard_of(const std::string& text) {
-  Shard shard{};
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%6d/%6d%c", &shard.number, &shard.count, &rest) != 2 || shard.count < 1 ||
-      shard.number < 0 || shard.number >= shard.count)
-    throw UsageError(fmt::format("--shard must be i/n with i from 0 to n-1, got {}", text));
-  return shard;
-}
 
 /// The shipped specification, without the name of a schema that does not lie beside a copy.
 std::string example_text() {
@@ -82,9 +67,8 @@ void run_generate(const GenerateOptions& options, const CommonOptions& common) {
   const double bytes = dataset.spec.mode == CaptureMode::photometric ? 1.2e6 : 0.7e6;
   const std::string size = require_space(common, {static_cast<double>(missing), bytes}, options.yes);
   // Shards share the folder: each owns it while it begins and ends, and in between its own scenes.
-  constexpr std::chrono::seconds kPatience(600);
   {
-    const FolderOwner owner(common.output, kPatience);
+    const FolderOwner owner(common.output, kShardPatience);
     write_common(common.output, dataset, identity);
   }
   if (missing > 0) announce(common, size);
@@ -92,7 +76,7 @@ void run_generate(const GenerateOptions& options, const CommonOptions& common) {
   int made = 0;
   for (int scene = shard.number; scene < dataset.scenes(); scene += shard.count)
     made += write_scene(common.output, dataset, scene, identity, [&] { progress.step(); });
-  const FolderOwner owner(common.output, kPatience);
+  const FolderOwner owner(common.output, kShardPatience);
   const bool complete = is_complete(common.output, dataset);
   if (complete) write_dataset_page(common.output, dataset);
   print_text(format_rows({{"frames", static_cast<double>(mine)},
@@ -111,10 +95,7 @@ std::function<void()> define_generate(CLI::App& app, const CommonOptions& common
   app.add_option("--frames", options->frames, "How many frames the data set has; more can be added later")
       ->check(CLI::Range(1, 100'000'000))
       ->capture_default_str();
-  app.add_option("--shard", options->shard,
-                 "Only the i-th of n parts: every process of n makes one, on one machine or many")
-      ->type_name("i/n")
-      ->capture_default_str();
+  add_shard_option(app, options->shard);
   app.add_flag("--example", options->example, "Prints a specification to start from, and makes nothing");
   app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
   return [options, &common] {

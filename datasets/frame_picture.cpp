@@ -1,7 +1,6 @@
 #include "datasets/frame_picture.h"
 
-#include <algorithm>
-#include <cmath>
+#include "report/depth_picture.h"
 
 namespace fathom {
 namespace {
@@ -25,20 +24,15 @@ Image<Rgb> tints(int width, int height, const std::vector<InstanceLabel>& labels
 }  // namespace
 
 Image<Rgb> frame_picture(const Frame& frame, const std::vector<InstanceLabel>& labels) {
-  const Image<float>& depth = frame.depth;
-  float near = HUGE_VALF, far = 0.0f;
-  for (const float metres : depth.pixels())
-    if (metres > 0.0f) near = std::min(near, metres), far = std::max(far, metres);
-  const Image<Rgb> tint = tints(depth.width(), depth.height(), labels);
-  Image<Rgb> picture(depth.width() / 2, depth.height() / 2, Rgb{0, 0, 0});
+  const Image<Rgb> grey = depth_picture(frame.depth);
+  const Image<Rgb> tint = tints(grey.width(), grey.height(), labels);
+  Image<Rgb> picture(grey.width() / 2, grey.height() / 2);
   for (int y = 0; y < picture.height(); ++y)
     for (int x = 0; x < picture.width(); ++x) {
-      const float metres = depth(2 * x, 2 * y);
-      const Rgb& colour = tint(2 * x, 2 * y);
+      const Rgb &shade = grey(2 * x, 2 * y), &colour = tint(2 * x, 2 * y);
       const bool is_labelled = colour != Rgb{0, 0, 0};
-      const double grey = metres > 0.0f ? 60.0 + 180.0 * (far - metres) / std::max(far - near, 1e-3f) : 0.0;
       for (std::size_t c = 0; c < 3; ++c)
-        picture(x, y)[c] = static_cast<std::uint8_t>(is_labelled ? 0.45 * grey + 0.55 * colour[c] : grey);
+        picture(x, y)[c] = is_labelled ? static_cast<std::uint8_t>(0.45 * shade[c] + 0.55 * colour[c]) : shade[c];
     }
   return picture;
 }

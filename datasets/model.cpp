@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/error.h"
@@ -60,6 +62,76 @@ bool is_round(const Model& model) {
   double radius = 0.0;
   for (const Eigen::Vector3d& vertex : model.mesh.vertices) radius = std::max(radius, vertex.head<2>().norm());
   return std::abs(size.x() - size.y()) < kRound * size.x() && std::abs(2.0 * radius - size.x()) < kRound * size.x();
+}
+
+/// Whether a point is near one of many.
+class NearPoints {
+ public:
+  NearPoints(const std::vector<Eigen::Vector3d>& points, double near) : near_(near) {
+    for (const Eigen::Vector3d& point : points) cells_[cell_of(point)].push_back(point);
+  }
+
+  bool has(const Eigen::Vector3d& point) const {
+    const Cell cell = cell_of(point);
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (const auto found = cells_.find({cell[0] + x, cell[1] + y, cell[2] + z}); found != cells_.end())
+            for (const Eigen::Vector3d& other : found->second)
+              if ((point - other).norm() <= near_) return true;
+    return false;
+  }
+
+ private:
+  using Cell = std::array<int, 3>;
+  Cell cell_of(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d cell = (point / near_).array().floor();
+    return {static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z())};
+  }
+
+  double near_;
+  std::map<Cell, std::vector<Eigen::Vector3d>> cells_;
+};
+
+/// The turns by right angles about the box's centre that leave the thing as it is; of a round one, whose turns about
+/// its axis are symmetries anyway, the one upside down.
+std::vector<Pose> discrete_symmetries(const Model& model) {
+  constexpr double kSame = 1e-3;  // of the diameter
+  const double near = kSame * model.diameter;
+  const NearPoints vertices(model.mesh.vertices, near);
+  std::vector<Pose> symmetries;
+  const auto try_turn = [&](const Eigen::Matrix3d& turn) {
+    Pose moved = Pose::Identity();
+    moved.linear() = turn;
+    moved.translation() = model.box.center() - turn * model.box.center();
+    const bool is_same = std::all_of(model.mesh.vertices.begin(), model.mesh.vertices.end(),
+                                     [&](const Eigen::Vector3d& vertex) { return vertices.has(moved * vertex); });
+    if (is_same) symmetries.push_back(moved);
+  };
+  if (is_round(model)) {
+    try_turn(Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal());
+    return symmetries;
+  }
+  for (int along = 0; along < 6; ++along)  // where x and y go; z follows
+    for (int across = 0; across < 6; ++across) {
+      if (along / 2 == across / 2 || (along == 0 && across == 2)) continue;
+      const auto axis = [](int number) -> Eigen::Vector3d {
+        return (number % 2 == 0 ? 1.0 : -1.0) * Eigen::Vector3d::Unit(number / 2);
+      };
+      Eigen::Matrix3d turn;
+      turn << axis(along), axis(across), axis(along).cross(axis(across));
+      try_turn(turn);
+    }
+  return symmetries;
+}
+
+/// Row by row, lengths in mm.
+Json symmetry_json(const Pose& pose) {
+  Json numbers = Json::array();
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      numbers.push_back(pose.matrix()(row, column) * (row < 3 && column == 3 ? 1e3 : 1.0));
+  return numbers;
 }
 
 }  // namespace
@@ -129,6 +201,8 @@ Json models_info(const Models& models) {
                   {"size_y", size.y()},
                   {"size_z", size.z()}};
     if (is_round(model)) entry["symmetries_continuous"] = Json::array({{{"axis", {0, 0, 1}}, {"offset", {0, 0, 0}}}});
+    for (const Pose& symmetry : discrete_symmetries(model))
+      entry["symmetries_discrete"].push_back(symmetry_json(symmetry));
     info[fmt::format("{}", model.id)] = std::move(entry);
   }
   return info;

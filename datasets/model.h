@@ -51,7 +51,8 @@ Json json_in_mm(const Eigen::Vector3d& metres);
 /// Mesh in mm as BOP's models are.
 void write_model(const std::filesystem::path& path, const Model& model);
 
-/// BOP's models_info.json: boxes and diameters in mm, bodies of revolution symmetric about their axis.
+/// BOP's models_info.json: boxes and diameters in mm; bodies of revolution are symmetric about their axis,
+/// others by the turns through right angles that leave them as they are.
 Json models_info(const Models& models);
 
 }  // namespace fathom

@@ -6,6 +6,7 @@
 #include "core/proportion.h"
 #include "core/rng.h"
 #include "trials/clutter_templates.h"
+#include "trials/random_desk.h"
 
 namespace fathom {
 
@@ -23,9 +24,9 @@ std::vector<std::vector<TrialResult>> search_desks(const ClutterSpec& clutter,
   settings.templates = templates_of(clutter);
   std::vector<std::vector<TrialResult>> results(methods.size());
   for (int desk = 0; desk < desks; ++desk) {
-    const TrialShot shot = shoot_trial(random_scene(clutter, seed, desk), clutter.file, Rng(seed, desk).bits());
+    const DeskShot shot = shoot_desk(random_scene(clutter, seed, desk), clutter.file, Rng(seed, desk).bits());
     for (std::size_t i = 0; i < methods.size(); ++i)
-      results[i].push_back(search_trial(shot, method_named(methods[i]), settings).result);
+      results[i].push_back(search_trial(shot.labelled, method_named(methods[i]), settings).result);
     progress.step();
   }
   return results;

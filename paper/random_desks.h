@@ -8,7 +8,7 @@
 
 #include "core/progress.h"
 #include "sim/scene/clutter.h"
-#include "trials/clutter_trial.h"
+#include "trials/trial.h"
 
 namespace fathom {
 

@@ -4,7 +4,9 @@
 #include "core/units.h"
 #include "detector/make_template.h"
 #include "sim/scene/cup.h"
-#include "trials/clutter_trial.h"
+#include "sim/scene/setup.h"
+#include "sim/sensor/capture.h"
+#include "trials/trial.h"
 
 namespace fathom {
 
@@ -18,7 +20,7 @@ std::vector<CupTemplate> templates_of(const ClutterSpec& clutter) {
     const Frame frame = Camera(setup, CaptureMode::geometric, 1, 0).shoot(0);
     try {
       templates.push_back(template_of_only_cup(cup_name(setup.scene.cups.front()), cloud_from_image(frame.cloud),
-                                               prior_of(setup.rig), std::nullopt, "template's desk"));
+                                               prior_of(setup.rig.world_from_camera), std::nullopt, "template's desk"));
     } catch (const Error&) {
       continue;
     }

@@ -55,21 +55,34 @@ std::string failure_of(const TrialResult& trial) {
   return trial.false_cups.empty() ? "" : "false_cup";
 }
 
-void write_failure_gallery(const fs::path& folder, const std::vector<TrialResult>& trials) {
-  std::vector<std::vector<std::string>> counts;
+std::string failure_figures(const std::vector<TrialResult>& trials, const std::string& beside) {
   std::string figures;
   for (const Kind& kind : kKinds) {
-    int count = 0;
+    bool is_first = true;
     for (const TrialResult& trial : trials) {
       if (failure_of(trial) != kind.name) continue;
-      if (++count == 1) figures += fmt::format("<h2 id=\"{}\">{}</h2>\n", kind.name, kind.name);
-      figures += fmt::format("<figure><img src=\"{0}.png\" alt=\"{0}\"><figcaption>{0}: {1}</figcaption></figure>\n",
-                             fmt::format("{}_{}", trial.name, kind.name), caption(trial));
+      if (is_first) figures += fmt::format("<h2 id=\"{0}\">{0}</h2>\n<p>{1}.</p>\n", kind.name, kind.words);
+      is_first = false;
+      figures += fmt::format("<figure><img src=\"{0}{1}.png\" alt=\"{1}\"><figcaption>{1}: {2}</figcaption></figure>\n",
+                             beside, fmt::format("{}_{}", trial.name, kind.name), caption(trial));
     }
-    counts.push_back({fmt::format("{}", count), std::string(kind.name), std::string(kind.words)});
   }
+  return figures;
+}
+
+std::string failure_counts(const std::vector<TrialResult>& trials) {
+  std::vector<std::vector<std::string>> counts;
+  for (const Kind& kind : kKinds) {
+    const auto failed = [&](const TrialResult& trial) { return failure_of(trial) == kind.name; };
+    counts.push_back({fmt::format("{}", std::count_if(trials.begin(), trials.end(), failed)), std::string(kind.name),
+                      std::string(kind.words)});
+  }
+  return html_table({"trials", "kind", "what"}, counts);
+}
+
+void write_failure_gallery(const fs::path& folder, const std::vector<TrialResult>& trials) {
   write_text(folder / "failures" / "index.html",
-             html_page("Fathom: what failed", kHead + html_table({"trials", "kind", "what"}, counts) + figures));
+             html_page("Fathom: what failed", kHead + failure_counts(trials) + failure_figures(trials, "")));
 }
 
 }  // namespace fathom

@@ -90,6 +90,9 @@ void add_levels(const std::vector<const TrialCup*>& cups, std::vector<Row>& rows
       "fill_within_95", cups, told, [&](const TrialCup& cup) { return error(cup) <= k95 * *cup.fill_sigma_mm; }, rows);
 }
 
+/// So many different depths are a design; more were drawn evenly, and have no rate each.
+constexpr std::size_t kMostDepths = 20;
+
 std::string number(double value) { return fmt::format("{:.4f}", value); }
 
 }  // namespace
@@ -104,6 +107,7 @@ std::vector<Row> liquid_rates(const std::vector<TrialResult>& trials) {
   std::set<double> depths_mm;
   for (const TrialCup* cup : cups)
     if (is_filled(*cup)) depths_mm.insert(cup->fill_mm);
+  if (depths_mm.size() > kMostDepths) depths_mm.clear();
   for (const double depth_mm : depths_mm)
     add_share_of(
         fmt::format("sensitivity_{:g}_mm", depth_mm), cups,

@@ -1,14 +1,18 @@
-// The folder of an evaluation on random desks: what a second run goes on with, and what failed.
+// The trials of an evaluation in a folder: what a second run goes on with.
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include "core/folder_owner.h"
 #include "core/manifest.h"
-#include "trials/clutter_trial.h"
+#include "trials/trial.h"
 
 namespace fathom {
+
+/// FOLDER/trials/NAME.json
+std::filesystem::path trial_file(const std::filesystem::path& folder, const std::string& name);
 
 class TrialFolder {
  public:
@@ -19,8 +23,8 @@ class TrialFolder {
   /// A trial that an earlier run kept, as it was written.
   std::optional<TrialResult> kept(const std::string& name) const;
 
-  /// Keeps a trial in trials/, and of one that failed its scene and its picture in failures/.
-  void keep(const std::string& name, const Json& scene, const TrialShot& shot, const Trial& trial);
+  /// Keeps a trial in trials/. Any thread may say so.
+  void keep(const std::string& name, const TrialResult& result);
 
   /// All trials are there.
   void finish() { manifest_.finish(); }
@@ -29,6 +33,7 @@ class TrialFolder {
   std::filesystem::path folder_;
   FolderOwner owner_;
   Manifest manifest_;
+  std::mutex noting_;
 };
 
 }  // namespace fathom

@@ -1,13 +1,14 @@
-// A random desk and what was found on it as a picture for people.
+// What was found in a frame, drawn into a picture of it for people.
 #pragma once
 
 #include "core/image_file.h"
-#include "trials/clutter_trial.h"
+#include "trials/trial.h"
 
 namespace fathom {
 
-/// As preview(). In its upper panels the cups that stand there are outlined, green when found and red when missed; blue
-/// are the circles of what was taken for a cup, 45 mm above the desk and at the rim.
-Image<Rgb> trial_picture(const TrialShot& shot, const Trial& trial);
+/// The cups that stand there are outlined, green when found and red when missed; blue are the circles of what was taken
+/// for a cup, 45 mm above the desk and at the rim. `picture` shows the frame so many times side by side in its upper
+/// left.
+void draw_trial(const LabelledFrame& frame, const Trial& trial, int panels, Image<Rgb>& picture);
 
 }  // namespace fathom

@@ -56,6 +56,27 @@ TEST(RunLengths, CountColumnsAndBeginWithZeros) {
   EXPECT_EQ(run_lengths(mask).area(), 3);
 }
 
+TEST(ModelsInfo, SymmetriesAreTheTurnsThatChangeNothing) {
+  const Json clutter = Json::parse(R"({
+    "sensor": {"height_mm": 650, "aim_mm": [0, 350, 0]}, "region_mm": {"x_mm": [-200, 200], "y_mm": [200, 500]},
+    "cups": {"kinds": [{"shape": "mug"}]},
+    "objects": {"number": [0, 0], "kinds": [{"solid": {"box_mm": [40, 50, 60]}}, {"solid": {"box_mm": [40, 40, 60]}},
+      {"solid": {"box_mm": [40, 40, 40]}}, {"solid": {"profile_mm": [[0, 0], [30, 0], [30, 80], [0, 80]]}}, {"solid": "bottle"}]}
+  })");
+  const Json info = models_info(Models(clutter_spec_from_json(JsonReader(clutter, "spec.json"))));
+  const auto turns = [&](const char* id) { return info.at(id).value("symmetries_discrete", Json::array()).size(); };
+  EXPECT_EQ(turns("1"), 0u) << "a mug has its handle on one side";
+  EXPECT_EQ(turns("2"), 3u) << "half turns";
+  EXPECT_EQ(turns("3"), 7u) << "and quarter turns about its long axis";
+  EXPECT_EQ(turns("4"), 23u) << "those of the cube";
+  EXPECT_EQ(turns("5"), 1u) << "a cylinder upside down";
+  EXPECT_EQ(turns("6"), 0u) << "a bottle has its neck at one end";
+  EXPECT_TRUE(info.at("5").contains("symmetries_continuous"));
+  // Each leaves the box where it is: the middle of a thing that stands on z = 0 stays.
+  for (const Json& turn : info.at("2").at("symmetries_discrete"))
+    EXPECT_NEAR(turn.at(10).get<double>() * 30.0 + turn.at(11).get<double>(), 30.0, 1e-9);
+}
+
 TEST_F(DatasetFolder, LabelsAgreeWithTheModelsMeshes) {
   const Dataset set = dataset(1);
   Json scene = dataset_scene(set.spec, 7, 0);

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """usage: tests/datasets/slurm_test.py FATHOM
-scripts/slurm/generate.sbatch on a cluster of one node: munged, slurmctld and slurmd on this machine, in a folder of their
-own. Four tasks make a data set, one of them is killed on the way; the set has the same bytes as that of one process.
+scripts/slurm/shards.sbatch on a cluster of one node: munged, slurmctld and slurmd on this machine, in a folder of their
+own. Four tasks make a data set, one of them is killed on the way; the set has the same bytes as that of one process. Then
+four tasks search it with the detector; their report card has the same bytes as that of one process, too.
 Skipped (exit code 77) where Debian's packages munge, slurmctld, slurmd and slurm-client are not installed."""
 import os
 import pwd
@@ -126,34 +127,61 @@ def command_line(pid):
         return b""
 
 
+def run_array(cluster, name, command, meanwhile=None):
+    """Four tasks of one processor each, to their ends; what they said."""
+    submitted = cluster.run("sbatch", "--array=0-3", "--cpus-per-task=1", "--mem=0", f"--output={cluster.folder}/{name}_%a.txt",
+                            str(ROOT / "scripts/slurm/shards.sbatch"), *map(str, command))
+    job = re.search(r"job (\d+)", submitted)
+    if not job:
+        sys.exit(f"sbatch says: {submitted}")
+    if meanwhile:
+        meanwhile()
+    cluster.wait(lambda: not cluster.run("squeue", "-h", "-j", job[1]).strip(), f"the job array {name}", 400)
+    return "".join(task.read_text() for task in sorted(cluster.folder.glob(f"{name}_*.txt")))
+
+
+def finished(command, found):
+    """What a command says when nothing is left to do."""
+    said = subprocess.run([*map(str, command), "--quiet"], check=True, capture_output=True, text=True).stdout
+    if not re.search(found, said, re.M):
+        sys.exit(f"the array left something out:\n{said}")
+
+
+def compare(what, array, alone):
+    array, alone = bytes_below(array), bytes_below(alone)
+    if array != alone:
+        sys.exit(f"the array's {what} differ from one process's: " + ", ".join(sorted(
+            name for name in array.keys() | alone.keys() if array.get(name) != alone.get(name))[:5]))
+    print(f"four tasks made the {len(alone)} files of one process's {what}")
+
+
 def main(program):
-    folder = Path(tempfile.mkdtemp(prefix="fathom_slurm_"))
+    program, folder = Path(program).resolve(), Path(tempfile.mkdtemp(prefix="fathom_slurm_"))
     cluster = Cluster(folder)
     try:
         spec = folder / "spec.json"
         spec.write_text('{"cups": {"number": [1, 1], "kinds": [{"shape": "mug"}]}, "objects": {"number": [0, 1], "kinds": [{"solid": "can"}]}}')
-        called = [str(Path(program).resolve()), str(FRAMES), str(folder / "array"), str(spec)]
-        submitted = cluster.run("sbatch", "--array=0-3", "--cpus-per-task=1", "--mem=0", f"--output={folder}/task_%a.txt",
-                                str(ROOT / "scripts/slurm/generate.sbatch"), *called)
-        job = re.search(r"job (\d+)", submitted)
-        if not job:
-            sys.exit(f"sbatch says: {submitted}")
-        cluster.wait(lambda: len(list((folder / "array").glob("train/*/labels/*.json"))) > 5, "the first frames", 120)
-        os.kill(processes_of(folder / "array")[0], signal.SIGKILL)
-        cluster.wait(lambda: not cluster.run("squeue", "-h", "-j", job[1]).strip(), "the job array", 400)
-        queued_again = [task for task in folder.glob("task_*.txt") if "queued again" in task.read_text()]
-        if not queued_again:
-            sys.exit("no task was queued again:\n" + "".join(task.read_text() for task in folder.glob("task_*.txt")))
-        made = [program, "generate", str(spec), "--frames", str(FRAMES), "--quiet", "-o"]
-        checked = subprocess.run([*made, str(folder / "array")], check=True, capture_output=True, text=True).stdout
-        if not re.search(r"frames_made_now +0$", checked, re.M):
-            sys.exit(f"the array left frames out:\n{checked}")
-        subprocess.run([*made, str(folder / "alone")], check=True, capture_output=True)
-        array, alone = bytes_below(folder / "array"), bytes_below(folder / "alone")
-        if array != alone:
-            sys.exit("the array's files differ from one process's: " + ", ".join(sorted(
-                name for name in array.keys() | alone.keys() if array.get(name) != alone.get(name))[:5]))
-        print(f"four tasks, one of them killed and queued again, made the {len(alone)} files of one process")
+
+        def generate(name):
+            return [program, "generate", spec, "--frames", FRAMES, "--threads", 1, "-o", folder / name]
+
+        def evaluate(name):
+            return [program, "evaluate", folder / "array", "--threads", 1, "-o", folder / name]
+
+        def kill_one():
+            cluster.wait(lambda: len(list((folder / "array").glob("train/*/labels/*.json"))) > 5, "the first frames", 120)
+            os.kill(processes_of(folder / "array")[0], signal.SIGKILL)
+
+        said = run_array(cluster, "frames", generate("array"), kill_one)
+        if "queued again" not in said:
+            sys.exit(f"no task was queued again:\n{said}")
+        finished(generate("array"), r"frames_made_now +0$")
+        finished(generate("alone"), rf"frames_made_now +{FRAMES}$")
+        compare("frames", folder / "array", folder / "alone")
+        run_array(cluster, "card", evaluate("card"))
+        finished(evaluate("card"), r"recognised ")
+        finished(evaluate("card_alone"), r"recognised ")
+        compare("answers", folder / "card", folder / "card_alone")
     finally:
         cluster.close()
     shutil.rmtree(folder)

@@ -1,5 +1,5 @@
 // A trial's file: what a killed evaluation goes on with.
-#include "trials/clutter_trial.h"
+#include "trials/trial.h"
 
 namespace fathom {
 namespace {
@@ -16,6 +16,7 @@ Json json_of(const TrialCup& cup) {
           {"fill_mm", cup.fill_mm},
           {"kind", cup.kind},
           {"position_mm", {cup.position_mm.x(), cup.position_mm.y()}},
+          {"distance_mm", cup.distance_mm},
           {"visible", cup.visible},
           {"found", cup.found},
           {"liquid_found", cup.liquid_found},
@@ -35,6 +36,7 @@ TrialCup trial_cup_from_json(const JsonReader& json) {
   cup.fill_mm = json.number("fill_mm");
   cup.kind = json.text("kind");
   cup.position_mm = json.at("position_mm").vector2();
+  cup.distance_mm = json.number("distance_mm");
   cup.visible = json.number("visible");
   cup.found = json.value()["found"].get<bool>();
   cup.liquid_found = json.text("liquid_found");
@@ -56,16 +58,20 @@ Json json_of(const TrialResult& result) {
   for (const TrialCup& cup : result.cups) cups.push_back(json_of(cup));
   return {{"cups", cups},
           {"false_cups", result.false_cups},
+          {"others", result.others},
+          {"sensor", result.sensor},
           {"shoot_s", result.shoot_s},
           {"detect_s", result.detect_s},
           {"stages_s", result.stages_s}};
 }
 
 TrialResult trial_from_json(const JsonReader& json) {
-  json.allow_only({"cups", "false_cups", "shoot_s", "detect_s", "stages_s"});
+  json.allow_only({"cups", "false_cups", "others", "sensor", "shoot_s", "detect_s", "stages_s"});
   TrialResult result;
   for (const JsonReader& cup : json.at("cups").items()) result.cups.push_back(trial_cup_from_json(cup));
   for (const JsonReader& name : json.at("false_cups").items()) result.false_cups.push_back(name.text());
+  result.others = json.at("others").integer(0, 1 << 20);
+  result.sensor = json.text("sensor");
   result.shoot_s = json.number("shoot_s");
   result.detect_s = json.number("detect_s");
   result.stages_s = json.value()["stages_s"].get<std::map<std::string, double>>();

@@ -1,4 +1,5 @@
-// One random desk: shot once, searched for cups by any number of methods, and what was found beside what stands there.
+// One frame of a desk of which it is known what stands there: searched for cups by any method, and what was found
+// beside what is true.
 #pragma once
 
 #include <array>
@@ -8,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/image.h"
 #include "core/json.h"
+#include "core/pose.h"
 #include "detector/detector.h"
-#include "sim/scene/setup.h"
-#include "sim/sensor/capture.h"
 
 namespace fathom {
 
@@ -32,6 +33,7 @@ struct TrialCup {
   double fill_mm = 0.0;
   std::string kind;             ///< "transparent" or "opaque"; of an empty cup ""
   Eigen::Vector2d position_mm;  ///< of its axis, world
+  double distance_mm = 0.0;     ///< of its foot from the camera
   double visible = 0.0;         ///< share of the pixels it would fill alone on the desk
   bool found = false;
   std::string liquid_found;  ///< "yes", "no", "unknown"; of a cup that was found
@@ -45,6 +47,8 @@ struct TrialResult {
   std::string name;  ///< its number, as its files are called; they do not hold it
   std::vector<TrialCup> cups;
   std::vector<std::string> false_cups;  ///< what was taken for a cup
+  int others = 0;                       ///< how many other things stand there
+  std::string sensor;                   ///< its model
   double shoot_s = 0.0, detect_s = 0.0;
   std::map<std::string, double> stages_s;  ///< of the method
 };
@@ -53,21 +57,22 @@ struct TrialResult {
 Json json_of(const TrialResult& result);
 TrialResult trial_from_json(const JsonReader& json);
 
-/// A random desk as the sensor saw it.
-struct TrialShot {
-  Setup setup;
-  Camera camera;
-  Frame frame;
-  Cloud cloud;                  ///< the frame's, as detectors take it
-  std::vector<double> visible;  ///< of each cup the share of the pixels it would fill alone on the desk
-  double shoot_s;
+/// What a sensor saw, and what is true of it.
+struct LabelledFrame {
+  std::string sensor;  ///< its model
+  Pose world_from_camera;
+  double focal_px;
+  Eigen::Vector2d principal_px;  ///< of an image whose first pixel has its centre at (0.5, 0.5)
+  Cloud cloud;
+  std::vector<TrialCup> cups;       ///< what stands there, nothing found
+  std::vector<std::string> others;  ///< names of the other things
+  Image<int> owners;                ///< of each pixel the cup that it shows, or after these the other thing; kNobody
+
+  static constexpr int kNobody = -1;
 };
 
 /// Where the sensor stands.
-DeskPrior prior_of(const Rig& rig);
-
-/// Photometric, direct light.
-TrialShot shoot_trial(const Json& scene, const std::string& file, std::uint64_t seed);
+DeskPrior prior_of(const Pose& world_from_camera);
 
 struct Trial {
   Detection detection;
@@ -75,6 +80,6 @@ struct Trial {
 };
 
 /// `settings`' prior is set to where the sensor stands.
-Trial search_trial(const TrialShot& shot, const Method& method, DetectorSettings settings);
+Trial search_trial(const LabelledFrame& frame, const Method& method, DetectorSettings settings);
 
 }  // namespace fathom
