@@ -9,6 +9,7 @@ void register_light();
 void register_convergence();
 void register_match();
 void register_detect();
+void register_generate();
 void register_others();
 
 }  // namespace fathom

@@ -18,7 +18,7 @@ struct Group {
   std::string_view summary;
 };
 
-constexpr std::array<Group, 7> kGroups{{
+constexpr std::array<Group, 8> kGroups{{
     {"geometric", fathom::register_geometric, "trace_truth() beside a bare Embree loop over the same rays"},
     {"photometric", fathom::register_photometric, "render_ir() beside a bare Embree loop, and a whole frame"},
     {"light", fathom::register_light, "render_ir() with all light in clear, turbid and glass scenes, with its noise"},
@@ -26,6 +26,7 @@ constexpr std::array<Group, 7> kGroups{{
     {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
     {"detect", fathom::register_detect,
      "the methods beside a pipeline of PCL's tutorials, one thread; FATHOM_REAL_DATA adds measured clouds"},
+    {"generate", fathom::register_generate, "labelled frames of a data set beside a bare Embree loop, and a second thread"},
     {"others", fathom::register_others, "dots under water as POV-Ray and Blender's Cycles show them, beside ours"},
 }};
 

@@ -79,6 +79,23 @@ def report_light(table):
                   below=True)
 
 
+def report_generate(table):
+    unit = "generate/embree"
+    if unit not in table.runs:
+        return
+    scale = UNIT_RAYS / table.runs.value(unit, "rays")
+    cpu, wall = (scale * table.runs.value(unit, key) for key in ("cpu_time", "real_time"))
+    for mode, goal in (("geometric", 0.12), ("photometric", 1.6)):
+        frames = table.runs.value(f"generate/{mode}", "frames")
+        cpu_ms, wall_ms = (table.runs.value(f"generate/{mode}", key) / frames for key in ("cpu_time", "real_time"))
+        table.add(f"labelled {mode} frame / U", f"{cpu_ms:.0f} ms", f"{cpu:.0f} ms", cpu_ms / cpu, wall_ms / wall, goal)
+        table.add("  its files [MB]", f"{table.runs.value(f'generate/{mode}', 'bytes') * 1e-6:.2f}", "",
+                  table.runs.value(f"generate/{mode}", "bytes") * 1e-6, None, 1.2)
+    for what, name in (("labelled geometric frames", "generate/geometric"), ("Embree", "generate/embree")):
+        gain = table.runs.value(f"{name}_one_thread", "real_time") / table.runs.value(name, "real_time")
+        table.add(f"{what}: all threads, times as fast as one", f"{gain:.2f}")
+
+
 def report_matching(table):
     for case in MATCH_CASES:
         ours = f"match/{case}/fathom"
@@ -126,6 +143,7 @@ if __name__ == "__main__":
     report_tracing(everything)
     report_light(everything)
     report_matching(everything)
+    report_generate(everything)
     report_detection(everything)
     if "memory" in groups:
         report_memory(everything, results)

@@ -38,7 +38,7 @@ PixelBox window_of(const Model& model, const Pose& camera_from_model, const Sens
 }
 
 /// Where the thing would be seen if nothing else were there.
-void see_alone(const Pose& world_from_model, const Rig& rig, InstanceLabel& label) {
+void see_alone(const Pose& world_from_model, const Rig& rig, const Image<float>& depth, InstanceLabel& label) {
   const Model& model = *label.model;
   label.whole = Image<std::uint8_t>(rig.sensor.width, rig.sensor.height);
   const Pose alone_from_world = model.alone_from_model * world_from_model.inverse();
@@ -58,21 +58,34 @@ void see_alone(const Pose& world_from_model, const Rig& rig, InstanceLabel& labe
         const int across = x + static_cast<int>(i), column = window.x + across, row = window.y + y;
         silhouette(across, y) = 255;
         ++label.whole_pixels;
-        if (column >= 0 && column < label.whole.width() && row >= 0 && row < label.whole.height())
-          label.whole(column, row) = 255;
+        if (column < 0 || column >= label.whole.width() || row < 0 || row >= label.whole.height()) continue;
+        label.whole(column, row) = 255;
+        label.valid += depth(column, row) > 0.0f;
       }
     }
   label.whole_box = box_of(silhouette);
   if (label.whole_box) label.whole_box->x += window.x, label.whole_box->y += window.y;
 }
 
-Image<std::uint8_t> first_seen(const Image<TruePixel>& truth, int object, std::optional<int> liquid = {}) {
-  Image<std::uint8_t> mask(truth.width(), truth.height());
-  for (std::size_t i = 0; i < truth.size(); ++i)
-    if (const auto& first = truth.pixels()[i].first; first && (first->object == object || first->object == liquid))
-      mask.pixels()[i] = 255;
-  return mask;
-}
+/// A camera's pixels with what labels need of them, beside the camera.
+struct Seen {
+  const Camera& camera;
+  const Frame& frame;
+  Image<int> first;  ///< the number of the object that is seen first; 0: none
+
+  Seen(const Camera& of_camera, const Frame& of_frame)
+      : camera(of_camera), frame(of_frame), first(of_camera.truth().width(), of_camera.truth().height()) {
+    std::transform(camera.truth().pixels().begin(), camera.truth().pixels().end(), first.pixels().begin(),
+                   [](const TruePixel& pixel) { return pixel.first ? pixel.first->object : 0; });
+  }
+
+  Image<std::uint8_t> mask_of(int object, int or_object) const {
+    Image<std::uint8_t> mask(first.width(), first.height());
+    std::transform(first.pixels().begin(), first.pixels().end(), mask.pixels().begin(),
+                   [=](int seen) { return seen == object || seen == or_object ? std::uint8_t{255} : std::uint8_t{0}; });
+    return mask;
+  }
+};
 
 /// Height above the desk of what a camera without noise measures at a pixel.
 double apparent_height(const Rig& rig, int x, int y, double apparent_depth) {
@@ -86,7 +99,8 @@ double bottom_height(const Cup& cup) {
   return shape ? shape->bottom() : liquid_level(cup) - cup.filling->depth;
 }
 
-std::optional<LiquidLabel> liquid_of(const Camera& camera, std::size_t index) {
+std::optional<LiquidLabel> liquid_of(const Seen& seen, std::size_t index) {
+  const Camera& camera = seen.camera;
   const Cup& cup = camera.setup().scene.cups[index];
   const std::optional<int> number = camera.geometry().cups[index].liquid;
   if (!cup.filling || !number) return std::nullopt;
@@ -99,30 +113,28 @@ std::optional<LiquidLabel> liquid_of(const Camera& camera, std::size_t index) {
                     .surface_mm = mm_from_metres(liquid_level(cup)),
                     .bottom_mm = mm_from_metres(bottom_height(cup)),
                     .apparent_mm = {},
-                    .mask = first_seen(camera.truth(), *number)};
+                    .mask = seen.mask_of(*number, *number)};
   std::vector<double> heights;
-  for (int y = 0; y < label.mask.height(); ++y)
-    for (int x = 0; x < label.mask.width(); ++x)
+  const PixelBox box = box_of(label.mask).value_or(PixelBox{});
+  for (int y = box.y; y < box.y + box.height; ++y)
+    for (int x = box.x; x < box.x + box.width; ++x)
       if (const auto& depth = camera.truth()(x, y).apparent_depth; label.mask(x, y) && depth)
         heights.push_back(mm_from_metres(apparent_height(rig, x, y, *depth)));
   if (!heights.empty()) label.apparent_mm = median(std::move(heights));
   return label;
 }
 
-InstanceLabel label_of(const Model& model, std::size_t index, int object, std::optional<int> liquid,
-                       const Camera& camera, const Frame& frame) {
-  const Rig& rig = camera.setup().rig;
-  const Pose world_from_model = camera.geometry().world_from_object.at(object - 1);
+InstanceLabel label_of(const Model& model, std::size_t index, int object, std::optional<int> liquid, const Seen& seen) {
+  const Rig& rig = seen.camera.setup().rig;
+  const Pose world_from_model = seen.camera.geometry().world_from_object.at(object - 1);
   InstanceLabel label{.model = &model,
                       .index = index,
                       .camera_from_model = rig.world_from_camera.inverse() * world_from_model,
                       .whole = {},
-                      .visible = first_seen(camera.truth(), object, liquid),
+                      .visible = seen.mask_of(object, liquid.value_or(object)),
                       .whole_box = {},
                       .liquid = {}};
-  see_alone(world_from_model, rig, label);
-  for (std::size_t i = 0; i < label.whole.size(); ++i)
-    label.valid += label.whole.pixels()[i] > 0 && frame.depth.pixels()[i] > 0.0f;
+  see_alone(world_from_model, rig, seen.frame.depth, label);
   return label;
 }
 
@@ -143,21 +155,36 @@ int RunLengths::area() const {
 }
 
 RunLengths run_lengths(const Image<std::uint8_t>& mask) {
-  RunLengths runs{mask.width(), mask.height(), {0}};
+  RunLengths runs{mask.width(), mask.height(), {}};
+  int begun = 0;  // where the last run begins
   bool is_inside = false;
-  for (int x = 0; x < mask.width(); ++x)
-    for (int y = 0; y < mask.height(); ++y) {
-      if ((mask(x, y) > 0) != is_inside) is_inside = !is_inside, runs.counts.push_back(0);
-      ++runs.counts.back();
-    }
+  // Around the box all is zero. A run ends in the row below the box, or at the top of the next column.
+  const PixelBox box = box_of(mask).value_or(PixelBox{});
+  const int below = box.y + box.height, top = below < mask.height() ? box.y : 0,
+            bottom = std::min(below + 1, mask.height()), right = std::min(box.x + box.width + 1, mask.width());
+  for (int x = box.x; x < right; ++x)
+    for (int y = top; y < bottom; ++y)
+      if ((mask(x, y) > 0) != is_inside) {
+        const int place = x * mask.height() + y;
+        runs.counts.push_back(place - begun);
+        begun = place;
+        is_inside = !is_inside;
+      }
+  runs.counts.push_back(static_cast<int>(mask.size()) - begun);
   return runs;
 }
 
 std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask) {
   int left = mask.width(), top = mask.height(), right = -1, bottom = -1;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x)
-      if (mask(x, y)) left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = y;
+  for (int y = 0; y < mask.height(); ++y) {
+    const std::uint8_t *begin = mask.row(y), *end = begin + mask.width();
+    const std::uint8_t* first = std::find_if(begin, end, [](std::uint8_t value) { return value > 0; });
+    if (first == end) continue;
+    const std::uint8_t* last = end - 1;
+    while (*last == 0) --last;
+    left = std::min(left, static_cast<int>(first - begin)), right = std::max(right, static_cast<int>(last - begin));
+    top = std::min(top, y), bottom = y;
+  }
   if (right < 0) return std::nullopt;
   return PixelBox{left, top, right - left + 1, bottom - top + 1};
 }
@@ -165,15 +192,16 @@ std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask) {
 std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, const Camera& camera,
                                        const Frame& frame) {
   const Geometry& geometry = camera.geometry();
+  const Seen seen(camera, frame);
   std::vector<InstanceLabel> labels;
   for (std::size_t i = 0; i < scene.at("cups").size(); ++i) {
     labels.push_back(
-        label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, camera, frame));
-    labels.back().liquid = liquid_of(camera, i);
+        label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, seen));
+    labels.back().liquid = liquid_of(seen, i);
   }
   for (std::size_t i = 0; i < scene.at("objects").size(); ++i)
     labels.push_back(
-        label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, camera, frame));
+        label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, seen));
   return labels;
 }
 

@@ -54,6 +54,12 @@ TEST(RunLengths, CountColumnsAndBeginWithZeros) {
   mask(0, 0) = mask(1, 1) = mask(2, 0) = 255;
   EXPECT_EQ(run_lengths(mask).counts, (std::vector<int>{0, 1, 2, 2, 1}));
   EXPECT_EQ(run_lengths(mask).area(), 3);
+  Image<std::uint8_t> low(3, 4);  // at the bottom of two columns
+  low(0, 2) = low(0, 3) = low(1, 3) = 255;
+  EXPECT_EQ(run_lengths(low).counts, (std::vector<int>{2, 2, 3, 1, 4}));
+  Image<std::uint8_t> inside(3, 4);
+  inside(1, 1) = inside(1, 2) = 255;
+  EXPECT_EQ(run_lengths(inside).counts, (std::vector<int>{5, 2, 5}));
 }
 
 TEST(ModelsInfo, SymmetriesAreTheTurnsThatChangeNothing) {
