@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr int kMostFrames = 1'000'000;  // of one folder: names have six digits
 
 /// Millimetres in the file.
-Eigen::Vector3d metres(const JsonReader& json) { return kMetresPerMm * json.vector3(); }
+Eigen::Vector3d metres(const JsonReader& json) { return kMetresPerMm * json.vector3({-1e6, 1e6}); }
 
 Eigen::Matrix3d rotation_by_rows(const JsonReader& json) {
   constexpr double kRounding = 1e-6;
@@ -79,7 +79,7 @@ TrialCup true_cup(const JsonReader& instance, const Pose& world_from_camera) {
   }
   const JsonReader liquid = cup.at("liquid");
   result.liquid = liquid.text("name");
-  result.fill_mm = liquid.number("fill_mm", kPositive);
+  result.fill_mm = liquid.number("fill_mm", {0.0, 1e6, true});
   result.kind = name_of(liquid.text("category") == "liquid surface" ? LiquidKind::kOpaque : LiquidKind::kTransparent);
   return result;
 }
@@ -111,8 +111,9 @@ LabelledFrame DatasetFrames::read(const SceneFolder& scene, int image) const {
   const fs::path folder = folder_ / "train" / scene.name, file = folder / fmt::format("labels/{:06}.json", image);
   const Json labels = read_json(file);
   const JsonReader json(labels, file.string()), camera = json.at("camera");
-  const std::vector<double> matrix = camera.at("cam_K").numbers();
-  if (matrix.size() != 9 || !(matrix[0] > 0.0)) camera.fail_at("cam_K", "must be the nine numbers of a camera matrix");
+  const std::vector<double> matrix = camera.at("cam_K").numbers({-1e6, 1e6});
+  if (matrix.size() != 9 || matrix[0] < 1.0)
+    camera.fail_at("cam_K", "must be the nine numbers of a camera matrix [px], first the focal length");
   const Image<std::uint16_t> depth = read_png_grey(folder / fmt::format("depth/{:06}.png", image));
 
   Pose camera_from_world = Pose::Identity();
@@ -127,7 +128,7 @@ LabelledFrame DatasetFrames::read(const SceneFolder& scene, int image) const {
                       .others = {},
                       .owners = Image<int>(depth.width(), depth.height(), LabelledFrame::kNobody)};
   frame.cloud =
-      cloud_of(depth, kMetresPerMm * camera.number("depth_scale", kPositive), frame.focal_px, frame.principal_px);
+      cloud_of(depth, kMetresPerMm * camera.number("depth_scale", {1e-3, 1e3}), frame.focal_px, frame.principal_px);
   int owner = 0;
   for (const JsonReader& instance : json.at("instances").items()) {
     own(instance.at("visible"), owner++, frame.owners);

@@ -94,9 +94,9 @@ def main():
     parser.add_argument("program", metavar="FATHOM", type=lambda p: str(Path(p).resolve()))
     parser.add_argument("--kills", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--work", help="one of them: capture, campaign, diagnose, generate, evaluate")
+    parser.add_argument("--work", help="one of them: capture, campaign, diagnose, generate, evaluate, card")
     options = parser.parse_args()
-    rng, kills, failed = random.Random(options.seed), dict.fromkeys(["capture", "campaign", "diagnose", "generate", "evaluate"], 0), 0
+    rng, kills, failed = random.Random(options.seed), dict.fromkeys(["capture", "campaign", "diagnose", "generate", "evaluate", "card"], 0), 0
     with tempfile.TemporaryDirectory(prefix="kills.") as scratch:
         folder = Path(scratch)
         env = environment(options.program, folder)

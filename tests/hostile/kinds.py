@@ -198,6 +198,20 @@ def dataset(rng, seeds, here):
     return ["generate", "frames.json", "--frames", "1"]
 
 
+def labelled(rng, seeds, here):
+    """A data set that is searched."""
+    shutil.copytree(seeds.drawn, here / "drawn")
+    name = rng.choice(["labels/000000.json"] * 4 + ["depth/000000.png"] * 2 + ["complete.json", "../../models/models_info.json"])
+    file = here / "drawn" / "train" / "000000" / name
+    if file.suffix == ".png":
+        data = file.read_bytes()
+        data = mutate_bytes.mutate_bytes(rng, data) if rng.random() < BYTEWISE else mutate_image.mutate_png(rng, 640, 480)
+    else:
+        data = text_mutant(rng, file.read_text(), here, seeds.record)
+    file.write_bytes(data)
+    return ["evaluate", "drawn"]
+
+
 def config(rng, seeds, here):
     """What detect takes beside clouds: a configuration with templates, poses, labels."""
     (here / "cloud.pcd").write_bytes(mutate_cloud.write_pcd(seeds.points, len(seeds.points), 1, "binary"))
@@ -233,7 +247,7 @@ def resumed(rng, seeds, here):
 
 # Kind: share of the mutants.
 KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, infrared: 2,
-         clutter: 2, dataset: 3, config: 4, resumed: 2}
+         clutter: 2, dataset: 3, labelled: 3, config: 4, resumed: 2}
 NAMES = [kind.__name__ for kind in KINDS]
 # How the program is called: what its streams lead to.
 STREAMS = ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full", ">&-", "<&-"]

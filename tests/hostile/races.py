@@ -51,7 +51,7 @@ def main():
     parser.add_argument("program", metavar="FATHOM", type=lambda p: str(Path(p).resolve()))
     parser.add_argument("--races", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--work", help="one of them: capture, campaign, diagnose, generate, evaluate")
+    parser.add_argument("--work", help="one of them: capture, campaign, diagnose, generate, evaluate, card")
     options = parser.parse_args()
     rng, failed = random.Random(options.seed), 0
     with tempfile.TemporaryDirectory(prefix="races.") as scratch:

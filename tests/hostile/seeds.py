@@ -133,6 +133,10 @@ class Seeds:
         for arguments in (["capture", "scene.json", "-o", "recording", "--mode", "geometric"], ["campaign", "spec.json", "-o",
                                                                                                 "campaign"]):
             subprocess.run([program, *arguments, "--quiet"], cwd=folder, env=env, check=True, stdout=subprocess.DEVNULL)
+        (folder / "frames.json").write_text(self.dataset)
+        subprocess.run([program, "generate", "frames.json", "--frames", "1", "-o", "drawn", "--quiet"], cwd=folder, env=env, check=True,
+                       stdout=subprocess.DEVNULL)
+        self.drawn = folder / "drawn"
         self.disparity = (self.recording / "disparity.exr").read_bytes()
         self.record = (self.recording / "run.json").read_text()
         self.require_good(program, folder, env)
@@ -167,7 +171,7 @@ class Seeds:
                                                                                               "config.json"],
             ["detect", "binary.pcd", "binary_compressed.pcd", "--poses", "poses.json"], ["template", "binary.pcd", "--name", "x"],
             ["evaluate", "recognition", "--trials", "1", "--clutter", "clutter.json"], ["generate", "frames.json", "--frames", "1"],
-            ["evaluate", "."],
+            ["evaluate", "."], ["evaluate", str(self.drawn)],
         ["detect", "--live", str(self.recording)]]
         for i, command in enumerate(commands):
             subprocess.run([program, *command, "-o", str(folder / f"out{i}"), "--quiet"], cwd=good, env=env, check=True,

@@ -39,6 +39,8 @@ def make_works(program, folder, env):
     for name in ("measured", "hidden"):
         subprocess.run([program, "campaign", f"{name}.json", "-o", name, "--quiet"], cwd=folder, env=env, check=True,
                        stdout=subprocess.DEVNULL)
+    subprocess.run([program, "generate", "frames.json", "--frames", "6", "-o", "drawn", "--quiet"], cwd=folder, env=env, check=True,
+                   stdout=subprocess.DEVNULL)
     capture, evaluate = ["capture", "scene.json", "--mode", "geometric", "--frames", "12",
                          "--quiet"], ["evaluate", "recognition", "--clutter", "clutter.json", "--trials", "3", "--quiet"]
     return [
@@ -49,6 +51,7 @@ def make_works(program, folder, env):
         Work("generate", "index.html", ["generate", "frames.json", "--frames", "8", "--quiet"],
              ["generate", "frames.json", "--frames", "8", "--quiet", "--seed", "2"], resumes=True),
         Work("evaluate", "rates.txt", evaluate, [*evaluate, "--seed", "2"], resumes=True),
+        Work("card", "rates.txt", ["evaluate", "drawn", "--quiet"], ["evaluate", "drawn", "--quiet", "--method", "paper"], resumes=True),
     ]
 
 
