@@ -10,7 +10,6 @@
 #include "app/output_size.h"
 #include "app/print.h"
 #include "campaign/campaign_spec.h"
-#include "campaign/nominal_rig.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"

@@ -17,6 +17,7 @@
 #include "detector/fuse.h"
 #include "detector/read_cloud.h"
 #include "detector/robust.h"
+#include "detector/settings_json.h"
 #include "report/detection_report.h"
 
 namespace fathom {
@@ -49,7 +50,7 @@ void run_fused(const DetectOptions& options, const DetectorSettings& settings, c
 
 void run_detect(const DetectOptions& options, const CommonOptions& common) {
   const Method& method = method_named(options.method);
-  DetectorSettings settings = detector_settings(options.config);
+  DetectorSettings settings = read_detector_settings(options.config);
   settings.prior = options.desk.prior();
   if (!options.poses.empty()) return run_fused(options, settings, common);
 

@@ -18,6 +18,7 @@
 #include "core/median.h"
 #include "core/rows.h"
 #include "core/units.h"
+#include "detector/settings_json.h"
 #include "report/gnuplot.h"
 #include "trials/clutter_templates.h"
 #include "trials/detection_rates.h"
@@ -114,7 +115,7 @@ void run_experiment(const Experiment& experiment, const EvaluateOptions& options
                                .by_filling = experiment.by_filling,
                                .trials = options.trials.value_or(experiment.trials),
                                .method = &method_named(options.method),
-                               .detector = detector_settings(options.config)};
+                               .detector = read_detector_settings(options.config)};
   const bool own_templates = !evaluation.config.contains("templates");
   if (own_templates) evaluation.detector.templates = templates_of(evaluation.clutter);
   std::optional<TrialFolder> folder;
@@ -145,7 +146,7 @@ void require_no_trials(const EvaluateOptions& options) {
 void run_folder(const EvaluateOptions& options, const CommonOptions& common) {
   require_no_trials(options);
   const Method& method = method_named(options.method);
-  DetectorSettings settings = detector_settings(options.config);
+  DetectorSettings settings = read_detector_settings(options.config);
   settings.prior = options.desk.prior();
   const LabelledResult result = evaluate_folder(options.what, method, settings, common.quiet);
   std::optional<FolderOwner> owner;

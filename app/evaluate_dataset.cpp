@@ -1,6 +1,5 @@
 #include "app/evaluate_dataset.h"
 
-#include "app/detector_options.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/files.h"
@@ -8,6 +7,7 @@
 #include "core/input_record.h"
 #include "core/progress.h"
 #include "core/rows.h"
+#include "detector/settings_json.h"
 #include "report/gnuplot.h"
 #include "trials/dataset_trials.h"
 #include "trials/detection_rates.h"
@@ -27,7 +27,7 @@ void evaluate_dataset(const DatasetEvaluation& evaluation, const CommonOptions& 
   DetectorSettings settings;
   {
     const InputRecord inputs;
-    settings = detector_settings(evaluation.config);
+    settings = read_detector_settings(evaluation.config);
     identity.inputs = inputs.files();
   }
   const DatasetFrames frames(evaluation.data_set);

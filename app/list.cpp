@@ -1,4 +1,4 @@
-// `fathom list`: the libraries that come with the program, and the keys of scene files.
+// `fathom list`: the libraries that come with the program, and the keys of the files that people write.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,12 +7,18 @@
 
 #include "app/commands.h"
 #include "app/results.h"
+#include "campaign/campaign_spec.h"
 #include "core/files.h"
 #include "core/json_text.h"
 #include "core/library.h"
 #include "core/units.h"
+#include "datasets/dataset_spec.h"
+#include "detector/settings_json.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "sim/effects/registry.h"
+#include "sim/scene/clutter.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/setup.h"
 
 namespace fathom {
 namespace {
@@ -60,28 +66,42 @@ std::string effects_text(bool as_json) {
   return as_json ? json_text(list) : text;
 }
 
-/// The keys of a scene file: what they mean, what is allowed, and what holds without them.
+struct FileKeys {
+  const char* file;  ///< what people call it
+  std::vector<KeyTable> (*tables)();
+};
+constexpr FileKeys kFiles[] = {
+    {"scene", setup_key_tables},      {"campaign", campaign_key_tables},    {"rig", rig_key_tables},
+    {"data set", dataset_key_tables}, {"random desks", clutter_key_tables}, {"detector", detector_key_tables},
+    {"template", template_key_tables}};
+
+/// The keys of the files that people write: what they mean, what is allowed, and what holds without them.
 std::string keys_text(bool as_json) {
   Json list = Json::array();
   std::string text;
-  for (const KeyTable& table : scene_key_tables()) {
-    Json keys = Json::array();
-    text += table.place + "\n";
-    for (const KeyRow& row : table.rows) {
-      keys.push_back({{"key", row.key},
-                      {"meaning", row.meaning},
-                      {"allowed", row.allowed},
-                      {"required", row.is_required},
-                      {"default", row.standard},
-                      {"schema", row.schema}});
-      const bool shows = row.is_required || !(row.standard.is_null() || row.standard.is_object());
-      text += fmt::format("  {:<22} {}; {}{}\n", row.key, row.meaning, row.allowed,
-                          !shows            ? ""
-                          : row.is_required ? "; required"
-                                            : "; default " + row.standard.dump());
+  for (const FileKeys& file : kFiles)
+    for (const KeyTable& table : file.tables()) {
+      Json keys = Json::array();
+      text += fmt::format("{}{}{}\n", file.file, table.place.empty() ? "" : ": ", table.place);
+      for (const KeyRow& row : table.rows) {
+        keys.push_back({{"key", row.key},
+                        {"meaning", row.meaning},
+                        {"allowed", row.allowed},
+                        {"required", row.is_required},
+                        {"default", row.standard},
+                        {"schema", row.schema}});
+        const bool shows = row.is_required || !(row.standard.is_null() || row.standard.is_object());
+        text += fmt::format("  {:<22} {}; {}{}\n", row.key, row.meaning, row.allowed,
+                            !shows            ? ""
+                            : row.is_required ? "; required"
+                                              : "; default " + row.standard.dump());
+      }
+      list.push_back({{"file", file.file},
+                      {"place", table.place},
+                      {"definition", table.definition},
+                      {"title", table.title},
+                      {"keys", keys}});
     }
-    list.push_back({{"place", table.place}, {"definition", table.definition}, {"title", table.title}, {"keys", keys}});
-  }
   return as_json ? json_text(list) : text;
 }
 
@@ -118,7 +138,7 @@ std::string library_text(const std::string& library, bool as_json) {
 
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common) {
   const auto library = std::make_shared<std::string>();
-  app.add_option("library", *library, "media, walls, cups, solids, sensors, effects, or the keys of a scene")
+  app.add_option("library", *library, "media, walls, cups, solids, sensors, effects, or the keys of files")
       ->required()
       ->check(CLI::IsMember({"media", "walls", "cups", "solids", "sensors", "effects", "keys"}));
   return [library, &common] {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <map>
+#include <algorithm>
 
 #include "campaign/nominal_rig.h"
 #include "core/error.h"
+#include "core/fields.h"
 #include "core/table.h"
 #include "core/units.h"
 #include "sim/scene/medium_json.h"
@@ -14,42 +14,49 @@
 namespace fathom {
 namespace {
 
-std::map<std::string, Medium> media_from_json(const JsonReader& json, double wavelength_nm) {
-  if (!json.value().is_object()) json.fail("must be an object of liquids by name");
-  std::map<std::string, Medium> media;
-  for (const auto& [name, medium] : json.value().items()) {
-    if (name == "empty" || name == "none") json.fail_at(name, "is a reserved name and no liquid");
+void read_liquids(const JsonReader& json, CampaignSpec& spec) {
+  spec.nominal.liquids = media_by_label(json);
+  for (const auto& [name, ignored] : spec.nominal.liquids) {
     if (!fits_in_cell(name))
       json.fail_at(name, "must be a name that frames.csv can hold: no line break, no NUL, no blank at its ends");
-    media[name] = medium_from_json(json.at(name));
-    media[name].name = name;  // effects of a liquid go by its label
-    require_index(json.at(name), media[name], wavelength_nm);
+    Medium& medium = spec.media.emplace_back(medium_from_json(json.at(name)));
+    medium.name = name;  // effects of a liquid go by its label
+    require_index(json.at(name), medium, spec.rig.sensor.wavelength_nm);
   }
-  return media;
 }
 
-CampaignFilling filling_from_json(const JsonReader& json, const std::map<std::string, Medium>& media, double deepest) {
-  json.allow_only({"liquid", "fill_mm"});
-  CampaignFilling filling{.liquid = json.text("liquid"), .medium = {}};
+std::span<const Field<CampaignFilling>> filling_fields() {
+  static const Field<CampaignFilling> fields[] = {
+      {"liquid", &CampaignFilling::liquid, {}, "`empty`, or a label of `liquids`", true},
+      {"fill_mm", Length{&CampaignFilling::fill}, kPositive, "depth of the liquid, unless `empty`"}};
+  return fields;
+}
+
+CampaignFilling filling_from_json(const JsonReader& json, const CampaignSpec& spec) {
+  CampaignFilling filling;
+  read_fields(json, filling_fields(), filling);
   if (filling.liquid == "empty") {
     if (json.has("fill_mm")) json.fail_at("fill_mm", "cannot stand beside \"empty\"");
     return filling;
   }
-  const auto medium = media.find(filling.liquid);
-  if (medium == media.end()) {
+  const auto medium = std::ranges::find(spec.media, filling.liquid, &Medium::name);
+  if (medium == spec.media.end()) {
     std::vector<std::string> names{"empty"};
-    for (const auto& entry : media) names.push_back(entry.first);
+    for (const Medium& one : spec.media) names.push_back(one.name);
     json.fail_at("liquid", unknown_name("liquid", filling.liquid, names));
   }
-  filling.medium = medium->second;
-  filling.fill = json.metres("fill_mm", kPositive);
-  if (filling.fill > deepest)
-    json.fail_at("fill_mm", fmt::format("must be at most {:g}, the depth of the cup", mm_from_metres(deepest)));
+  filling.medium = *medium;
+  json.at("fill_mm");  // must be there
+  if (filling.fill > spec.deepest_fill())
+    json.fail_at("fill_mm",
+                 fmt::format("must be at most {:g}, the depth of the cup", mm_from_metres(spec.deepest_fill())));
   return filling;
 }
 
-/// Places of a cup along one axis of the desk, which reaches from `low` to `high` [m].
-std::vector<double> places(const JsonReader& json, double low, double high) {
+/// Places of a cup along one axis (0: x, 1: y) of the desk.
+std::vector<double> places(const JsonReader& json, const CampaignSpec& spec, int axis) {
+  const double middle = spec.desk.centre[axis], half = 0.5 * spec.desk.size[axis];
+  const double low = middle - half, high = middle + half;
   std::vector<double> result;
   for (const JsonReader& item : json.items()) {
     result.push_back(metres_from_mm(item.number()));
@@ -57,85 +64,131 @@ std::vector<double> places(const JsonReader& json, double low, double high) {
       item.fail(fmt::format("must be a place on the desk, from {:g} to {:g}, got {}", mm_from_metres(low),
                             mm_from_metres(high), item.value().dump()));
   }
+  if (result.empty() && !spec.fillings.empty()) json.fail("must hold at least one length");
   return result;
 }
 
-/// 1 σ of a length that cannot vary by more than `most` [m].
-double sigma(const JsonReader& json, std::string_view key, double otherwise_m, double most) {
-  return json.metres_or(key, otherwise_m, {0.0, mm_from_metres(most)});
-}
-
-/// How well the laboratory knows its rig, as in the file that it writes.
-void read_rig_sigma(const JsonReader& json, std::map<std::string, double>& sigma) {
-  json.allow_only(
-      {"height_mm", "pitch_deg", "roll_deg", "baseline_mm", "focal_px", "disparity_offset_px", "bottom_mm"});
-  for (const auto& [key, value] : json.value().items()) sigma[key] = json.number(key, kNonNegative);
+std::span<const Field<CampaignSpec>> spec_fields() {
+  using Spec = CampaignSpec;
+  constexpr Range kMany{1.0, 10000.0}, kManyOrNone{0.0, kMany.high};
+  constexpr std::string_view kNumbers = R"({"type": "array", "items": {"type": "number"}})";
+  static const Field<Spec> fields[] = {
+      schema_field<Spec>(),
+      {"sensor",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.rig = rig_from_json(json); }, nullptr,
+                  "../schema.json#/$defs/sensor", "an object"},
+       {},
+       "as in a scene: a model that looks straight ahead",
+       true},
+      {"desk",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    if (json.value().is_null()) json.fail("is what heights are measured from and cannot be null");
+                    spec.desk = desk_from_json(json);
+                  },
+                  nullptr, "../schema.json#/$defs/desk", "an object"},
+       {},
+       "as in a scene"},
+      {"cup",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    json.allow_only({"shape"});
+                    spec.cup = cup_shape_from_json(json.at("shape"));
+                    spec.nominal = nominal_rig(spec.rig, spec.cup, json.file());
+                  },
+                  nullptr, "#/$defs/cup", "`{\"shape\"}`"},
+       {},
+       "`shape` is a name from `scenes/cups`, or a description",
+       true},
+      {"liquids", Part<Spec>{read_liquids, nullptr, "#/$defs/liquids", "an object"}, {}, "media by label", true},
+      {"fillings",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    for (const JsonReader& item : json.items()) spec.fillings.push_back(filling_from_json(item, spec));
+                  },
+                  nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/filling"}})", "a list of objects"},
+       {},
+       "what is poured; may be none where there are `bare_desk_views`",
+       true},
+      {"distance_mm",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.distances = places(json, spec, 1); }, nullptr, kNumbers,
+                  "a list of numbers"},
+       {},
+       "places of the cup, away from the sensor",
+       true},
+      {"lateral_mm",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.laterals = places(json, spec, 0); },
+                  [](const Spec& spec) { return Json(spec.laterals); }, kNumbers, "a list of numbers"},
+       {},
+       "the same, to the sensor's right"},
+      {"sessions", &Spec::sessions, kMany, "each pours and places everything anew; its time starts at 0"},
+      {"bare_desk_views", &Spec::bare_desk_views, kManyOrNone,
+       "shots of the desk without a cup when a session begins: the frames `none`"},
+      {"pours", &Spec::pours, kMany, "of each filling"},
+      {"placements", &Spec::placements, kMany, "of each pour at each place"},
+      {"trials", &Spec::trials, kMany, "shots of each placement"},
+      {"frame_s", &Spec::frame_s, kPositive, "from shot to shot"},
+      {"placement_s", &Spec::placement_s, kNonNegative, "that putting down takes besides"},
+      {"pour_s", &Spec::pour_s, kNonNegative, "that pouring takes besides"},
+      {"mode",
+       Choice<Spec>{{"photometric", "geometric"},
+                    [](const Spec& spec) { return spec.mode == CaptureMode::photometric ? std::size_t{0} : 1; },
+                    [](Spec& spec, std::size_t choice) {
+                      spec.mode = choice == 0 ? CaptureMode::photometric : CaptureMode::geometric;
+                    }},
+       {},
+       "photometric: infrared images, in all light where a liquid lets it in by more than 0.05 mm before it scatters "
+       "it "
+       "back or an effect of light is on, else in direct light; geometric: exact refraction alone"},
+      {"fill_sigma_mm",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    spec.nominal.fill_sigma_m = metres_from_mm(json.number({0.0, mm_from_metres(spec.deepest_fill())}));
+                  },
+                  [](const Spec& spec) { return Json(mm_that_read_back(spec.nominal.fill_sigma_m)); }},
+       kNonNegative, "standard deviation of true fills; at most the cup's depth"},
+      {"placement_sigma_mm",
+       // `measure` looks for a cup no farther than its radius from where it should stand.
+       Part<Spec>{
+           [](const JsonReader& json, Spec& spec) {
+             spec.nominal.placement_sigma_m = metres_from_mm(json.number({0.0, mm_from_metres(spec.cup.widest())}));
+           },
+           [](const Spec& spec) { return Json(mm_that_read_back(spec.nominal.placement_sigma_m)); }},
+       kNonNegative, "standard deviation of true places; at most the cup's radius"},
+      {"rig_sigma",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    std::vector<std::string_view> keys;
+                    for (const RigValue& value : kRigValues) keys.push_back(value.key);
+                    read_sigmas(json, keys, spec.nominal.sigma);
+                  },
+                  nullptr, "#/$defs/rig_sigma", "an object"},
+       {},
+       "how well the laboratory knows its rig: true values scatter by these standard deviations, and rig.json says so"},
+      {"effects",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    for (const JsonReader& effect : json.items()) spec.effects.push_back(effect.value());
+                  },
+                  nullptr, R"({"type": "array", "items": {"$ref": "../schema.json#/$defs/effect"}})",
+                  "a list of objects"},
+       {},
+       "what is there and no laboratory knows of, by name and parameters"}};
+  return fields;
 }
 
 }  // namespace
 
 CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
-  constexpr int kMany = 10000;
-  const std::array<std::string, 2> modes{"photometric", "geometric"};
   CampaignSpec spec;
   spec.source = read_json(path);
   const JsonReader json(spec.source, path.string());
-  json.allow_only({"$schema",
-                   "sensor",
-                   "desk",
-                   "cup",
-                   "liquids",
-                   "fillings",
-                   "distance_mm",
-                   "lateral_mm",
-                   "sessions",
-                   "bare_desk_views",
-                   "pours",
-                   "placements",
-                   "trials",
-                   "frame_s",
-                   "placement_s",
-                   "pour_s",
-                   "mode",
-                   "fill_sigma_mm",
-                   "placement_sigma_mm",
-                   "rig_sigma",
-                   "effects"});
-  spec.rig = rig_from_json(json.at("sensor"));
-  spec.desk = scene_from_json(json).desk;
-  if (!spec.desk) json.fail_at("desk", "is what heights are measured from and cannot be null");
-  json.at("cup").allow_only({"shape"});
-  spec.cup = cup_shape_from_json(json.at("cup").at("shape"));
-  const std::map<std::string, Medium> media = media_from_json(json.at("liquids"), spec.rig.sensor.wavelength_nm);
-  for (const auto& [name, medium] : media) spec.media.push_back(medium);
-  for (const JsonReader& item : json.at("fillings").items())
-    spec.fillings.push_back(filling_from_json(item, media, spec.deepest_fill()));
-  const Eigen::Vector2d low = spec.desk->centre - 0.5 * spec.desk->size,
-                        high = spec.desk->centre + 0.5 * spec.desk->size;
-  spec.distances = places(json.at("distance_mm"), low.y(), high.y());
-  spec.laterals = json.has("lateral_mm") ? places(json.at("lateral_mm"), low.x(), high.x()) : std::vector<double>{0.0};
-  spec.sessions = json.integer_or("sessions", spec.sessions, 1, kMany);
-  spec.bare_desk_views = json.integer_or("bare_desk_views", spec.bare_desk_views, 0, kMany);
+  read_fields(json, spec_fields(), spec);
   if (spec.fillings.empty() && spec.bare_desk_views == 0)
     json.fail_at("fillings", "must hold at least one filling, where there are no bare_desk_views");
-  for (const auto& [key, lengths] : {std::pair{"distance_mm", &spec.distances}, {"lateral_mm", &spec.laterals}})
-    if (lengths->empty() && !spec.fillings.empty()) json.fail_at(key, "must hold at least one length");
-  spec.frame_s = json.number_or("frame_s", spec.frame_s, kPositive);
-  spec.placement_s = json.number_or("placement_s", spec.placement_s, kNonNegative);
-  spec.pour_s = json.number_or("pour_s", spec.pour_s, kNonNegative);
-  for (const JsonReader& effect : json.items_or_none("effects")) spec.effects.push_back(effect.value());
-  spec.pours = json.integer_or("pours", spec.pours, 1, kMany);
-  spec.placements = json.integer_or("placements", spec.placements, 1, kMany);
-  spec.trials = json.integer_or("trials", spec.trials, 1, kMany);
-  if (json.has("mode") && json.at("mode").choice(modes, "mode") == 1) spec.mode = CaptureMode::geometric;
-  spec.nominal = nominal_rig(spec.rig, spec.cup, path.string());
-  spec.nominal.fill_sigma_m = sigma(json, "fill_sigma_mm", spec.nominal.fill_sigma_m, spec.deepest_fill());
-  // `measure` looks for a cup no farther than its radius from where it should stand.
-  spec.nominal.placement_sigma_m =
-      sigma(json, "placement_sigma_mm", spec.nominal.placement_sigma_m, spec.nominal.cup.widest());
-  if (json.has("rig_sigma")) read_rig_sigma(json.at("rig_sigma"), spec.nominal.sigma);
-  for (const auto& [name, medium] : spec.source["liquids"].items()) spec.nominal.liquids[name] = medium;
   return spec;
+}
+
+std::vector<KeyTable> campaign_key_tables() {
+  std::vector<KeyRow> sigma = sigma_keys();
+  for (KeyRow& row : sigma) row.standard = nullptr;  // exact where nothing is said
+  return {{"", "", "The campaign", key_rows(spec_fields(), CampaignSpec{})},
+          {"fillings[]", "filling", "A filling", key_rows(filling_fields(), CampaignFilling{})},
+          {"rig_sigma", "rig_sigma", "What the laboratory does not know", std::move(sigma)}};
 }
 
 }  // namespace fathom

@@ -20,15 +20,15 @@ struct CampaignFilling {
 struct CampaignSpec {
   Json source;  ///< the file's text
   Rig rig;
-  std::optional<Desk> desk;
+  Desk desk;
   CupShape cup;
   LaboratoryRig nominal;      ///< what the laboratory believes, for rig.json
   std::vector<Medium> media;  ///< of the liquids, in the order of their names
   std::vector<CampaignFilling> fillings;
-  std::vector<double> distances, laterals;     ///< [m]
-  int sessions = 1;                            ///< each of them pours and places everything anew
-  int bare_desk_views = 0;                     ///< shots of the desk without a cup when a session begins
-  int pours = 1, placements = 1, trials = 10;  ///< pours of each filling, placements at each place, shots of each
+  std::vector<double> distances, laterals{0.0};  ///< [m]
+  int sessions = 1;                              ///< each of them pours and places everything anew
+  int bare_desk_views = 0;                       ///< shots of the desk without a cup when a session begins
+  int pours = 1, placements = 1, trials = 10;    ///< pours of each filling, placements at each place, shots of each
   double frame_s = 1.0, placement_s = 0.0, pour_s = 0.0;  ///< what a shot takes, and putting down and pouring besides
   Json effects = Json::array();                           ///< that the model of the laboratory does not know
   CaptureMode mode = CaptureMode::photometric;
@@ -43,5 +43,8 @@ struct CampaignSpec {
 
 /// Throws Error naming file, path, what is wrong and what is allowed.
 CampaignSpec read_campaign_spec(const std::filesystem::path& path);
+
+/// The file's objects.
+std::vector<KeyTable> campaign_key_tables();
 
 }  // namespace fathom

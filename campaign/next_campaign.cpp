@@ -1,7 +1,5 @@
 #include "campaign/next_campaign.h"
 
-#include "campaign/nominal_rig.h"
-
 namespace fathom {
 
 Json campaign_of(const MeasurementPlan& plan, const LaboratoryRig& rig) {

@@ -11,7 +11,4 @@ namespace fathom {
 /// aside: throws Error, as coming from `file`, when the rig has no model or a yaw.
 LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file);
 
-/// rig.json, as read_rig reads it.
-Json json_from_laboratory_rig(const LaboratoryRig& rig);
-
 }  // namespace fathom

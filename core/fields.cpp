@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/units.h"
 
@@ -57,6 +58,33 @@ KeyRow vector_row(Range range) {
   return row;
 }
 
+KeyRow interval_row(Range range) {
+  const KeyRow one = number_row(range, false), pair = vector_row(range);
+  KeyRow row;
+  row.allowed = one.allowed + ", or a pair of such";
+  row.schema = {{"anyOf", {one.schema, pair.schema}}};
+  return row;
+}
+
+KeyRow length_range_row() {
+  KeyRow row = vector_row(kNonNegative);
+  row.allowed = "[least, largest], from 0";
+  return row;
+}
+
+KeyRow row_of(std::string_view schema, std::string_view allowed) {
+  KeyRow row;
+  row.allowed = allowed;
+  row.schema = schema.starts_with('{') ? Json::parse(schema) : Json{{"$ref", schema}};
+  return row;
+}
+
+Interval length_range_from_json(const JsonReader& json) {
+  const Eigen::Vector2d range = json.vector2();
+  if (range[0] < 0.0 || range[1] <= range[0]) json.fail("must be two rising lengths [low, high]");
+  return {range[0], range[1]};
+}
+
 KeyRow choice_row(std::span<const std::string> names) {
   KeyRow row;
   row.allowed = fmt::format("`{}`", fmt::join(names, "`, `"));
@@ -65,4 +93,12 @@ KeyRow choice_row(std::span<const std::string> names) {
 }
 
 }  // namespace field_detail
+
+KeyRow number_key(std::string key, std::string meaning, Range range, Json standard) {
+  KeyRow row = field_detail::number_row(range, false);
+  row.schema["description"] = meaning;
+  row.key = std::move(key), row.meaning = std::move(meaning), row.standard = std::move(standard);
+  return row;
+}
+
 }  // namespace fathom

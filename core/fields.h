@@ -3,14 +3,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/json.h"
+#include "core/key_table.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -22,6 +27,31 @@ struct Length {
 };
 template <class T>
 Length(double T::*) -> Length<T>;
+
+/// A pair [x, y] of lengths, as Length.
+template <class T>
+struct Lengths {
+  Eigen::Vector2d T::*metres;
+};
+template <class T>
+Lengths(Eigen::Vector2d T::*) -> Lengths<T>;
+
+/// The ends of a range of lengths, as Length: two rising ones, neither below 0.
+template <class T>
+struct LengthRange {
+  double T::*low;
+  double T::*high;
+};
+template <class T>
+LengthRange(double T::*, double T::*) -> LengthRange<T>;
+
+/// A coefficient that is per metre in the program and per millimetre in files.
+template <class T>
+struct PerLength {
+  double T::*per_metre;
+};
+template <class T>
+PerLength(double T::*) -> PerLength<T>;
 
 /// An angle that is radians in the program and degrees in files.
 template <class T>
@@ -45,15 +75,16 @@ template <class T>
 struct Part {
   void (*read)(const JsonReader&, T&);
   Json (*write)(const T&);
-  std::string_view schema;  ///< as JSON
-  std::string_view allowed;
+  std::string_view schema = {};   ///< as JSON, or the place that it refers to; without one the field's range says all
+  std::string_view allowed = {};  ///< for people, beside a schema
 };
 
 /// One key of an object T. The range of a number is in the file's unit, which the key's name ends with.
 template <class T>
 struct Field {
   std::string_view key;
-  std::variant<double T::*, Length<T>, Angle<T>, int T::*, std::uint64_t T::*, Eigen::Vector2d T::*, Choice<T>, Part<T>>
+  std::variant<double T::*, Length<T>, PerLength<T>, Angle<T>, int T::*, std::uint64_t T::*, Eigen::Vector2d T::*,
+               Lengths<T>, LengthRange<T>, Interval T::*, std::string T::*, Choice<T>, Part<T>>
       value;
   Range range;
   std::string_view meaning;  ///< one line
@@ -61,21 +92,11 @@ struct Field {
   std::string_view schema = {};  ///< as JSON, where the range does not say all
 };
 
-/// A key as people and programs read of it.
-struct KeyRow {
-  std::string key, meaning;
-  std::string allowed;  ///< "0 to 4"
-  Json standard;        ///< without the key; null: nothing
-  Json schema;          ///< JSON schema of the value
-  bool is_required = false;
-};
-
-/// The keys of an object of a file.
-struct KeyTable {
-  std::string place;       ///< "sensor.optics"
-  std::string definition;  ///< its name in the schema
-  std::string title;
-  std::vector<KeyRow> rows;
+/// A table and the object that it is of. Several in a tuple stand side by side in one object of the file.
+template <class T>
+struct FieldsOf {
+  std::span<const Field<T>> fields;
+  T& object;
 };
 
 /// Throws Error where a key that is required is missing, where the object has a key that is neither in the table nor
@@ -84,6 +105,8 @@ struct KeyTable {
 template <class T>
 void read_fields(const JsonReader& json, std::span<const Field<T>> fields, T& object,
                  std::span<const std::string_view> besides = {});
+template <class... T>
+void read_fields(const JsonReader& json, const std::tuple<FieldsOf<T>...>& tables);
 
 /// All keys, in the table's order, with numbers that read back as they are; angles to the last bit but one.
 template <class T>
@@ -92,6 +115,18 @@ Json json_from_fields(std::span<const Field<T>> fields, const T& object);
 /// What a table says, with the values of `standard` for defaults.
 template <class T>
 std::vector<KeyRow> key_rows(std::span<const Field<T>> fields, const T& standard);
+template <class... T>
+std::vector<KeyRow> key_rows(const std::tuple<FieldsOf<T>...>& tables);
+
+/// The row of a number that no member holds.
+KeyRow number_key(std::string key, std::string meaning, Range range, Json standard);
+
+/// The key by which editors find what a file may hold.
+template <class T>
+Field<T> schema_field() {
+  return {
+      "$schema", Part<T>{nullptr, nullptr, R"({"type": "string"})", "a text"}, {}, "for editors: the file's schema"};
+}
 
 /// The number of millimetres that reads back as this length, where there is one: of forty-four lengths one lies between
 /// those that millimetres of double precision can say.
@@ -101,7 +136,11 @@ namespace field_detail {
 
 KeyRow number_row(Range range, bool is_whole);
 KeyRow vector_row(Range range);
+KeyRow interval_row(Range range);
+KeyRow length_range_row();
 KeyRow choice_row(std::span<const std::string> names);
+KeyRow row_of(std::string_view schema, std::string_view allowed);
+Interval length_range_from_json(const JsonReader& json);
 
 template <class... Readers>
 struct Overloaded : Readers... {
@@ -118,10 +157,18 @@ void read_value(const JsonReader& json, const Field<T>& field, T& object) {
   std::visit(Overloaded{
                  [&](double T::*member) { object.*member = json.number(field.range); },
                  [&](Length<T> length) { object.*length.metres = metres_from_mm(json.number(field.range)); },
+                 [&](PerLength<T> value) { object.*value.per_metre = per_metre_from_per_mm(json.number(field.range)); },
                  [&](Angle<T> angle) { object.*angle.radians = radians_from_deg(json.number(field.range)); },
                  [&](int T::*member) { object.*member = integer(); },
                  [&](std::uint64_t T::*member) { object.*member = static_cast<std::uint64_t>(integer()); },
                  [&](Eigen::Vector2d T::*member) { object.*member = json.vector2(field.range); },
+                 [&](Lengths<T> lengths) { object.*lengths.metres = json.vector2(field.range) * kMetresPerMm; },
+                 [&](LengthRange<T> ends) {
+                   const Interval range_mm = length_range_from_json(json);
+                   object.*ends.low = metres_from_mm(range_mm.low), object.*ends.high = metres_from_mm(range_mm.high);
+                 },
+                 [&](Interval T::*member) { object.*member = json.interval(field.range); },
+                 [&](std::string T::*member) { object.*member = json.text(); },
                  [&](const Choice<T>& choice) { choice.set(object, json.choice(choice.names, field.key)); },
                  [&](const Part<T>& part) {
                    if (part.read) part.read(json, object);
@@ -132,19 +179,43 @@ void read_value(const JsonReader& json, const Field<T>& field, T& object) {
 
 template <class T>
 Json json_from_value(const Field<T>& field, const T& object) {
-  return std::visit(Overloaded{
-                        [&](double T::*member) -> Json { return object.*member; },
-                        [&](Length<T> length) -> Json { return mm_that_read_back(object.*length.metres); },
-                        [&](Angle<T> angle) -> Json { return deg_from_radians(object.*angle.radians); },
-                        [&](int T::*member) -> Json { return object.*member; },
-                        [&](std::uint64_t T::*member) -> Json { return object.*member; },
-                        [&](Eigen::Vector2d T::*member) -> Json {
-                          return {(object.*member).x(), (object.*member).y()};
-                        },
-                        [&](const Choice<T>& choice) -> Json { return choice.names.at(choice.get(object)); },
-                        [&](const Part<T>& part) -> Json { return part.write ? part.write(object) : Json(); },
-                    },
-                    field.value);
+  return std::visit(
+      Overloaded{
+          [&](double T::*member) -> Json { return object.*member; },
+          [&](Length<T> length) -> Json { return mm_that_read_back(object.*length.metres); },
+          [&](PerLength<T> value) -> Json { return object.*value.per_metre * kMetresPerMm; },
+          [&](Angle<T> angle) -> Json { return deg_from_radians(object.*angle.radians); },
+          [&](int T::*member) -> Json { return object.*member; },
+          [&](std::uint64_t T::*member) -> Json { return object.*member; },
+          [&](Eigen::Vector2d T::*member) -> Json {
+            return {(object.*member).x(), (object.*member).y()};
+          },
+          [&](Lengths<T> lengths) -> Json {
+            const Eigen::Vector2d& metres = object.*lengths.metres;
+            return {mm_that_read_back(metres.x()), mm_that_read_back(metres.y())};
+          },
+          [&](LengthRange<T> ends) -> Json {
+            return {mm_that_read_back(object.*ends.low), mm_that_read_back(object.*ends.high)};
+          },
+          [&](Interval T::*member) -> Json {
+            return {(object.*member).low, (object.*member).high};
+          },
+          [&](std::string T::*member) -> Json { return (object.*member).empty() ? Json() : Json(object.*member); },
+          [&](const Choice<T>& choice) -> Json { return choice.names.at(choice.get(object)); },
+          [&](const Part<T>& part) -> Json { return part.write ? part.write(object) : Json(); },
+      },
+      field.value);
+}
+
+template <class T>
+void add_keys(std::vector<std::string_view>& keys, std::span<const Field<T>> fields) {
+  for (const Field<T>& field : fields) keys.push_back(field.key);
+}
+
+template <class T>
+void read_values(const JsonReader& json, std::span<const Field<T>> fields, T& object) {
+  for (const Field<T>& field : fields)
+    if (field.is_required || json.has(field.key)) read_value(json.at(field.key), field, object);
 }
 
 }  // namespace field_detail
@@ -153,11 +224,22 @@ template <class T>
 void read_fields(const JsonReader& json, std::span<const Field<T>> fields, T& object,
                  std::span<const std::string_view> besides) {
   std::vector<std::string_view> keys;
-  for (const Field<T>& field : fields) keys.push_back(field.key);
+  field_detail::add_keys(keys, fields);
   keys.insert(keys.end(), besides.begin(), besides.end());
   json.allow_only(keys);
-  for (const Field<T>& field : fields)
-    if (field.is_required || json.has(field.key)) field_detail::read_value(json.at(field.key), field, object);
+  field_detail::read_values(json, fields, object);
+}
+
+template <class... T>
+void read_fields(const JsonReader& json, const std::tuple<FieldsOf<T>...>& tables) {
+  std::apply(
+      [&](const auto&... table) {
+        std::vector<std::string_view> keys;
+        (field_detail::add_keys(keys, table.fields), ...);
+        json.allow_only(keys);
+        (field_detail::read_values(json, table.fields, table.object), ...);
+      },
+      tables);
 }
 
 template <class T>
@@ -173,29 +255,37 @@ template <class T>
 std::vector<KeyRow> key_rows(std::span<const Field<T>> fields, const T& standard) {
   std::vector<KeyRow> rows;
   for (const Field<T>& field : fields) {
-    KeyRow row = std::visit(field_detail::Overloaded{
-                                [&](double T::*) { return field_detail::number_row(field.range, false); },
-                                [&](Length<T>) { return field_detail::number_row(field.range, false); },
-                                [&](Angle<T>) { return field_detail::number_row(field.range, false); },
-                                [&](int T::*) { return field_detail::number_row(field.range, true); },
-                                [&](std::uint64_t T::*) { return field_detail::number_row(field.range, true); },
-                                [&](Eigen::Vector2d T::*) { return field_detail::vector_row(field.range); },
-                                [&](const Choice<T>& choice) { return field_detail::choice_row(choice.names); },
-                                [&](const Part<T>& part) {
-                                  return KeyRow{.key = {},
-                                                .meaning = {},
-                                                .allowed = std::string(part.allowed),
-                                                .standard = {},
-                                                .schema = Json::parse(part.schema)};
-                                },
-                            },
+    using namespace field_detail;
+    KeyRow row = std::visit(Overloaded{[&](auto) { return number_row(field.range, false); },
+                                       [&](int T::*) { return number_row(field.range, true); },
+                                       [&](std::uint64_t T::*) { return number_row(field.range, true); },
+                                       [&](Eigen::Vector2d T::*) { return vector_row(field.range); },
+                                       [&](Lengths<T>) { return vector_row(field.range); },
+                                       [&](LengthRange<T>) { return length_range_row(); },
+                                       [&](Interval T::*) { return interval_row(field.range); },
+                                       [&](std::string T::*) { return row_of(R"({"type": "string"})", "a text"); },
+                                       [&](const Choice<T>& choice) { return choice_row(choice.names); },
+                                       [&](const Part<T>& part) {
+                                         return part.schema.empty() ? number_row(field.range, false)
+                                                                    : row_of(part.schema, part.allowed);
+                                       }},
                             field.value);
     row.key = field.key, row.meaning = field.meaning, row.is_required = field.is_required;
     if (!field.is_required) row.standard = field_detail::json_from_value(field, standard);
-    if (!field.schema.empty()) row.schema = Json::parse(field.schema);
+    if (!field.schema.empty()) row.schema = field_detail::row_of(field.schema, {}).schema;
     row.schema["description"] = field.meaning;
     rows.push_back(std::move(row));
   }
+  return rows;
+}
+
+template <class... T>
+std::vector<KeyRow> key_rows(const std::tuple<FieldsOf<T>...>& tables) {
+  std::vector<KeyRow> rows;
+  const auto add = [&](const auto& table) {
+    std::ranges::move(key_rows(table.fields, std::as_const(table.object)), std::back_inserter(rows));
+  };
+  std::apply([&](const auto&... table) { (add(table), ...); }, tables);
   return rows;
 }
 

@@ -86,6 +86,14 @@ std::vector<double> JsonReader::numbers(Range range) const {
   return result;
 }
 
+Interval JsonReader::interval(Range range) const {
+  if (value_->is_number()) return {number(range), number(range)};
+  const std::vector<double> ends = numbers(range);
+  if (ends.size() != 2) fail("must be a number, or the least and the largest of what is drawn");
+  if (ends[1] < ends[0]) fail("must not end below its start");
+  return {ends[0], ends[1]};
+}
+
 double JsonReader::metres(std::string_view key, Range range_mm) const { return metres_from_mm(number(key, range_mm)); }
 
 double JsonReader::metres_or(std::string_view key, double otherwise_m, Range range_mm) const {

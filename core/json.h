@@ -45,6 +45,7 @@ class JsonReader {
   std::string text() const;
   int integer(int low, int high) const;
   std::vector<double> numbers(Range range = {}) const;
+  Interval interval(Range range = {}) const;  ///< one number, or its ends
   Eigen::Vector2d vector2(Range range = {}) const;
   Eigen::Vector3d vector3(Range range = {}) const;
 

@@ -1,11 +1,9 @@
 // How well a proportion is known from counts.
 #pragma once
 
-namespace fathom {
+#include "core/range.h"
 
-struct Interval {
-  double low, high;
-};
+namespace fathom {
 
 /// Wilson's 95 % interval of the proportion of `hits` in `trials` (Wilson 1927): as long as it should be in the mean,
 /// for few trials and proportions of 0 and 1 as well. 0 to 1 of no trials.

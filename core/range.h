@@ -16,6 +16,12 @@ struct Range {
   /// "a number above 0", "a number from 0 to 90"
   std::string text() const;
 };
+
+/// From `low` to `high`.
+struct Interval {
+  double low, high;
+};
+
 inline constexpr Range kPositive{0.0, 1e300, true};
 inline constexpr Range kNonNegative{0.0, 1e300, false};
 

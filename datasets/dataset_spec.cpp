@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
+#include "core/fields.h"
 #include "core/files.h"
 #include "core/rng.h"
 #include "core/units.h"
@@ -22,37 +24,97 @@ constexpr Range kShare{0.0, 1.0};
 
 double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-double drawn(Rng& rng, const Interval2& interval) {
+double drawn(Rng& rng, const Interval& interval) {
   return rounded(interval.low + (interval.high - interval.low) * rng.uniform());
 }
 
-/// One number, or the ends of what is drawn.
-Interval2 interval_from_json(const JsonReader& json, Range range) {
-  if (json.value().is_number()) return {json.number(range), json.number(range)};
-  const std::vector<double> ends = json.numbers(range);
-  if (ends.size() != 2) json.fail("must be a number, or the least and the largest of what is drawn");
-  if (ends[1] < ends[0]) json.fail("must not end below its start");
-  return {ends[0], ends[1]};
+std::span<const Field<DatasetSpec>> sensor_fields() {
+  using Spec = DatasetSpec;
+  static const Field<Spec> fields[] = {
+      {"models",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) {
+                    for (const JsonReader& model : json.items()) {
+                      const Json alone = {{"model", model.text()}, {"height_mm", 650}, {"pitch_deg", 60}};
+                      spec.rigs.push_back(rig_from_json(JsonReader(alone, model.file(), model.pointer())));
+                      spec.sensors.push_back(model.text());
+                    }
+                    if (spec.sensors.empty()) json.fail("must name at least one sensor model");
+                  },
+                  nullptr, R"({"type": "array", "items": {"type": "string"}, "minItems": 1})", "a list of names"},
+       {},
+       "names of `fathom list sensors`, of which each frame draws one",
+       true},
+      {"units",
+       &Spec::units,
+       {1.0, 1 << 30},
+       "serial numbers are drawn from 1 to this; each unit has errors of its own"},
+      {"height_mm", &Spec::height_mm, {300.0, 3000.0}, "of the baseline's middle above the desk"},
+      {"aim_x_mm", &Spec::aim_x_mm, {-1e4, 1e4}, "point of the desk that it looks at, to the sensor's right"},
+      {"aim_y_mm", &Spec::aim_y_mm, {0.0, 1e4}, "the same, away from the sensor"},
+      {"roll_deg", &Spec::roll_deg, {-180.0, 180.0}, "turn about the optical axis"}};
+  return fields;
 }
 
-void read_interval(const JsonReader& json, const char* key, Range range, Interval2& interval) {
-  if (json.has(key)) interval = interval_from_json(json.at(key), range);
+std::span<const Field<DatasetSpec>> desk_fields() {
+  using Spec = DatasetSpec;
+  const auto as_in_a_scene = [](std::string_view schema, std::string_view allowed) {
+    return Part<Spec>{nullptr, nullptr, schema, allowed};
+  };
+  static const Field<Spec> fields[] = {
+      {"albedo", &Spec::desk_albedo, kShare, "how bright the desk is in infrared light"},
+      {"glaze", as_in_a_scene("../schema.json#/$defs/glaze", "an object"), {}, "as in a scene"},
+      {"size_mm", as_in_a_scene("../schema.json#/$defs/size2", "two lengths above 0"), {}, "as in a scene"},
+      {"centre_mm", as_in_a_scene("../schema.json#/$defs/place2", "[x, y]"), {}, "as in a scene"}};
+  return fields;
 }
 
-void read_view(const JsonReader& json, DatasetSpec& spec) {
-  json.allow_only({"models", "units", "height_mm", "aim_x_mm", "aim_y_mm", "roll_deg"});
-  if (json.has("models"))
-    for (const JsonReader& model : json.at("models").items()) {
-      const Json alone = {{"model", model.text()}, {"height_mm", 650}, {"pitch_deg", 60}};
-      spec.rigs.push_back(rig_from_json(JsonReader(alone, model.file(), model.pointer())));
-      spec.sensors.push_back(model.text());
-    }
-  if (spec.sensors.empty()) json.fail_at("models", "must name at least one sensor model");
-  spec.units = json.integer_or("units", spec.units, 1, 1 << 30);
-  read_interval(json, "height_mm", {300.0, 3000.0}, spec.height_mm);
-  read_interval(json, "aim_x_mm", {-1e4, 1e4}, spec.aim_x_mm);
-  read_interval(json, "aim_y_mm", {0.0, 1e4}, spec.aim_y_mm);
-  read_interval(json, "roll_deg", {-180.0, 180.0}, spec.roll_deg);
+void read_liquids(const JsonReader& json, DatasetSpec& spec) {
+  for (const JsonReader& liquid : json.items()) {
+    const Medium medium = medium_from_json(liquid);  // a mistake shows before the first frame
+    for (const Rig& rig : spec.rigs) require_index(liquid, medium, rig.sensor.wavelength_nm);
+    spec.liquids.push_back(liquid.value());
+  }
+}
+
+std::span<const Field<DatasetSpec>> spec_fields() {
+  using Spec = DatasetSpec;
+  static const Field<Spec> fields[] = {
+      schema_field<Spec>(),
+      {"sensor",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { read_fields(json, sensor_fields(), spec); }, nullptr,
+                  "#/$defs/sensor", "an object"},
+       {},
+       "which sensors, and where they stand",
+       true},
+      {"desk",
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { read_fields(json, desk_fields(), spec); }, nullptr,
+                  "#/$defs/desk", "an object"},
+       {},
+       "what things stand on"},
+      {"liquids", Part<Spec>{read_liquids, nullptr, "#/$defs/liquids", "a list"}, {}, "what is poured, as in a scene"},
+      {"fill_share", &Spec::fill_share, kShare, "of the cup's depth to which it is poured"},
+      {"empty", &Spec::empty, kShare, "share of the cups that hold nothing"},
+      {"mode",
+       Choice<Spec>{{"geometric", "photometric"},
+                    [](const Spec& spec) { return spec.mode == CaptureMode::geometric ? std::size_t{0} : 1; },
+                    [](Spec& spec, std::size_t choice) {
+                      spec.mode = choice == 0 ? CaptureMode::geometric : CaptureMode::photometric;
+                    }},
+       {},
+       "geometric: exact refraction and the noise of measured desks, cheap; photometric: infrared images, matched"},
+      {"light",
+       Choice<Spec>{{"auto", "direct", "full"},
+                    [](const Spec& spec) {
+                      return !spec.light ? std::size_t{0} : *spec.light == LightModel::direct ? 1 : 2;
+                    },
+                    [](Spec& spec, std::size_t choice) {
+                      if (choice > 0) spec.light = choice == 1 ? LightModel::direct : LightModel::full;
+                    }},
+       {},
+       "of photometric frames; full: also what is scattered in liquids, mirrored and interreflected; auto: full where "
+       "a "
+       "liquid scatters, else direct"}};
+  return fields;
 }
 
 /// A cup's shape with a number in place of every pair [least, largest]; walls by their thickness.
@@ -60,7 +122,7 @@ Json drawn_shape(const JsonReader& shape, Rng rng, const std::string& name) {
   Json result = {{"name", name}};
   for (const auto& [key, value] : shape.value().items())
     result[key] = value.is_array() && value.size() == 2 && value[0].is_number()
-                      ? Json(drawn(rng, interval_from_json(shape.at(key), kNonNegative)))
+                      ? Json(drawn(rng, shape.at(key).interval(kNonNegative)))
                       : value;
   if (!result.contains("wall_mm")) return result;
   if (result.contains("outer_radius_mm")) shape.fail_at("wall_mm", "cannot stand beside outer_radius_mm");
@@ -130,47 +192,43 @@ std::filesystem::path shipped_dataset_spec() { return data_directory() / "datase
 DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t seed) {
   const Json all = with_defaults(read_json(path), path);
   const JsonReader json(all, path.string());
-  json.allow_only({"$schema", "sensor", "desk", "cups", "liquids", "fill_share", "empty", "objects", "region_mm",
-                   "gap_mm", "touching", "occluding", "mode", "light"});
+  const std::vector<KeyRow> things = thing_keys();
+  std::vector<std::string_view> of_things;
+  for (const KeyRow& row : things) of_things.push_back(row.key);
   DatasetSpec spec;
   spec.source = all;
-  read_view(json.at("sensor"), spec);
-  Json desk = Json::object();
-  if (json.has("desk")) {
-    json.at("desk").allow_only({"albedo", "glaze", "size_mm", "centre_mm"});
-    desk = json.at("desk").value();
-    read_interval(json.at("desk"), "albedo", kShare, spec.desk_albedo);
-    desk["albedo"] = spec.desk_albedo.low;
-  }
-  for (const JsonReader& liquid : json.items_or_none("liquids")) {
-    const Medium medium = medium_from_json(liquid);  // a mistake shows before the first frame
-    for (const Rig& rig : spec.rigs) require_index(liquid, medium, rig.sensor.wavelength_nm);
-    spec.liquids.push_back(liquid.value());
-  }
-  read_interval(json, "fill_share", kShare, spec.fill_share);
-  spec.empty = json.number_or("empty", spec.empty, kShare);
+  read_fields(json, spec_fields(), spec, of_things);
   if (spec.liquids.empty() && spec.empty < 1.0) json.fail_at("liquids", "must hold at least one, unless empty is 1");
-  const std::array<std::string, 2> modes{"geometric", "photometric"};
-  const std::array<std::string, 3> lights{"direct", "full", "auto"};
-  if (json.has("mode"))
-    spec.mode = json.at("mode").choice(modes, "mode") == 0 ? CaptureMode::geometric : CaptureMode::photometric;
   if (spec.mode == CaptureMode::photometric && !json.has("light")) spec.source["light"] = "auto";
-  if (json.has("light")) {
-    const std::size_t light = json.at("light").choice(lights, "light");
-    if (lights[light] != "auto") spec.light = lights[light] == "full" ? LightModel::full : LightModel::direct;
-  }
   if (spec.light == LightModel::full && spec.mode == CaptureMode::geometric)
     json.fail_at("light", "full needs \"mode\": \"photometric\": geometric frames know direct light only");
 
-  json.at("cups").allow_only({"number", "kinds"});
+  Json desk = json.has("desk") ? json.at("desk").value() : Json::object();
+  if (desk.contains("albedo")) desk["albedo"] = spec.desk_albedo.low;
   Json clutter = {{"sensor", {{"model", spec.sensors[0]}, {"height_mm", 650}, {"aim_mm", {0, 350, 0}}}},
                   {"desk", desk}};
-  clutter["cups"] = json.at("cups").value();
+  for (const KeyRow& row : things)
+    if (json.has(row.key)) clutter[row.key] = json.at(row.key).value();
   clutter["cups"]["kinds"] = drawn_kinds(json.at("cups"), seed);
-  for (const char* key : {"objects", "region_mm", "gap_mm", "touching", "occluding"})
-    if (json.has(key)) clutter[key] = json.at(key).value();
   spec.clutter = clutter_spec_from_json(JsonReader(clutter, path.string()));
   return spec;
+}
+
+std::vector<KeyTable> dataset_key_tables() {
+  const DatasetSpec standard;
+  std::vector<KeyRow> rows = key_rows(spec_fields(), standard);
+  std::ranges::move(thing_keys(), std::back_inserter(rows));
+  std::vector<KeyTable> tables{{"", "", "The data set", std::move(rows)},
+                               {"sensor", "sensor", "Sensors", key_rows(sensor_fields(), standard)},
+                               {"desk", "desk", "Desk", key_rows(desk_fields(), standard)}};
+  std::ranges::move(thing_key_tables(), std::back_inserter(tables));
+  const Json shipped = read_json(shipped_dataset_spec());
+  for (KeyTable& table : tables) {
+    const Json& values = table.place.empty() ? shipped : shipped.at(table.place);
+    for (KeyRow& row : table.rows)
+      if (values.contains(row.key)) row.standard = values[row.key], row.is_required = false;
+  }
+  return tables;
 }
 
 Json dataset_scene(const DatasetSpec& spec, std::uint64_t seed, std::uint64_t frame) {

@@ -8,8 +8,8 @@
 
 #include "core/cloud_file.h"
 #include "core/error.h"
+#include "core/fields.h"
 #include "core/input_policy.h"
-#include "core/json.h"
 #include "core/units.h"
 #include "detector/pcl_points.h"
 #include "detector/quiet_pcl.h"
@@ -22,7 +22,34 @@ namespace fs = std::filesystem;
 
 constexpr float kTemplateSpacingMetres = 0.003f;  // about twice a pixel's footprint at 1 m: finer says nothing new
 
-double rounded_mm(double metres) { return std::round(mm_from_metres(metres) * 100.0) / 100.0; }
+std::span<const Field<CupTemplate>> template_fields() {
+  static const Field<CupTemplate> fields[] = {
+      {"name", &CupTemplate::name, {}, "what detections call the cup", true},
+      {"cloud",
+       Part<CupTemplate>{[](const JsonReader& json, CupTemplate& cup) {
+                           const fs::path cloud = path_named_in(json.file(), json.pointer(), json.text());
+                           cup.points = finite_points(read_cloud(cloud));
+                           if (cup.points.empty()) json.fail("has no finite points");
+                         },
+                         [](const CupTemplate& cup) { return Json(cup.name + ".pcd"); }, R"({"type": "string"})",
+                         "a path"},
+       {},
+       "its points, beside this file: metres, origin on the desk below the axis, z up, y away from the sensor",
+       true},
+      {"liquid_threshold_mm", Length{&CupTemplate::liquid_threshold_m}, kPositive,
+       "a mean height inside above this is a liquid", true},
+      {"height_mm", Length{&CupTemplate::height_m}, kPositive, "of the rim above the desk", true},
+      {"radius_mm", Length{&CupTemplate::radius_m}, kPositive, "45 mm above the desk", true},
+      {"bottom_sigma_mm",
+       Part<CupTemplate>{[](const JsonReader& json, CupTemplate& cup) {
+                           cup.bottom_sigma_m = metres_from_mm(json.number(kNonNegative));
+                         },
+                         [](const CupTemplate& cup) {
+                           return cup.bottom_sigma_m ? Json(mm_from_metres(*cup.bottom_sigma_m)) : Json();
+                         }},
+       kNonNegative, "standard deviation of the bottom's mean height"}};
+  return fields;
+}
 
 }  // namespace
 
@@ -52,17 +79,13 @@ Points in_template_frame(const Points& in_desk, const Circle& circle) {
 CupTemplate load_template(const fs::path& path) {
   const Json json = read_json(path);
   const JsonReader reader(json, path.string());
-  reader.allow_only({"name", "cloud", "liquid_threshold_mm", "height_mm", "radius_mm", "bottom_sigma_mm"});
-  CupTemplate cup;
-  cup.name = reader.text("name");
-  cup.points = finite_points(read_cloud(path_named_in(path.string(), "/cloud", reader.text("cloud"))));
-  if (cup.points.empty()) reader.fail_at("cloud", "has no finite points");
-  cup.liquid_threshold_m = metres_from_mm(reader.number("liquid_threshold_mm", kPositive));
-  cup.height_m = metres_from_mm(reader.number("height_mm", kPositive));
-  cup.radius_m = metres_from_mm(reader.number("radius_mm", kPositive));
-  if (reader.has("bottom_sigma_mm"))
-    cup.bottom_sigma_m = metres_from_mm(reader.number("bottom_sigma_mm", kNonNegative));
+  CupTemplate cup{};
+  read_fields(reader, template_fields(), cup);
   return cup;
+}
+
+std::vector<KeyTable> template_key_tables() {
+  return {{"", "", "A cup template", key_rows(template_fields(), CupTemplate{})}};
 }
 
 std::vector<CupTemplate> load_templates(const fs::path& folder) {
@@ -83,12 +106,9 @@ void save_template(const fs::path& folder, const CupTemplate& cup) {
   for (std::size_t i = 0; i < cup.points.size(); ++i)
     cloud.pixels()[i] = {cup.points[i].x(), cup.points[i].y(), cup.points[i].z(), 0.0f};
   write_pcd(folder / (cup.name + ".pcd"), cloud);
-  Json json = {{"name", cup.name},
-               {"cloud", cup.name + ".pcd"},
-               {"liquid_threshold_mm", rounded_mm(cup.liquid_threshold_m)},
-               {"height_mm", rounded_mm(cup.height_m)},
-               {"radius_mm", rounded_mm(cup.radius_m)}};
-  if (cup.bottom_sigma_m) json["bottom_sigma_mm"] = rounded_mm(*cup.bottom_sigma_m);
+  Json json = json_from_fields(template_fields(), cup);
+  for (Json& value : json)
+    if (value.is_number()) value = std::round(value.get<double>() * 100.0) / 100.0;
   write_json(folder / (cup.name + ".json"), json);
 }
 

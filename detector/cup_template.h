@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/key_table.h"
 #include "detector/cup_gates.h"
 #include "detector/liquid.h"
 
@@ -30,9 +31,11 @@ Points thinned(const Points& points);
 /// camera's foot point the y axis.
 Points in_template_frame(const Points& in_desk, const Circle& circle);
 
-/// Reads NAME.json {"name", "cloud" (beside it), "liquid_threshold_mm", "height_mm", "radius_mm", "bottom_sigma_mm"
-/// (may be missing)} and its cloud.
+/// Reads NAME.json and the cloud beside it.
 CupTemplate load_template(const std::filesystem::path& json);
+
+/// The keys of NAME.json.
+std::vector<KeyTable> template_key_tables();
 
 /// Every *.json of the folder, by name. Throws Error when there is none.
 std::vector<CupTemplate> load_templates(const std::filesystem::path& folder);

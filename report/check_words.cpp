@@ -24,7 +24,7 @@ std::string with_default(const std::string& key) {
   if (key == "session_mm") return fmt::format("{} {:g}", key, mm_from_metres(usual.session_m));
   if (key == "session_deg") return fmt::format("{} {:.3g}", key, deg_from_radians(usual.session_rad));
   for (const UncertainValue& value : kUncertainRig)
-    if (key == value.key) return fmt::format("{} {:g}", key, value.sigma);
+    if (key == value.key) return fmt::format("{} {:g}", key, value.usual_sigma);
   return key;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base64.h"
 #include "core/files.h"
 #include "core/image_file.h"
 #include "core/visible_text.h"
@@ -18,19 +19,6 @@ th, td { padding: .28rem .9rem .28rem 0; vertical-align: top; } td { border-bott
 .shot:not(:target) { display: none; } .shot { margin: 0; } .shot img { width: 60%; image-rendering: pixelated; }
 .data td, .data th { text-align: right; font-variant-numeric: tabular-nums; } summary { cursor: pointer; color: #0072B2; }
 </style>)";
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    for (std::size_t j = 0; j < 4; ++j) text += i + j > bytes.size() ? '=' : kDigits[group >> (18 - 6 * j) & 63U];
-  }
-  return text;
-}
 
 std::string picture_of(std::string_view png, std::string_view alternative) {
   return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", html_escaped(alternative), base64(png));

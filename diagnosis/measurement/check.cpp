@@ -163,11 +163,9 @@ class Checker {
   }
 
   void look_at_sigmas(const Json& rig) {
-    constexpr std::array kOfRig{"height_mm", "pitch_deg",           "roll_deg", "baseline_mm",
-                                "focal_px",  "disparity_offset_px", "bottom_mm"};
     Shortfall unsaid{Lack::stated_sigmas};
-    for (const char* key : kOfRig)
-      if (!check_.rig.sigma.contains(key)) unsaid.names.emplace_back(key);
+    for (const RigValue& value : kRigValues)
+      if (!check_.rig.sigma.contains(value.key)) unsaid.names.emplace_back(value.key);
     for (const char* key : {"fill_sigma_mm", "placement_sigma_mm"})
       if (!rig.contains(key)) unsaid.names.emplace_back(key);
     check_.session_mm_stated = rig.contains("session_mm"), check_.session_deg_stated = rig.contains("session_deg");

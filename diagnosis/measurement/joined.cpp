@@ -10,17 +10,6 @@
 namespace fathom {
 namespace {
 
-struct RigValue {
-  const char* path;
-  double LaboratoryRig::*value;
-};
-constexpr RigValue kShared[] = {{"/sensor/height_mm", &LaboratoryRig::height_m},
-                                {"/sensor/pitch_deg", &LaboratoryRig::pitch_rad},
-                                {"/sensor/roll_deg", &LaboratoryRig::roll_rad},
-                                {"/sensor/baseline_mm", &LaboratoryRig::baseline_m},
-                                {"/sensor/focal_px", &LaboratoryRig::focal_px},
-                                {"/sensor/disparity_offset_px", &LaboratoryRig::disparity_offset_px}};
-
 void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder, const LaboratoryRig& first,
                   const std::filesystem::path& first_folder) {
   constexpr double kSame = 1e-7;  // [SI] rig.json is written to the nanometre
@@ -31,8 +20,9 @@ void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder,
   };
   if (rig.sensor_model != first.sensor_model) differs("/sensor/model");
   if (!(rig.unit == first.unit)) differs("/sensor/unit");
-  for (const RigValue& shared : kShared)
-    if (!(std::abs(rig.*shared.value - first.*shared.value) <= kSame)) differs(shared.path);
+  for (const RigValue& value : kRigValues)
+    if (value.of_sensor && !(std::abs(rig.*value.of_sensor - first.*value.of_sensor) <= kSame))
+      differs(fmt::format("/sensor/{}", value.key));
   if (!is_same_cup(rig.cup, first.cup)) differs("/cup");
   for (const auto& [name, medium] : rig.liquids)
     if (const auto known = first.liquids.find(name); known != first.liquids.end() && known->second != medium)

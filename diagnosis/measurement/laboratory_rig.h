@@ -4,10 +4,14 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/cup_profile.h"
 #include "core/json.h"
+#include "core/key_table.h"
 #include "core/unit_map.h"
 
 namespace fathom {
@@ -40,6 +44,20 @@ struct LaboratoryRig {
   std::map<std::string, double> sigma;  ///< 1 σ of the value of that key, in the key's unit, e.g. "height_mm" → 0.5
 };
 
+/// A value of the rig whose standard deviation a laboratory may state.
+struct RigValue {
+  const char* key;
+  double usual_sigma;                ///< in the key's unit, where none is stated
+  double LaboratoryRig::*of_sensor;  ///< null: the cup's
+};
+inline constexpr RigValue kRigValues[] = {{"height_mm", 0.5, &LaboratoryRig::height_m},
+                                          {"pitch_deg", 0.05, &LaboratoryRig::pitch_rad},
+                                          {"roll_deg", 0.05, &LaboratoryRig::roll_rad},
+                                          {"baseline_mm", 0.05, &LaboratoryRig::baseline_m},
+                                          {"focal_px", 0.4, &LaboratoryRig::focal_px},
+                                          {"disparity_offset_px", 0.02, &LaboratoryRig::disparity_offset_px},
+                                          {"bottom_mm", 0.1, nullptr}};
+
 /// The shape of a cup of scenes/cups; nothing where that has no such cup. Throws Error when its file is wrong.
 std::optional<CupProfile> library_cup(const std::string& name);
 
@@ -54,5 +72,18 @@ Json cup_json_of(const LaboratoryRig& rig);
 /// and liquids must be there. A cup is one of scenes/cups by `shape`, or described by its profiles or its lengths.
 /// Lengths beside a cup of scenes/cups stand for those of its own if it is straight, else they must be the same.
 LaboratoryRig read_rig(const std::filesystem::path& path);
+
+/// rig.json, as read_rig reads it, with numbers to a millionth.
+Json json_from_laboratory_rig(const LaboratoryRig& rig);
+
+/// The object `json` of standard deviations of these keys, in the keys' units.
+void read_sigmas(const JsonReader& json, std::span<const std::string_view> keys, std::map<std::string, double>& sigma);
+
+/// An object of media by label: a medium's name each, or an inline medium. "empty" and "none" are no labels.
+std::map<std::string, Json> media_by_label(const JsonReader& json);
+
+/// The keys of standard deviations, and the objects of rig.json.
+std::vector<KeyRow> sigma_keys();
+std::vector<KeyTable> rig_key_tables();
 
 }  // namespace fathom

@@ -46,7 +46,7 @@ void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   const std::map<std::string, double>& sigmas = predictor.model().laboratory.sigma;
   for (const UncertainValue& value : kUncertainRig) {
     const auto given = sigmas.find(value.key);
-    const double sigma = given != sigmas.end() ? given->second : value.sigma;
+    const double sigma = given != sigmas.end() ? given->second : value.usual_sigma;
     if (sigma <= 0.0) continue;
     const auto at = [&](double x) { return switch_on({{value.effect, {x}}}); };
     const Nuisance nuisance{value.key, sigma, slope(predictor, at, -sigma, sigma, all_conditions(predictor))};

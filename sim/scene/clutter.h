@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/json.h"
+#include "core/key_table.h"
 #include "sim/scene/footprint.h"
 
 namespace fathom {
@@ -22,9 +22,9 @@ struct ClutterSpec {
     int low, high;
   };
 
-  Json source;        ///< the file's text
-  std::string file;   ///< where that stands; what its scenes name lies beside it
-  Json sensor, desk;  ///< as in a scene file
+  Json source;                         ///< the file's text
+  std::string file;                    ///< where that stands; what its scenes name lies beside it
+  Json sensor, desk = Json::object();  ///< as in a scene file
   Count cups{1, 1}, objects{3, 6};
   std::vector<ClutterThing> cup_kinds, object_kinds;
   std::vector<Json> fillings{Json::object()};  ///< what a cup may hold: {"liquid", "fill_mm"}, or nothing
@@ -38,6 +38,12 @@ struct ClutterSpec {
 /// Throws Error naming file, path, what is wrong and what is allowed.
 ClutterSpec clutter_spec_from_json(const JsonReader& json);
 ClutterSpec read_clutter_spec(const std::filesystem::path& path);
+
+/// The objects of a clutter file; the keys of what stands on the desk and the objects that they name, which data sets
+/// have as well.
+std::vector<KeyTable> clutter_key_tables();
+std::vector<KeyRow> thing_keys();
+std::vector<KeyTable> thing_key_tables();
 
 /// The scene of that number, as its file would say it. Throws Error when the region has no room for so many things.
 Json random_scene(const ClutterSpec& spec, std::uint64_t seed, std::uint64_t number);

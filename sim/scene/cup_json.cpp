@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/fields.h"
 #include "core/input_policy.h"
 #include "core/lengths.h"
 #include "core/units.h"
@@ -204,15 +205,49 @@ void pour(const JsonReader& json, Cup& cup) {
     json.fail_at(json.has("fill_ml") ? "fill_ml" : "fill_mm", "is too little to have a surface in this cup");
 }
 
+std::span<const Field<Cup>> cup_fields() {
+  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
+    return Part<Cup>{nullptr, nullptr, schema, allowed};
+  };
+  static const Field<Cup> fields[] = {
+      {"shape",
+       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name, a path or an object"),
+       {},
+       "a name of `fathom list cups`, a glTF file (*.gltf, *.glb) relative to this file, or a description",
+       true},
+      {"position_mm",
+       part(R"({"type": "array", "items": {"$ref": "#/$defs/cup_place"}, "minItems": 2, "maxItems": 3})",
+            "[x, y] or [x, y, z]"),
+       {},
+       "of the axis, or the glTF file's origin, on the desk; z, of glTF cups only: height of the lowest point",
+       true},
+      {"rotation_deg",
+       part("#/$defs/vector3", "[x, y, z]"),
+       {},
+       "of glTF cups only: about the fixed axes x, then y, then z, before `yaw_deg`"},
+      {"yaw_deg", Angle{&Cup::yaw}, {}, "direction of the handle, from +x towards +y"},
+      {"glaze",
+       part("#/$defs/glaze", "an object"),
+       {},
+       "a clear coat, which mirrors and through which the albedo is seen; of opaque cups of revolution"},
+      {"liquid",
+       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/changed_liquid"}, {"$ref": "#/$defs/liquid"}]})",
+            "a name or an object"),
+       {},
+       "a name of `fathom list media`, that name with a temperature or a dilution, or a description"},
+      {"fill_mm", Part<Cup>{}, kNonNegative, "depth of the liquid above the lowest point of the cup's inside"},
+      {"fill_ml", Part<Cup>{}, kNonNegative, "its volume, instead of `fill_mm`"},
+      {"surface", part("#/$defs/surface", "an object"), {}, "what makes it other than level; of cups of revolution"}};
+  return fields;
+}
+
 }  // namespace
 
 Cup cup_from_json(const JsonReader& json) {
-  json.allow_only(
-      {"shape", "position_mm", "rotation_deg", "yaw_deg", "glaze", "liquid", "fill_mm", "fill_ml", "surface"});
+  Cup cup;
+  read_fields(json, cup_fields(), cup);
   const JsonReader shape = json.at("shape");
   const bool is_mesh = shape.value().is_string() && names_gltf(shape.text());
-  Cup cup;
-  cup.yaw = radians_from_deg(json.number_or("yaw_deg", 0.0));
   if (is_mesh) {
     cup.shape = mesh_cup_from_json(json, cup.yaw);
     if (json.has("glaze")) json.fail_at("glaze", "is for cups of revolution; glTF materials have roughnessFactor");
@@ -234,11 +269,12 @@ Cup cup_from_json(const JsonReader& json) {
   return cup;
 }
 
-std::vector<KeyTable> surface_key_tables() {
+std::vector<KeyTable> cup_key_tables() {
   std::vector<KeyRow> surface = key_rows(wetting_fields(), Wetting{});
   for (KeyRow& row : surface) row.standard = nullptr;
   for (KeyRow& row : key_rows(surface_fields(), LiquidForm{})) surface.push_back(std::move(row));
-  return {{"cups[].surface", "surface", "A liquid's surface", std::move(surface)},
+  return {{"cups[]", "cup", "Cup", key_rows(cup_fields(), Cup{})},
+          {"cups[].surface", "surface", "A liquid's surface", std::move(surface)},
           {"cups[].surface.ripples[]", "ripple", "Ripple", key_rows(ripple_fields(), Ripple{})}};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/fields.h"
 #include "core/library.h"
 #include "core/units.h"
 #include "sim/optics/water.h"
@@ -14,20 +15,54 @@ namespace {
 constexpr Range kIndex{1.0, 4.0};
 constexpr double kRoomC = 20.0;  ///< of every number in a medium's description
 
-/// {"dispersion": "water"} is water; with "n" and "at_nm" the index is water's plus what makes it n there.
-WaterIndex water_like_index(const JsonReader& json) {
-  json.allow_only({"dispersion", "n", "at_nm"});
-  json.at("dispersion").choice(std::vector<std::string>{"water"}, "dispersion");
-  WaterIndex index{.temperature_c = kRoomC, .above_water = 0.0};
-  if (json.has("n") != json.has("at_nm")) json.fail("needs n and at_nm, or neither");
-  if (json.has("n"))
-    index.above_water =
-        json.number("n", kIndex) - water_index(json.number("at_nm", {kWaterMinNm, kWaterMaxNm}), kRoomC);
-  return index;
+struct WaterLike {
+  double n = 0.0, at_nm = 0.0;
+};
+
+std::span<const Field<WaterLike>> water_like_fields() {
+  static const Field<WaterLike> fields[] = {
+      {"dispersion",
+       Choice<WaterLike>{{"water"}, [](const WaterLike&) { return std::size_t{0}; }, [](WaterLike&, std::size_t) {}},
+       {},
+       "water's index at any temperature (IAPWS R9-97)",
+       true},
+      {"n", &WaterLike::n, kIndex, "beside `at_nm`: the index there, which a constant added to water's makes"},
+      {"at_nm", &WaterLike::at_nm, {kWaterMinNm, kWaterMaxNm}, "wavelength of `n`"}};
+  return fields;
 }
 
-void set_index(const JsonReader& json, Medium& medium) {
-  const JsonReader index = json.at("index");
+/// Water's index, or with "n" and "at_nm" water's plus what makes it n there.
+WaterIndex water_like_index(const JsonReader& json) {
+  WaterLike like;
+  read_fields(json, water_like_fields(), like);
+  if (json.has("n") != json.has("at_nm")) json.fail("needs n and at_nm, or neither");
+  return {.temperature_c = kRoomC, .above_water = json.has("n") ? like.n - water_index(like.at_nm, kRoomC) : 0.0};
+}
+
+std::span<const Field<SellmeierIndex>> sellmeier_fields() {
+  using Law = SellmeierIndex;
+  constexpr std::string_view kNumbers = R"({"type": "array", "items": {"type": "number"}, "minItems": 1})";
+  static const Field<Law> fields[] = {{"sellmeier_a",
+                                       Part<Law>{[](const JsonReader& json, Law& law) { law.a = json.numbers(); },
+                                                 nullptr, kNumbers, "a list of numbers"},
+                                       {},
+                                       "A of n² − 1 = Σ A λ² / (λ² − B), λ in µm",
+                                       true},
+                                      {"sellmeier_b_um2",
+                                       Part<Law>{[](const JsonReader& json, Law& law) { law.b_um2 = json.numbers(); },
+                                                 nullptr, kNumbers, "a list of numbers"},
+                                       {},
+                                       "B",
+                                       true},
+                                      {"range_nm",
+                                       Part<Law>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"},
+                                       {},
+                                       "wavelengths at which that holds",
+                                       true}};
+  return fields;
+}
+
+void set_index(const JsonReader& index, Medium& medium) {
   if (index.value().is_number()) {
     medium.index = ConstantIndex{index.number(kIndex)};
     return;
@@ -38,8 +73,8 @@ void set_index(const JsonReader& json, Medium& medium) {
     medium.wavelength_max_nm = kWaterMaxNm;
     return;
   }
-  index.allow_only({"sellmeier_a", "sellmeier_b_um2", "range_nm"});
-  SellmeierIndex law{index.at("sellmeier_a").numbers(), index.at("sellmeier_b_um2").numbers()};
+  SellmeierIndex law;
+  read_fields(index, sellmeier_fields(), law);
   if (law.a.size() != law.b_um2.size() || law.a.empty())
     index.fail_at("sellmeier_b_um2", "must hold as many numbers as sellmeier_a, at least one");
   const Eigen::Vector2d range = index.at("range_nm").vector2();
@@ -61,6 +96,20 @@ void set_index(const JsonReader& json, Medium& medium) {
   }
 }
 
+std::span<const Field<Medium>> range_fields() {
+  static const Field<Medium> fields[] = {
+      {"index", Part<Medium>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"}, {}, "at 830 nm and 20 °C"},
+      {"absorption_per_mm",
+       Part<Medium>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"},
+       {},
+       "of the key of this name"},
+      {"reduced_scattering_per_mm",
+       Part<Medium>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"},
+       {},
+       "of `scattering_per_mm` times 1 − `anisotropy`"}};
+  return fields;
+}
+
 /// The ranges must hold the values that they are about.
 void check_ranges(const JsonReader& json, const Medium& medium) {
   const auto check = [&](const char* key, double value) {
@@ -70,24 +119,45 @@ void check_ranges(const JsonReader& json, const Medium& medium) {
     if (value < range[0] * (1.0 - 1e-6) || value > range[1] * (1.0 + 1e-6))
       json.fail_at(key, fmt::format("must hold the value itself, {:g}", value));
   };
-  json.allow_only({"index", "absorption_per_mm", "reduced_scattering_per_mm"});
+  Medium described;
+  read_fields(json, range_fields(), described);
   if (const auto* like_water = std::get_if<WaterIndex>(&medium.index))
     check("index", water_index(830.0, kRoomC) + like_water->above_water);
   check("absorption_per_mm", medium.absorption * kMetresPerMm);
   check("reduced_scattering_per_mm", medium.reduced_scattering() * kMetresPerMm);
 }
 
+std::span<const Field<Medium>> medium_fields() {
+  static const Field<Medium> fields[] = {
+      {"name", &Medium::name, {}, "what it is called"},
+      {"index",
+       Part<Medium>{
+           set_index, nullptr,
+           R"({"anyOf": [{"type": "number", "minimum": 1, "maximum": 4}, {"$ref": "#/$defs/water_like"}, {"$ref": "#/$defs/dispersion"}]})",
+           "1 to 4, or an object"},
+       {},
+       "refractive index: a number, water's, or a law of dispersion",
+       true},
+      {"absorption_per_mm", PerLength{&Medium::absorption}, kNonNegative, "absorption coefficient at 830 nm and 20 °C"},
+      {"absorption_per_mm_k", PerLength{&Medium::absorption_per_kelvin}, {}, "its change with temperature"},
+      {"scattering_per_mm", PerLength{&Medium::scattering}, kNonNegative, "scattering coefficient"},
+      {"anisotropy",
+       &Medium::anisotropy,
+       {-0.999, 0.999},
+       "mean cosine of the scattering angle (Henyey and Greenstein)"},
+      {"ranges",
+       Part<Medium>{nullptr, nullptr, "#/$defs/ranges", "an object"},
+       {},
+       "within which the numbers are believed to lie"},
+      {"source", &Medium::source, {}, "where the numbers come from"},
+      {"quality", Part<Medium>{nullptr, nullptr, R"({"type": "string"})", "a text"}, {}, "how good they are"}};
+  return fields;
+}
+
 Medium described_medium(const JsonReader& json) {
-  json.allow_only({"name", "index", "absorption_per_mm", "absorption_per_mm_k", "scattering_per_mm", "anisotropy",
-                   "ranges", "source", "quality"});
   Medium medium;
-  medium.name = json.text_or("name", "liquid");
-  set_index(json, medium);
-  medium.absorption = per_metre_from_per_mm(json.number_or("absorption_per_mm", 0.0, kNonNegative));
-  medium.absorption_per_kelvin = per_metre_from_per_mm(json.number_or("absorption_per_mm_k", 0.0));
-  medium.scattering = per_metre_from_per_mm(json.number_or("scattering_per_mm", 0.0, kNonNegative));
-  medium.anisotropy = json.number_or("anisotropy", 0.0, {-0.999, 0.999});
-  medium.source = json.text_or("source", "");
+  medium.name = "liquid";
+  read_fields(json, medium_fields(), medium);
   if (json.has("ranges")) check_ranges(json.at("ranges"), medium);
   return medium;
 }
@@ -118,20 +188,39 @@ Medium described_water(const JsonReader& json) {
   return medium;
 }
 
-/// {"name": …, "temperature_c": …, "dilution": …}; in place of the name the description "of" what is changed and of the
-/// water that it is diluted "in".
+struct Change {
+  double temperature_c = kRoomC, dilution = 1.0;
+};
+
+std::span<const Field<Change>> change_fields() {
+  static const Field<Change> fields[] = {
+      {"name",
+       Part<Change>{nullptr, nullptr, R"({"type": "string"})", "a name"},
+       {},
+       "of `fathom list media`, of a liquid that follows water's dispersion"},
+      {"of", Part<Change>{nullptr, nullptr, "#/$defs/liquid", "an object"}, {}, "its description, instead of the name"},
+      {"in",
+       Part<Change>{nullptr, nullptr, "#/$defs/liquid", "an object"},
+       {},
+       "description of the water that it is diluted in, instead of the library's"},
+      {"temperature_c", &Change::temperature_c, {0.0, 100.0}, "of the liquid"},
+      {"dilution", &Change::dilution, {0.0, 1.0, true}, "its share of the volume, the rest is water"}};
+  return fields;
+}
+
+/// A medium of the library, or the description "of" one, at a temperature and diluted.
 Medium changed_medium(const JsonReader& json) {
-  json.allow_only({"name", "of", "in", "temperature_c", "dilution"});
+  Change change;
+  read_fields(json, change_fields(), change);
   if (json.has("name") && json.has("of")) json.fail_at("of", "cannot stand beside name, which already says it");
   Medium medium = json.has("of") ? described_medium(json.at("of")) : library_medium(json.text("name"), json.at("name"));
   auto* index = std::get_if<WaterIndex>(&medium.index);
   if (!index) json.fail("cannot be changed: its index is not known to follow water's");
   if (json.has("dilution"))
-    dilute(medium, *index, json.number("dilution", {0.0, 1.0, true}),
+    dilute(medium, *index, change.dilution,
            json.has("in") ? described_water(json.at("in")) : library_medium("water", json));
-  const double temperature_c = json.number_or("temperature_c", kRoomC, {0.0, 100.0});
-  index->temperature_c = temperature_c;
-  medium.absorption += medium.absorption_per_kelvin * (temperature_c - kRoomC);
+  index->temperature_c = change.temperature_c;
+  medium.absorption += medium.absorption_per_kelvin * (change.temperature_c - kRoomC);
   return medium;
 }
 
@@ -148,6 +237,14 @@ Medium wall_from_json(const JsonReader& json) {
       json.value().is_string() ? library_medium(json.text(), json, "walls", "wall material") : described_medium(json);
   if (medium.scatters()) json.fail("scatters; a wall of a cup is clear, or opaque with an albedo");
   return medium;
+}
+
+std::vector<KeyTable> medium_key_tables() {
+  return {{"cups[].liquid", "liquid", "Medium", key_rows(medium_fields(), Medium{})},
+          {"cups[].liquid.index", "water_like", "Index like water's", key_rows(water_like_fields(), WaterLike{})},
+          {"cups[].liquid.index", "dispersion", "Sellmeier's law", key_rows(sellmeier_fields(), SellmeierIndex{})},
+          {"cups[].liquid.ranges", "ranges", "Ranges", key_rows(range_fields(), Medium{})},
+          {"cups[].liquid", "changed_liquid", "Changed medium", key_rows(change_fields(), Change{})}};
 }
 
 }  // namespace fathom

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/fields.h"
+
 namespace fathom {
 namespace {
 
@@ -94,7 +96,7 @@ std::span<const Field<NoiseModel>> noise_fields() {
        Part<NoiseModel>{
            [](const JsonReader& json, NoiseModel& noise) { read_fields(json, disparity_fields(), noise.disparity); },
            [](const NoiseModel& noise) { return json_from_fields(disparity_fields(), noise.disparity); },
-           R"({"$ref": "#/$defs/disparity_noise"})", "an object"},
+           "#/$defs/disparity_noise", "an object"},
        {},
        "noise of geometric captures, which have no image that noise could come from: statistics of measured desks"}};
   return fields;

@@ -2,7 +2,7 @@
 // captures without an image.
 #pragma once
 
-#include "core/fields.h"
+#include "core/key_table.h"
 
 namespace fathom {
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "core/fields.h"
 #include "core/input_policy.h"
 #include "core/lengths.h"
 #include "core/library.h"
@@ -34,25 +35,66 @@ CupShape opaque_shape(const JsonReader& json) {
   return shape;
 }
 
+std::span<const Field<Solid>> solid_fields() {
+  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
+    return Part<Solid>{nullptr, nullptr, schema, allowed};
+  };
+  static const Field<Solid> fields[] = {
+      {"name", &Solid::name, {}, "what it is called"},
+      {"box_mm",
+       part(R"({"type": "array", "items": {"$ref": "#/$defs/cup_length"}, "minItems": 3, "maxItems": 3})", "[x, y, z]"),
+       {},
+       "a box by its sides; the middle of its base is the origin"},
+      {"profile_mm",
+       part("#/$defs/profile", "points [radius, height]"),
+       {},
+       "a body of revolution: from the axis round the outside and back to the axis above"},
+      {"cup",
+       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name or an object"),
+       {},
+       "a cup's shape, empty and opaque, to be turned over or laid down"},
+      {"albedo", &Solid::albedo, {0.0, 1.0}, "share of the light that it scatters back"},
+      {"source", part(R"({"type": "string"})", "a text"), {}, "where the numbers come from"}};
+  return fields;
+}
+
+std::span<const Field<Object>> object_fields() {
+  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
+    return Part<Object>{nullptr, nullptr, schema, allowed};
+  };
+  static const Field<Object> fields[] = {
+      {"gltf", part(R"({"type": "string"})", "a path"), {}, "a glTF file, relative to this file; or `solid`"},
+      {"solid",
+       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/solid"}]})", "a name or an object"),
+       {},
+       "a name of `fathom list solids`, or one of `box_mm`, `profile_mm` and `cup`"},
+      {"position_mm",
+       part(R"({"type": "array", "items": {"$ref": "#/$defs/place"}, "minItems": 2, "maxItems": 3})",
+            "[x, y] or [x, y, z]"),
+       {},
+       "of the glTF file's origin, three numbers; a solid stands there on the desk, or with its lowest point at z"},
+      {"rotation_deg", part("#/$defs/vector3", "[x, y, z]"), {}, "about the fixed axes x, then y, then z"}};
+  return fields;
+}
+
 Solid solid_from_object(const JsonReader& json) {
-  json.allow_only({"name", "box_mm", "profile_mm", "cup", "albedo", "source"});
+  Solid solid;
+  read_fields(json, solid_fields(), solid);
   if (json.has("box_mm") + json.has("profile_mm") + json.has("cup") != 1)
     json.fail("must have one of box_mm, profile_mm and cup");
-  Solid solid;
+  std::string name = "solid";
   if (json.has("box_mm")) {
-    solid.name = "box";
-    solid.form = Box{json.at("box_mm").vector3({0.0, kCupLengthMm.high, true}) * kMetresPerMm};
+    name = "box";
+    solid.form = Box{json.at("box_mm").vector3(kCupLengthMm) * kMetresPerMm};
   } else if (json.has("profile_mm")) {
-    solid.name = "solid";
     solid.form = revolved_from_json(json.at("profile_mm"));
   } else {
     const CupShape shape = opaque_shape(json.at("cup"));
-    solid.name = shape.name;
-    solid.albedo = shape.albedo;
+    name = shape.name;
+    if (!json.has("albedo")) solid.albedo = shape.albedo;
     solid.form = shape;
   }
-  solid.name = json.text_or("name", solid.name);
-  solid.albedo = json.number_or("albedo", solid.albedo, {0.0, 1.0});
+  if (!json.has("name")) solid.name = name;
   return solid;
 }
 
@@ -68,9 +110,9 @@ Solid solid_from_json(const JsonReader& json) {
 }
 
 Object object_from_json(const JsonReader& json) {
-  json.allow_only({"gltf", "solid", "position_mm", "rotation_deg"});
-  if (json.has("gltf") == json.has("solid")) json.fail("must have one of gltf and solid");
   Object object;
+  read_fields(json, object_fields(), object);
+  if (json.has("gltf") == json.has("solid")) json.fail("must have one of gltf and solid");
   object.world_from_object = rotation_from_json(json);
   if (json.has("gltf")) {
     object.thing = path_named_in(json.file(), json.pointer() + "/gltf", json.text("gltf"));
@@ -85,6 +127,11 @@ Object object_from_json(const JsonReader& json) {
     for (const Eigen::Vector3d& vertex : part.mesh.vertices) lowest = std::min(lowest, vertex.z());
   object.world_from_object = put_down(json, lowest) * object.world_from_object;
   return object;
+}
+
+std::vector<KeyTable> object_key_tables() {
+  return {{"objects[]", "object", "Object", key_rows(object_fields(), Object{})},
+          {"objects[].solid", "solid", "Solid", key_rows(solid_fields(), Solid{})}};
 }
 
 }  // namespace fathom

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/fields.h"
 #include "core/image.h"
+#include "core/key_table.h"
 #include "core/pose.h"
 #include "sim/scene/noise.h"
 #include "sim/scene/optics_model.h"

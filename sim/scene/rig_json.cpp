@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fields.h"
 #include "core/image_file.h"
 #include "core/input_policy.h"
 #include "core/lengths.h"
@@ -16,7 +17,7 @@
 namespace fathom {
 namespace {
 
-constexpr Range kFocalPx{1.0, 1e6}, kPrincipalPx{-1e6, 1e6};
+constexpr Range kFocalPx{1.0, 1e6}, kPrincipalPx{-1e6, 1e6}, kPitchDeg{-90.0, 90.0}, kRollDeg{-180.0, 180.0};
 
 constexpr std::uint64_t kBytesPerPosition = 28;  // of a pattern: the image, and of its dots what shooting takes
 
@@ -216,7 +217,7 @@ std::span<const Field<SensorModel>> sensor_fields() {
       {"optics",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_fields(json, optics_fields(), sensor.optics); },
                     [](const Sensor& sensor) { return json_from_fields(optics_fields(), sensor.optics); },
-                    R"({"$ref": "#/$defs/optics"})", "an object"},
+                    "#/$defs/optics", "an object"},
        {},
        "lenses: speckle's grain, defocus, distortion"},
       {"noise",
@@ -237,13 +238,13 @@ std::span<const Field<SensorModel>> sensor_fields() {
       {"pattern",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_pattern(json, sensor.pattern); },
                     [](const Sensor& sensor) { return json_from_fields(pattern_fields(), sensor.pattern); },
-                    R"({"$ref": "#/$defs/pattern"})", "an object"},
+                    "#/$defs/pattern", "an object"},
        {},
        "the projected dots"},
       {"matcher",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_matcher(json, sensor.matcher); },
                     [](const Sensor& sensor) { return json_from_fields(matcher_fields(), sensor.matcher); },
-                    R"({"$ref": "#/$defs/matcher"})", "an object"},
+                    "#/$defs/matcher", "an object"},
        {},
        "how disparities are found"},
       {"believed",
@@ -251,7 +252,7 @@ std::span<const Field<SensorModel>> sensor_fields() {
                     [](const Sensor& sensor) {
                       return sensor.believed ? json_from_fields(calibration_fields(), *sensor.believed) : Json();
                     },
-                    R"({"$ref": "#/$defs/calibration"})", "an object"},
+                    "#/$defs/calibration", "an object"},
        {},
        "calibration that the device computes depths and points with, where it differs from the true one"}};
   return fields;
@@ -306,10 +307,10 @@ Pose pose_from_json(const JsonReader& json, double baseline) {
   }
   const double height = json.metres("height_mm", kLengthMm);
   const Eigen::Vector3d midpoint(0.0, 0.0, height);
-  const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, {-180.0, 180.0}));
+  const double roll = radians_from_deg(json.number_or("roll_deg", 0.0, kRollDeg));
   if (json.has("aim_mm") == json.has("pitch_deg")) json.fail("needs either aim_mm or pitch_deg beside height_mm");
   if (json.has("pitch_deg"))
-    return camera_pose(midpoint, radians_from_deg(json.number("pitch_deg", {-90.0, 90.0})), 0.0, roll, baseline);
+    return camera_pose(midpoint, radians_from_deg(json.number("pitch_deg", kPitchDeg)), 0.0, roll, baseline);
   const Eigen::Vector3d forward = json.at("aim_mm").vector3(kPlaceMm) * kMetresPerMm - midpoint;
   if (forward.norm() == 0.0) json.fail_at("aim_mm", "must not be the sensor's own place");
   const double horizontal = std::hypot(forward.x(), forward.y());
@@ -330,22 +331,13 @@ std::span<const Field<SensorModel>> place_fields() {
        "for work "
        "on what light does; names that end in `_device` imitate the real device"},
       {"name", part(R"({"type": "string"})", "a text"), {}, "what a sensor without `model` is called"},
-      {"height_mm",
-       part(R"({"type": "number", "exclusiveMinimum": 0, "maximum": 1000000})", "above 0 to 1000000"),
-       {},
-       "height of the baseline's middle above the desk"},
+      {"height_mm", Part<SensorModel>{}, kLengthMm, "height of the baseline's middle above the desk"},
       {"aim_mm",
-       part(R"({"$ref": "#/$defs/place3"})", "[x, y, z]"),
+       part("#/$defs/place3", "[x, y, z]"),
        {},
        "the point of the world that the baseline's middle looks at; or `pitch_deg`"},
-      {"pitch_deg",
-       part(R"({"type": "number", "minimum": -90, "maximum": 90})", "-90 to 90"),
-       {},
-       "angle below the horizontal; 90: straight down"},
-      {"roll_deg",
-       part(R"({"type": "number", "minimum": -180, "maximum": 180})", "-180 to 180"),
-       {},
-       "turn about the optical axis, clockwise as seen from behind"},
+      {"pitch_deg", Part<SensorModel>{}, kPitchDeg, "angle below the horizontal; 90: straight down"},
+      {"roll_deg", Part<SensorModel>{}, kRollDeg, "turn about the optical axis, clockwise as seen from behind"},
       {"world_from_camera",
        part(
            R"({"type": "array", "items": {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}, "minItems": 4, "maxItems": 4})",

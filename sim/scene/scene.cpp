@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fields.h"
 #include "core/input_policy.h"
 #include "core/lengths.h"
 #include "core/library.h"
@@ -20,9 +21,6 @@ namespace {
 
 constexpr Range kAlbedo{0.0, 1.0};
 
-constexpr std::string_view kPlaceSchema = R"({"$ref": "#/$defs/place2"})",
-                           kGlazeSchema = R"({"$ref": "#/$defs/glaze"})";
-
 std::span<const Field<Coat>> glaze_fields() {
   static const Field<Coat> fields[] = {
       {"roughness", &Coat::roughness, {kLeastRoughness, 1.0}, "α of the slopes of its facets (GGX)", true},
@@ -33,32 +31,10 @@ std::span<const Field<Coat>> glaze_fields() {
 std::span<const Field<Desk>> desk_fields() {
   static const Field<Desk> fields[] = {
       {"albedo", &Desk::albedo, kAlbedo, "share of the light that it scatters back"},
-      {"glaze", Part<Desk>{nullptr, nullptr, kGlazeSchema, "an object"}, {}, "a clear coat, which mirrors"},
-      {"size_mm",
-       Part<Desk>{[](const JsonReader& json, Desk& desk) { desk.size = json.vector2(kPlaceMm) * kMetresPerMm; },
-                  [](const Desk& desk) {
-                    return Json{mm_that_read_back(desk.size.x()), mm_that_read_back(desk.size.y())};
-                  },
-                  R"({"$ref": "#/$defs/size2"})", "two lengths above 0"},
-       {},
-       "along x and y"},
-      {"centre_mm",
-       Part<Desk>{[](const JsonReader& json, Desk& desk) { desk.centre = json.vector2(kPlaceMm) * kMetresPerMm; },
-                  [](const Desk& desk) {
-                    return Json{mm_that_read_back(desk.centre.x()), mm_that_read_back(desk.centre.y())};
-                  },
-                  kPlaceSchema, "[x, y]"},
-       {},
-       "its middle"}};
+      {"glaze", Part<Desk>{nullptr, nullptr, "#/$defs/glaze", "an object"}, {}, "a clear coat, which mirrors"},
+      {"size_mm", Lengths{&Desk::size}, kLengthMm, "along x and y"},
+      {"centre_mm", Lengths{&Desk::centre}, kPlaceMm, "its middle"}};
   return fields;
-}
-
-Desk desk_from_json(const JsonReader& json) {
-  Desk desk;
-  read_fields(json, desk_fields(), desk);
-  desk.glaze = glaze_from_json(json);
-  if (desk.size.minCoeff() <= 0.0) json.fail_at("size_mm", "must be two lengths above 0");
-  return desk;
 }
 
 std::span<const Field<Handle>> handle_fields() {
@@ -77,19 +53,43 @@ Handle handle_from_json(const JsonReader& json) {
   return handle;
 }
 
+std::span<const Field<CupShape>> shape_fields() {
+  using Shape = CupShape;
+  constexpr std::string_view kPoints = "points [radius, height]";
+  static const Field<Shape> fields[] = {
+      {"name", &Shape::name, {}, "what the cup is called"},
+      {"height_mm", Part<Shape>{}, kCupLengthMm, "of the rim; four lengths describe upright walls on a flat bottom"},
+      {"bottom_mm", Part<Shape>{}, kCupLengthMm, "of the inside, above the desk"},
+      {"inner_radius_mm", Part<Shape>{}, kCupLengthMm, "of the inside"},
+      {"outer_radius_mm", Part<Shape>{}, kCupLengthMm, "of the outside"},
+      {"inner_profile_mm",
+       Part<Shape>{nullptr, nullptr, "#/$defs/profile", kPoints},
+       {},
+       "instead of lengths: the inside from the axis to the rim, heights above the desk"},
+      {"outer_profile_mm", Part<Shape>{nullptr, nullptr, "#/$defs/profile", kPoints}, {}, "the same of the outside"},
+      {"albedo", &Shape::albedo, kAlbedo, "of an opaque wall"},
+      {"material",
+       Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.material = wall_from_json(json); }, nullptr,
+                   R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/liquid"}]})", "a name or an object"},
+       {},
+       "of a clear wall, which refracts: a name of `fathom list walls` or a description; without it the wall is "
+       "opaque"},
+      {"handle",
+       Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.handle = handle_from_json(json); }, nullptr,
+                   "#/$defs/handle", "an object"},
+       {},
+       "of an opaque cup"},
+      {"source", &Shape::source, {}, "where the numbers come from"}};
+  return fields;
+}
+
 CupShape shape_from_object(const JsonReader& json) {
-  json.allow_only({"name", "height_mm", "bottom_mm", "inner_radius_mm", "outer_radius_mm", "inner_profile_mm",
-                   "outer_profile_mm", "albedo", "material", "handle", "source"});
   CupShape shape;
-  shape.name = json.text_or("name", "cup");
-  shape.albedo = json.number_or("albedo", shape.albedo, kAlbedo);
-  if (json.has("material")) {
+  shape.name = "cup";
+  read_fields(json, shape_fields(), shape);
+  if (shape.material)
     for (const char* key : {"albedo", "handle"})
       if (json.has(key)) json.fail_at(key, "cannot stand beside material: a clear wall has none");
-    shape.material = wall_from_json(json.at("material"));
-  }
-  shape.source = json.text_or("source", "");
-  if (json.has("handle")) shape.handle = handle_from_json(json.at("handle"));
   static_cast<CupProfile&>(shape) = cup_profile_from_json(json);
   return shape;
 }
@@ -120,6 +120,13 @@ Eigen::Quaterniond rotation_from_json(const JsonReader& json) {
 double CupShape::wall_lean(double height_above_desk) const {
   constexpr double kSpan = 0.5e-3;
   return std::atan((inner_radius(height_above_desk + kSpan) - inner_radius(height_above_desk - kSpan)) / (2.0 * kSpan));
+}
+
+Desk desk_from_json(const JsonReader& json) {
+  Desk desk;
+  read_fields(json, desk_fields(), desk);
+  desk.glaze = glaze_from_json(json);
+  return desk;
 }
 
 CupShape cup_shape_from_json(const JsonReader& json) {
@@ -173,9 +180,12 @@ Scene scene_from_json(const JsonReader& json) {
 std::vector<KeyTable> scene_key_tables() {
   std::vector<KeyTable> tables = sensor_key_tables();
   tables.push_back({"desk", "desk", "Desk", key_rows(desk_fields(), Desk{})});
+  for (KeyTable& table : cup_key_tables()) tables.push_back(std::move(table));
+  tables.push_back({"cups[].shape", "shape", "Shape of a cup of revolution", key_rows(shape_fields(), CupShape{})});
   tables.push_back({"cups[].shape.handle", "handle", "Handle", key_rows(handle_fields(), Handle{})});
   tables.push_back({"desk.glaze, cups[].glaze", "glaze", "Glaze", key_rows(glaze_fields(), Coat{})});
-  for (KeyTable& table : surface_key_tables()) tables.push_back(std::move(table));
+  for (std::vector<KeyTable> (*const more)() : {medium_key_tables, object_key_tables})
+    for (KeyTable& table : more()) tables.push_back(std::move(table));
   return tables;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/cup_profile.h"
-#include "core/fields.h"
+#include "core/key_table.h"
 #include "core/pose.h"
 #include "sim/optics/medium.h"
 #include "sim/scene/cavity.h"
@@ -155,6 +155,7 @@ struct Scene {
 /// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes come from
 /// scenes/cups, named solids from scenes/solids; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);
+Desk desk_from_json(const JsonReader& json);
 Cup cup_from_json(const JsonReader& json);
 Object object_from_json(const JsonReader& json);
 Solid solid_from_json(const JsonReader& json);
@@ -166,10 +167,10 @@ Eigen::Quaterniond rotation_from_json(const JsonReader& json);
 /// The member position_mm of a thing that is put down, given its lowest point's height [m] before: two numbers place it
 /// on the desk, a third is the height of its lowest point.
 Eigen::Translation3d put_down(const JsonReader& json, double lowest);
-/// The objects of a scene file whose keys stand in tables.
+/// The objects of a scene file below its own: all of them, those of a cup, those of an object.
 std::vector<KeyTable> scene_key_tables();
-/// Those of a liquid's surface.
-std::vector<KeyTable> surface_key_tables();
+std::vector<KeyTable> cup_key_tables();
+std::vector<KeyTable> object_key_tables();
 /// Whether a file's name ends as a glTF file's.
 bool names_gltf(const std::string& file);
 

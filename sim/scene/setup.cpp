@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <tuple>
 
 #include "core/error.h"
+#include "core/fields.h"
 #include "sim/scene/medium_json.h"
 
 namespace fathom {
@@ -26,15 +29,60 @@ void require_files(const JsonReader& root, const Scene& scene) {
       objects[i].fail_at("gltf", fmt::format("there is no file {}", gltf->string()));
 }
 
-Circumstances circumstances_from_json(const JsonReader& json) {
-  json.allow_only({"time_s", "stood_s", "liquid", "liquids"});
-  Circumstances circumstances;
-  circumstances.time_s = json.number_or("time_s", 0.0, kNonNegative);
-  circumstances.stood_s = json.number_or("stood_s", 0.0, kNonNegative);
-  circumstances.liquid = json.text_or("liquid", "");
-  for (const JsonReader& liquid : json.items_or_none("liquids"))
-    circumstances.liquids.push_back(medium_from_json(liquid));
-  return circumstances;
+std::span<const Field<Circumstances>> circumstance_fields() {
+  using Facts = Circumstances;
+  static const Field<Facts> fields[] = {
+      {"time_s", &Facts::time_s, kNonNegative, "since the session began, at frame 0"},
+      {"stood_s", &Facts::stood_s, kNonNegative, "how long the cups have been filled by then"},
+      {"liquid", &Facts::liquid, {}, "as labelled, where that is not the liquid's name"},
+      {"liquids",
+       Part<Facts>{
+           [](const JsonReader& json, Facts& facts) {
+             for (const JsonReader& liquid : json.items()) facts.liquids.push_back(medium_from_json(liquid));
+           },
+           nullptr,
+           R"({"type": "array", "items": {"anyOf": [{"type": "string"}, {"$ref": "#/$defs/liquid"}, {"$ref": "#/$defs/changed_liquid"}]}})",
+           "a list"},
+       {},
+       "all that are poured, in the order of their labels"}};
+  return fields;
+}
+
+std::span<const Field<Setup>> setup_fields() {
+  static const Field<Setup> fields[] = {
+      schema_field<Setup>(),
+      {"sensor",
+       Part<Setup>{[](const JsonReader& json, Setup& setup) { setup.rig = rig_from_json(json); }, nullptr,
+                   "#/$defs/sensor", "an object"},
+       {},
+       "the device, and where it stands",
+       true},
+      {"desk",
+       Part<Setup>{nullptr, nullptr, R"({"anyOf": [{"$ref": "#/$defs/desk"}, {"type": "null"}]})", "an object or null"},
+       {},
+       "null: no desk"},
+      {"cups",
+       Part<Setup>{nullptr, nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/cup"}})", "a list of objects"},
+       {},
+       "cups, and what is in them"},
+      {"objects",
+       Part<Setup>{nullptr, nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/object"}})", "a list of objects"},
+       {},
+       "what else stands about"},
+      {"effects",
+       Part<Setup>{[](const JsonReader& json, Setup& setup) {
+                     for (const JsonReader& effect : json.items()) setup.effects.push_back(effect.value());
+                   },
+                   nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/effect"}})", "a list of objects"},
+       {},
+       "what the scene has beside the above: names and parameters by `fathom list effects`"},
+      {"circumstances",
+       Part<Setup>{
+           [](const JsonReader& json, Setup& setup) { read_fields(json, circumstance_fields(), setup.circumstances); },
+           nullptr, "#/$defs/circumstances", "an object"},
+       {},
+       "when it is shot, and of what as far as the laboratory knows; for the effects that go by it"}};
+  return fields;
 }
 
 /// All that decides what is shot: a new member of Setup does not compile until it is here or left out.
@@ -65,10 +113,9 @@ void require_index(const JsonReader& json, const Medium& medium, double waveleng
 
 Setup setup_from_json(const Json& json, const std::string& file, const std::string& pointer) {
   const JsonReader root(json, file, pointer);
-  root.allow_only({"$schema", "sensor", "desk", "cups", "objects", "effects", "circumstances"});
-  Setup setup{.scene = scene_from_json(root), .rig = rig_from_json(root.at("sensor")), .source = json, .file = file};
-  for (const JsonReader& effect : root.items_or_none("effects")) setup.effects.push_back(effect.value());
-  if (root.has("circumstances")) setup.circumstances = circumstances_from_json(root.at("circumstances"));
+  Setup setup{.scene = {}, .rig = {}, .source = json, .file = file};
+  read_fields(root, setup_fields(), setup);
+  setup.scene = scene_from_json(root);
   require_indices(root, setup);
   return setup;
 }
@@ -81,6 +128,14 @@ Setup read_setup(const std::filesystem::path& path) {
   Setup setup = setup_from_json(read_json(path), path.string());
   require_files(JsonReader(setup.source, path.string()), setup.scene);
   return setup;
+}
+
+std::vector<KeyTable> setup_key_tables() {
+  std::vector<KeyTable> tables{
+      {"", "", "Scene", key_rows(setup_fields(), Setup{})},
+      {"circumstances", "circumstances", "Circumstances", key_rows(circumstance_fields(), Circumstances{})}};
+  std::ranges::move(scene_key_tables(), std::back_inserter(tables));
+  return tables;
 }
 
 }  // namespace fathom

@@ -61,6 +61,9 @@ Setup read_setup(const std::filesystem::path& path);
 /// `pointer` is where in the file it stands.
 Setup setup_from_json(const Json& json, const std::string& file, const std::string& pointer = "");
 
+/// The objects of a scene file.
+std::vector<KeyTable> setup_key_tables();
+
 /// How it is processed and what light is added, for run.json.
 Json json_from_processing(const Processing& processing);
 Json json_from_light(const IndirectLight& light);

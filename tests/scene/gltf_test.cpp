@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/base64.h"
 #include "core/files.h"
 #include "core/input_policy.h"
 #include "core/json.h"
@@ -19,18 +20,6 @@
 
 namespace fathom {
 namespace {
-
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      bits = bits << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? kDigits[bits >> (18 - 6 * j) & 63] : '=';
-  }
-  return text;
-}
 
 /// One triangle (1,2,3) (4,5,6) (7,8,10) with three indices after the positions.
 Json triangle(std::array<float, 9> positions = {1, 2, 3, 4, 5, 6, 7, 8, 10},
