@@ -11,6 +11,7 @@
 #include "app/number_option.h"
 #include "app/print.h"
 #include "app/results.h"
+#include "core/error.h"
 #include "core/folder_owner.h"
 #include "core/input_policy.h"
 #include "core/table.h"
@@ -77,6 +78,8 @@ void run_calibrate(const CalibrateOptions& options, const CommonOptions& common)
   if (options.focal_px > 0.0) how.focal_px = options.focal_px;
   how.registered = options.registered;
   const std::vector<CalibrationCloud> clouds = clouds_of(options);
+  for (const CalibrationCloud& cloud : clouds)
+    if (!std::filesystem::exists(cloud.file)) throw Error(cloud.file.string(), "no such file");
   const FolderOwner owner(common.output);  // what cannot be written shows before the long work
   const UnitCalibration unit = calibrate(clouds, how, common.quiet);
   std::filesystem::remove(common.output / "unit.json");  // of an earlier run: it does not belong to what follows

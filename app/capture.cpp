@@ -8,9 +8,11 @@
 #include <memory>
 #include <string>
 
+#include "app/choice_option.h"
 #include "app/commands.h"
 #include "app/output_size.h"
 #include "app/print.h"
+#include "app/scene_doubts.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
@@ -118,6 +120,8 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
   const InputRecord inputs;
   Setup setup = read_setup(options.scene);
+  for (const std::string& doubt : scene_doubts(setup.source))
+    print_warning(fmt::format("{}: {}", options.scene.string(), doubt));
   if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
   std::optional<LightModel> light;
@@ -126,6 +130,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
                         capture_bytes(setup.rig.sensor, mode == CaptureMode::photometric, options.device_outputs)};
   const std::string sentence = require_space(common, size, options.yes);
   if (options.frames > 1) announce(common, sentence);
+  Progress progress(options.frames == 1 ? "capture" : "frame", static_cast<std::size_t>(options.frames), common.quiet);
   Camera camera(setup, mode, options.spp, common.seed, light);
   const SensorModel& sensor = camera.setup().rig.sensor;
   const ResolvedScene resolved = resolved_scene(camera.setup());  // before anything goes that it may name
@@ -141,7 +146,6 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
                        options.frames, frame_files(mode == CaptureMode::photometric, options.device_outputs));
   folder.write(resolved);
   write_truth(common.output, camera.truth());
-  Progress progress("frame", static_cast<std::size_t>(options.frames), common.quiet || options.frames == 1);
   std::vector<Row> rows;
   int without_depth = 0;
   for (int i = 0; i < options.frames; ++i, progress.step()) {
@@ -183,7 +187,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option("--model", options->model, "Model of a diagnosis, whose effects are there as well")
       ->type_name("M.json");
   app.add_option("--mode", options->mode, "geometric: exact triangulation; photometric: infrared image and matching")
-      ->check(CLI::IsMember({"geometric", "photometric"}))
+      ->check(one_of("mode", {"geometric", "photometric"}))
       ->capture_default_str();
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")
       ->check(CLI::Range(1, 4096))
@@ -193,7 +197,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
          "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
          "interreflected, mirrored and scattered as well; auto: full where light enters a liquid and is scattered "
          "there by more than 0.05 mm, else direct")
-      ->check(CLI::IsMember({"auto", "direct", "full"}))
+      ->check(one_of("light", {"auto", "direct", "full"}))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")
       ->check(CLI::Range(1, kMostFrames))

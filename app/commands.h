@@ -8,6 +8,7 @@
 namespace fathom {
 
 std::function<void()> define_capture(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_manual(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
@@ -28,7 +29,7 @@ inline constexpr std::array kCommands{
             "  fathom capture scenes/paper_water.json --mode geometric -o out/exact\n"
             "  fathom capture scenes/paper_milk_tea.json -o out/milk_tea\n"
             "  fathom capture scenes/glass_water.json --light full -o out/glass",
-            define_capture},
+            define_capture, kNeedsOutput},
     Command{"theory", "The paper's Eq. 7 and the exact triangulation of the raised bottom, as CSV",
             "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50 -o out/theory\n"
             "  fathom theory --max-skew",
@@ -50,7 +51,7 @@ inline constexpr std::array kCommands{
     Command{"campaign", "A simulated measurement campaign, in the files that a laboratory with a sensor writes",
             "  fathom campaign scenes/campaigns/paper.json -o out/paper\n"
             "  fathom campaign scenes/campaigns/paper.json -o out/paper --seed 2 --truth out/paper_truth.json",
-            define_campaign},
+            define_campaign, kNeedsOutput},
     Command{"generate", "Labelled frames of random desks by the thousand, as BOP and COCO have them",
             "  fathom generate --frames 20 -o out/frames\n  fathom generate --example\n"
             "  fathom generate scenes/datasets/cups.json --frames 1000 --shard 0/4 -o out/frames",
@@ -66,21 +67,21 @@ inline constexpr std::array kCommands{
     Command{"calibrate", "Learns how one device differs from its model, from clouds of desks and walls: unit.json",
             "  fathom calibrate out/water/cloud.pcd -o out/unit\n"
             "  fathom calibrate out/paper/frames.csv --height-mm 650 --pitch-deg 58.4 -o out/unit",
-            define_calibrate},
+            define_calibrate, kNeedsOutput},
     Command{"diagnose",
             "Finds where model and measurement disagree, names the effect that explains it, and what is left",
             "  fathom diagnose out/paper -o out/diagnosis\n"
             "  fathom diagnose out/paper --model out/diagnosis/model.json -o out/rest\n"
             "  fathom diagnose out/paper --fidelity photometric -o out/traced",
-            define_diagnose},
+            define_diagnose, kNeedsOutput},
     Command{"reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
             "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce fig5 fig14 --trials 10 -o "
             "out/paper_figures",
-            define_reproduce},
+            define_reproduce, kNeedsOutput},
     Command{"template", "Makes a cup template for detect from a cloud of one empty cup",
             "  fathom template cloud.pcd -o templates --name my_mug\n"
             "  fathom template cloud.pcd -o templates --name tall_mug --liquid-threshold-mm 6",
-            define_template},
+            define_template, kNeedsOutput},
     Command{"verify", "Certification of light transport against published tables: value, standard error, verdict",
             "  fathom verify all\n"
             "  fathom verify slab --index 1.336 --absorption-per-mm 0.0032 --scattering-per-mm 3.3 --anisotropy 0.85 "
@@ -91,6 +92,8 @@ inline constexpr std::array kCommands{
             define_verify},
     Command{"list", "The libraries of media, cups, sensors and effects, with units and sources",
             "  fathom list media\n  fathom list cups --json", define_list},
+    Command{"manual", "Man pages, and completions for bash, zsh and fish, as they lie below ~/.local/share",
+            "  fathom manual -o out/share", define_manual, kNeedsOutput},
 };
 
 }  // namespace fathom

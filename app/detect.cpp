@@ -37,7 +37,7 @@ struct DetectOptions {
 void run_fused(const DetectOptions& options, const DetectorSettings& settings, const CommonOptions& common) {
   const std::vector<Pose> poses = read_poses(options.poses, options.clouds.size());
   std::vector<PosedDetection> views;
-  Progress progress("detect", poses.size(), common.quiet || poses.size() == 1);
+  Progress progress("detect", poses.size(), common.quiet);
   for (std::size_t i = 0; i < poses.size(); ++i, progress.step())
     views.push_back({detect_robust(read_cloud(options.clouds[i]), settings), poses[i]});
   const Detection detection = fuse_views(views, settings);
@@ -48,23 +48,38 @@ void run_fused(const DetectOptions& options, const DetectorSettings& settings, c
                   format_rows(detection_rows(options.clouds.front().string(), detection), false));
 }
 
+/// What a user wants to know of a cloud that is searched in vain.
+void warn_of(const std::string& name, const Cloud& cloud, const Detection& detection) {
+  constexpr float kFar_m = 50.0f;  // beyond what such a camera measures; in millimetres it would be too near
+  std::ptrdiff_t far = 0, near = 0;
+  for (const Eigen::Vector3f& point : cloud.points) {
+    far += point.z() > kFar_m;
+    near += point.z() <= kFar_m;
+  }
+  if (far > near)
+    print_warning(fmt::format(
+        "{}: most points lie more than {:g} m away; clouds are in metres, is this one in millimetres?", name, kFar_m));
+  if (!detection.desk) print_warning(fmt::format("{}: {}", name, detection.why));
+}
+
 void run_detect(const DetectOptions& options, const CommonOptions& common) {
   const Method& method = method_named(options.method);
   DetectorSettings settings = read_detector_settings(options.config);
   settings.prior = options.desk.prior();
   if (!options.poses.empty()) return run_fused(options, settings, common);
 
+  const std::size_t count = options.live ? static_cast<std::size_t>(options.frames) : options.clouds.size();
+  Progress progress("detect", count, common.quiet);
   std::optional<LiveCamera> camera;
   if (options.live) camera.emplace(*options.live);
-  const std::size_t count = camera ? static_cast<std::size_t>(options.frames) : options.clouds.size();
 
   Json all = Json::array();
   std::string rows;
-  Progress progress("detect", count, common.quiet || count == 1);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = camera ? camera->uri() : options.clouds[i].string();
     const Cloud cloud = camera ? cloud_from_image(camera->next_cloud()) : read_cloud(options.clouds[i]);
     const Detection detection = method.detect(cloud, settings);
+    warn_of(name, cloud, detection);
     if (common.json && count == 1) {
       all = detection_json(detection);
     } else if (common.json) {

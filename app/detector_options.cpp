@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
+#include "app/choice_option.h"
 #include "app/number_option.h"
 #include "core/error.h"
 #include "core/units.h"
@@ -36,10 +36,7 @@ void add_method_option(CLI::App& app, std::string& method) {
     names.emplace_back(one.name);
     help += fmt::format(" {} ({})", one.name, one.summary);
   }
-  app.add_option("--method", method, help)->capture_default_str()->check([names](const std::string& name) {
-    const bool known = std::find(names.begin(), names.end(), name) != names.end();
-    return known ? std::string() : unknown_name("method", name, names);
-  });
+  app.add_option("--method", method, help)->capture_default_str()->check(one_of("method", names));
 }
 
 }  // namespace fathom

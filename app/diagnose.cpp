@@ -9,6 +9,7 @@
 #include <optional>
 #include <tuple>
 
+#include "app/choice_option.h"
 #include "app/commands.h"
 #include "app/print.h"
 #include "app/remove_diagnosis.h"
@@ -251,12 +252,12 @@ std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common
   app.add_option("--without", options->without,
                  "Effects that are not considered, e.g. to see what is mistaken for them")
       ->delimiter(',')
-      ->check(CLI::IsMember(effect_ids()))
+      ->check(one_of("effect", effect_ids()))
       ->type_name("EFFECT");
   app.add_option("--fidelity", options->fidelity,
                  "What predicts: geometric (some hundred rays a condition), or after that photometric (whole simulated "
                  "images of what is left, minutes)")
-      ->check(CLI::IsMember({"geometric", "photometric"}))
+      ->check(one_of("fidelity", {"geometric", "photometric"}))
       ->capture_default_str();
   return [options, &common] { run_diagnose(*options, common); };
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "app/choice_option.h"
 #include "app/commands.h"
 #include "app/results.h"
 #include "campaign/campaign_spec.h"
@@ -140,7 +141,7 @@ std::function<void()> define_list(CLI::App& app, const CommonOptions& common) {
   const auto library = std::make_shared<std::string>();
   app.add_option("library", *library, "media, walls, cups, solids, sensors, effects, or the keys of files")
       ->required()
-      ->check(CLI::IsMember({"media", "walls", "cups", "solids", "sensors", "effects", "keys"}));
+      ->check(one_of("library", {"media", "walls", "cups", "solids", "sensors", "effects", "keys"}));
   return [library, &common] {
     const std::string text = *library == "effects" ? effects_text(common.json)
                              : *library == "keys"  ? keys_text(common.json)

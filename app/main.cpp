@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/examples.h"
 #include "app/number_option.h"
 #include "app/print.h"
 #include "core/error.h"
@@ -43,6 +44,29 @@ void check_command(const CLI::App& app, std::span<char* const> words) {
   if (*words[0] != '-') throw fathom::UsageError(fathom::unknown_name("command", words[0], names));
 }
 
+/// A word that looks like an option and is none of the commands that are named: CLI11 would not say which are.
+void check_options(const CLI::App& app, std::span<char* const> words) {
+  std::vector<std::string> names;
+  const auto add_names = [&](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  };
+  add_names(app);
+  const CLI::App* command = &app;
+  for (const std::string_view word : words) {
+    if (word == "--") return;
+    for (const CLI::App* below :
+         command->get_subcommands([&](const CLI::App* each) { return each->get_name() == word; })) {
+      if (command == &app) names.clear();
+      add_names(*below);
+      command = below;
+    }
+    const std::string name(word.substr(0, word.find('=')));
+    if (name.starts_with("--") && std::find(names.begin(), names.end(), name) == names.end())
+      throw fathom::UsageError(fathom::unknown_name("option", name, names));
+  }
+}
+
 std::string folder_name(const std::string& text) { return text.empty() ? "must name a folder, got ''" : ""; }
 
 int bad_usage(const std::string& what) {
@@ -50,8 +74,11 @@ int bad_usage(const std::string& what) {
   return kBadUsage;
 }
 
-void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
-  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR")->check(folder_name);
+void add_common_options(CLI::App& app, fathom::CommonOptions& common, bool needs_output) {
+  app.add_option("-o,--output", common.output, "Folder for the results")
+      ->type_name("DIR")
+      ->check(folder_name)
+      ->required(needs_output);
   app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
@@ -75,14 +102,16 @@ int main(int argc, char** argv) {
   std::function<void()> run;
   for (const fathom::Command& command : fathom::kCommands) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.summary));
-    sub->footer("Examples:\n" + std::string(command.examples));
+    sub->footer("Examples:\n" + fathom::examples_from_here(std::string(command.examples)));
     sub->callback([&run, body = command.define(*sub, common)] { run = body; });
-    add_common_options(*sub, common);
+    add_common_options(*sub, common, command.needs_output);
   }
   fathom::require_numbers(app);
 
   try {
-    check_command(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+    const auto words = std::span(argv, static_cast<std::size_t>(argc)).subspan(1);
+    check_command(app, words);
+    check_options(app, words);
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     app.exit(help);

@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-void print_text(std::string_view text) { fmt::print("{}", visible_text(text)); }
+void print_text(std::string_view text) { print_result(visible_text(text)); }
 
 namespace {
 

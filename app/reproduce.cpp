@@ -10,6 +10,7 @@
 #include <optional>
 #include <variant>
 
+#include "app/choice_option.h"
 #include "app/commands.h"
 #include "app/print.h"
 #include "app/results.h"
@@ -112,7 +113,7 @@ std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& commo
                  "Which figures; all: of the paper. recognition and table1: its experiments on random desks, some "
                  "minutes each; liquids: fig5 of all its liquids in full light, some minutes; "
                  "scattering: how strongly its milk tea scatters")
-      ->check(CLI::IsMember(names))
+      ->check(one_of("figure", names))
       ->capture_default_str();
   app.add_option("--trials", options->trials,
                  "Shots of each condition: of figures 3 (the paper's are 10), desks of recognition 20 and of table1 10")

@@ -11,7 +11,7 @@ endif()
 add_library(fathom_settings INTERFACE)
 target_compile_features(fathom_settings INTERFACE cxx_std_20)
 target_include_directories(fathom_settings INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/fathom>)
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
 # Results must not depend on how the compiler contracts a*b+c, so that every build gives the same bytes. Neither errno nor
 # floating-point traps are looked at; without them loops with square roots and rounding become vectors.
 target_compile_options(fathom_settings INTERFACE
@@ -76,13 +76,19 @@ function(fathom_use_precompiled target name)
   endif()
 endfunction()
 
-# fathom_module(NAME SOURCES... [PUBLIC targets...] [PRIVATE targets...]): one static library, exported as Fathom::NAME.
+# fathom_module(NAME SOURCES... [HEADERS...] [PUBLIC targets...] [PRIVATE targets...]): one static library. One with HEADERS, which are what other
+# programs are to call, is installed with them and exported as Fathom::NAME.
 function(fathom_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   add_library(fathom_${name} STATIC ${ARG_SOURCES})
   add_library(Fathom::${name} ALIAS fathom_${name})
   set_target_properties(fathom_${name} PROPERTIES EXPORT_NAME ${name})
   target_link_libraries(fathom_${name} PUBLIC fathom_settings ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   fathom_use_precompiled(fathom_${name} fathom_precompiled_modules)
-  set_property(GLOBAL APPEND PROPERTY FATHOM_MODULES fathom_${name})
+  if(ARG_HEADERS)
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+    list(TRANSFORM ARG_HEADERS PREPEND ${folder}/)
+    set_property(GLOBAL APPEND PROPERTY FATHOM_INSTALLED_MODULES fathom_${name})
+    set_property(GLOBAL APPEND PROPERTY FATHOM_INSTALLED_HEADERS ${ARG_HEADERS})
+  endif()
 endfunction()

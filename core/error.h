@@ -16,7 +16,7 @@ class Error : public std::runtime_error {
   Error(std::string_view file, std::string_view where, std::string_view what);
 };
 
-/// "unknown liquid 'wtaer', choose from milk_tea, water"
+/// "unknown liquid 'wtaer', choose from milk_tea, water; did you mean 'water'?"
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string> choices);
 
 }  // namespace fathom

@@ -13,4 +13,12 @@ void occupy_standard_streams();
 /// errors even.
 void say(std::string_view text) noexcept;
 
+/// The same for a line without its end, whose place the next text takes.
+void say_progress(std::string_view text) noexcept;
+
+void clear_progress() noexcept;
+
+/// Writes to stdout, on a terminal never into the line of the progress. Throws std::system_error where it cannot.
+void print_result(std::string_view text);
+
 }  // namespace fathom

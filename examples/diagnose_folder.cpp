@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "diagnosis/decision/decide.h"
-#include "diagnosis/measurement/read_measurement.h"
-#include "diagnosis/predict/physics.h"
-#include "report/diagnosis_words.h"
+#include <fathom/diagnosis/decision/decide.h>
+#include <fathom/diagnosis/measurement/read_measurement.h>
+#include <fathom/diagnosis/predict/physics.h>
+#include <fathom/report/diagnosis_words.h>
 
 int main(int argc, char** argv) try {
   if (argc != 2) {

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "detector/read_cloud.h"
-#include "detector/robust.h"
+#include <fathom/detector/read_cloud.h>
+#include <fathom/detector/robust.h>
 
 int main(int argc, char** argv) try {
   if (argc != 2) {

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <exception>
 
-#include "core/units.h"
-#include "sim/effects/changes.h"
-#include "sim/sensor/capture.h"
+#include <fathom/core/units.h>
+#include <fathom/sim/effects/changes.h>
+#include <fathom/sim/sensor/capture.h>
 
 namespace {
 

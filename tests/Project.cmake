@@ -9,6 +9,9 @@ set_tests_properties(layers layers_test skipped_test constants_page links PROPER
 
 if(FATHOM_SIMULATOR)
   add_test(NAME pages COMMAND ${PROJECT_SOURCE_DIR}/scripts/pages --check $<TARGET_FILE:fathom>)
+  add_test(NAME manual COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/app/manual_test.py $<TARGET_FILE:fathom>)
+  add_test(NAME progress COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/app/progress_test.py $<TARGET_FILE:fathom>)
+  add_test(NAME examples COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/app/examples.py --quick $<TARGET_FILE:fathom>)
   add_test(NAME results_test COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/results_test.py)
   set_tests_properties(results_test PROPERTIES ENVIRONMENT FATHOM=$<TARGET_FILE:fathom>)
   set_tests_properties(pages PROPERTIES LABELS architecture)
@@ -24,10 +27,12 @@ if(FATHOM_CLANG_FORMAT)
 endif()
 
 if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
+  include(GNUInstallDirs)
+  get_property(public_headers GLOBAL PROPERTY FATHOM_INSTALLED_HEADERS)
   add_test(NAME find_package COMMAND ${CMAKE_COMMAND}
     -D build=${PROJECT_BINARY_DIR} -D consumer=${CMAKE_CURRENT_SOURCE_DIR}/find_package
     -D scratch=${CMAKE_CURRENT_BINARY_DIR}/find_package -D generator=${CMAKE_GENERATOR} -D examples=${PROJECT_SOURCE_DIR}/examples
-    -D simulator=${FATHOM_SIMULATOR}
+    -D simulator=${FATHOM_SIMULATOR} -D libraries=${CMAKE_INSTALL_LIBDIR} "-Dheaders=${public_headers}"
     -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
 endif()
 

@@ -85,7 +85,10 @@ def matches_any(name, patterns):
 
 
 def include_breaches(root, path, included):
-    source, target = layer_of(path), layer_of(included)
+    source = layer_of(path)
+    if source == "examples":  # as in a consumer's program
+        included = included.removeprefix("fathom/")
+    target = layer_of(included)
     may_include = LAYERS[source]
     if target and not (root / included).exists():
         yield f"{included} does not exist"

@@ -317,7 +317,7 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
   EXPECT_EQ(error_of(with("/trails", 3)).rfind("/trails: ", 0), 0u);
   EXPECT_EQ(error_of(with("/trials", 0)).rfind("/trials: must be ", 0), 0u);
   EXPECT_EQ(error_of(with("/fillings/1/liquid", "wtaer")),
-            "/fillings/1/liquid: unknown liquid 'wtaer', choose from empty, water\n");
+            "/fillings/1/liquid: unknown liquid 'wtaer', choose from empty, water; did you mean 'water'?\n");
   EXPECT_EQ(error_of(with("/fillings/1/fill_mm", 81)),
             "/fillings/1/fill_mm: must be at most 80, the depth of the cup\n");
   EXPECT_EQ(error_of(with("/fillings/0/fill_mm", 5)), "/fillings/0/fill_mm: cannot stand beside \"empty\"\n");

@@ -78,11 +78,32 @@ TEST(Commands, OnesThatDoNotExistAreNamedBesideThoseThatDo) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.text.rfind("error: unknown command 'theroy', choose from capture, theory, detect, ", 0), 0u)
       << result.text;
+  EXPECT_NE(result.text.find(", manual; did you mean 'theory'?\n"), std::string::npos) << result.text;
   EXPECT_EQ(run_program("").text.rfind("error: a command is missing, choose from capture, ", 0), 0u);
   EXPECT_EQ(run_program("verify slap").text.rfind("error: unknown command 'slap', choose from slab, fresnel, ", 0), 0u);
   EXPECT_EQ(run_program("theory -o ''").text.rfind("error: --output: must name a folder, got ''", 0), 0u);
   EXPECT_EQ(run_program("--help").exit_code, 0);
   EXPECT_EQ(run_program("--version").exit_code, 0);
+}
+
+TEST(Options, OnesThatDoNotExistAreNamedBesideTheNearest) {
+  for (const char* typed :
+       {"theory --hieght-mm 650", "verify slab --hieght-mm=650", "detect --metod paper", "--verson"}) {
+    const Outcome result = run_program(typed);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.text.rfind("error: unknown option '--", 0), 0u) << result.text;
+  }
+  EXPECT_NE(run_program("theory --hieght-mm 650").text.find("; did you mean '--height-mm'?\n"), std::string::npos);
+  EXPECT_NE(run_program("verify fresnel --thread=1").text.find("; did you mean '--threads'?\n"), std::string::npos);
+  EXPECT_NE(run_program("list efects").text.find("; did you mean 'effects'?\n"), std::string::npos);
+}
+
+TEST(Options, OnesThatAreRequiredAreMarked) {
+  for (const char* command : {"capture", "campaign", "calibrate", "diagnose", "reproduce", "template"}) {
+    EXPECT_NE(run_program(std::string(command) + " --help").text.find("-o,--output DIR REQUIRED"), std::string::npos)
+        << command;
+  }
+  EXPECT_EQ(run_program("theory --help").text.find("-o,--output DIR REQUIRED"), std::string::npos);
 }
 
 TEST(ListCommand, KnowsEveryLibrary) {

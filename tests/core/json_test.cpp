@@ -25,8 +25,9 @@ TEST(Json, UnknownKeyNamesFilePathAndChoices) {
 
 TEST(Json, UnknownNameNamesFilePathAndChoices) {
   const std::vector<std::string> choices{"milk_tea", "water"};
-  expect_error([&] { kReader.at("cups").items().at(0).at("liquid").choice(choices, "liquid"); },
-               {"scene.json: /cups/0/liquid: ", "unknown liquid 'wtaer', choose from milk_tea, water"});
+  expect_error(
+      [&] { kReader.at("cups").items().at(0).at("liquid").choice(choices, "liquid"); },
+      {"scene.json: /cups/0/liquid: ", "unknown liquid 'wtaer', choose from milk_tea, water; did you mean 'water'?"});
   const Json water = "water";
   EXPECT_EQ(JsonReader(water, "f").choice(choices, "liquid"), 1u);
 }

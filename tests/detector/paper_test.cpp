@@ -198,7 +198,9 @@ TEST(Methods, AnUnknownNameListsTheChoices) {
     method_named("papre");
     FAIL();
   } catch (const Error& problem) {
-    EXPECT_STREQ(problem.what(), "unknown method 'papre', choose from robust, paper, sac-ia, prerejective");
+    EXPECT_STREQ(problem.what(),
+                 "unknown method 'papre', choose from robust, paper, sac-ia, prerejective; "
+                 "did you mean 'paper'?");
   }
 }
 

@@ -1,0 +1,41 @@
+// What a command takes, read off CLI11 for what is written about it: man pages and completions.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fathom {
+
+struct OptionFacts {
+  std::vector<std::string> names;    ///< "-o", "--output"; of a positional the one that its place is called by
+  std::string value;                 ///< what its value is called, "DIR"; empty: it takes none
+  std::vector<std::string> choices;  ///< of which its value is one, unless there are none
+  std::string allowed;               ///< other bounds of its value, in CLI11's words
+  std::string standard;              ///< what holds without it
+  std::string help;
+  bool is_positional = false, is_required = false, is_list = false;
+
+  bool names_folder() const;
+  bool is_number() const;
+};
+
+struct CommandFacts {
+  std::string name;  ///< as it is typed: "fathom verify slab"
+  std::string summary;
+  std::string examples;
+  std::vector<OptionFacts> options;
+  std::vector<CommandFacts> commands;
+};
+
+/// `name` is what is typed before the command's own options.
+CommandFacts facts_of(const CLI::App& command, const std::string& name);
+
+/// Every command by itself, in the order of --help, each before its own commands.
+std::vector<const CommandFacts*> all_commands(const CommandFacts& top);
+
+}  // namespace fathom

@@ -1,0 +1,14 @@
+// What of a scene is allowed and yet hardly meant.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+
+namespace fathom {
+
+/// Lengths so small that they may have been given in metres, a sentence each: "/cups/0/fill_mm: is 0.04 mm; …".
+std::vector<std::string> scene_doubts(const Json& scene);
+
+}  // namespace fathom

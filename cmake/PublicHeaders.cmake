@@ -1,0 +1,20 @@
+# usage: cmake -D source=DIR -D output=DIR -D headers=a.h;b.h -P PublicHeaders.cmake
+# Copies headers, and those that they include in their turn, for programs that include <fathom/...>. Inside of the project they are included
+# by their path from its root; two folders of a consumer could have the same name, so copies include each other by that of the project.
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE ${output})
+set(waiting ${headers})
+set(seen "")
+while(waiting)
+  list(POP_FRONT waiting header)
+  if(header IN_LIST seen)
+    continue()
+  endif()
+  list(APPEND seen ${header})
+  file(READ ${source}/${header} text)
+  string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
+  list(TRANSFORM includes REPLACE "#include \"([^\"]+)\"" "\\1")
+  list(APPEND waiting ${includes})
+  string(REGEX REPLACE "#include \"([^\"]+)\"" "#include <fathom/\\1>" text "${text}")
+  file(WRITE ${output}/${header} "${text}")
+endwhile()
