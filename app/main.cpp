@@ -43,15 +43,16 @@ void check_command(const CLI::App& app, std::span<char* const> words) {
   if (*words[0] != '-') throw fathom::UsageError(fathom::unknown_name("command", words[0], names));
 }
 
-std::string folder_name(const std::string& text) { return text.empty() ? "must name a folder, got ''" : ""; }
-
 int bad_usage(const std::string& what) {
   fathom::print_error(what, "Run with --help for more information.\n");
   return kBadUsage;
 }
 
-void add_common_options(CLI::App& app, fathom::CommonOptions& common) {
-  app.add_option("-o,--output", common.output, "Folder for the results")->type_name("DIR")->check(folder_name);
+void add_common_options(CLI::App& app, std::string_view output, fathom::CommonOptions& common) {
+  const std::string kind = output == "DIR" ? "folder" : "file";
+  app.add_option("-o,--output", common.output, output == "DIR" ? "Folder for the results" : "File for the result")
+      ->type_name(std::string(output))
+      ->check([kind](const std::string& text) { return text.empty() ? "must name a " + kind + ", got ''" : ""; });
   app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
@@ -77,7 +78,7 @@ int main(int argc, char** argv) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.summary));
     sub->footer("Examples:\n" + std::string(command.examples));
     sub->callback([&run, body = command.define(*sub, common)] { run = body; });
-    add_common_options(*sub, common);
+    add_common_options(*sub, command.output, common);
   }
   fathom::require_numbers(app);
 

@@ -19,6 +19,18 @@ th, td { padding: .28rem .9rem .28rem 0; vertical-align: top; } td { border-bott
 .data td, .data th { text-align: right; font-variant-numeric: tabular-nums; } summary { cursor: pointer; color: #0072B2; }
 </style>)";
 
+std::string picture_of(std::string_view png, std::string_view alternative) {
+  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", html_escaped(alternative), base64(png));
+}
+
+std::string row_html(const std::vector<std::string>& cells, const char* tag) {
+  std::string html = "<tr>";
+  for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, html_escaped(cell));
+  return html + "</tr>\n";
+}
+
+}  // namespace
+
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -31,18 +43,6 @@ std::string base64(std::string_view bytes) {
   }
   return text;
 }
-
-std::string picture_of(std::string_view png, std::string_view alternative) {
-  return fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n", html_escaped(alternative), base64(png));
-}
-
-std::string row_html(const std::vector<std::string>& cells, const char* tag) {
-  std::string html = "<tr>";
-  for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, html_escaped(cell));
-  return html + "</tr>\n";
-}
-
-}  // namespace
 
 std::string html_escaped(std::string_view text) {
   std::string result;
@@ -65,11 +65,11 @@ std::string html_escaped(std::string_view text) {
   return result;
 }
 
-std::string html_page(std::string_view title, std::string_view body) {
+std::string html_page(std::string_view title, std::string_view body, std::string_view head) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n{}</head><body>\n{}</body></html>\n",
-      html_escaped(title), kStyle, body);
+      "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n{}{}</head><body>\n{}</body></html>\n",
+      html_escaped(title), kStyle, head, body);
 }
 
 std::string html_picture(const std::filesystem::path& png, std::string_view alternative) {
