@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace CLI {
@@ -15,7 +16,7 @@ namespace fathom {
 
 /// Options that every command has.
 struct CommonOptions {
-  std::filesystem::path output;  ///< -o DIR; empty when not given
+  std::filesystem::path output;  ///< of -o; empty when not given
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: all
   bool quiet = false;
@@ -31,8 +32,8 @@ class UsageError : public std::runtime_error {
 };
 
 /// For commands that write files. Throws UsageError when -o is missing.
-inline void require_output(const CommonOptions& common) {
-  if (common.output.empty()) throw UsageError("-o DIR is required");
+inline void require_output(const CommonOptions& common, std::string_view kind = "DIR") {
+  if (common.output.empty()) throw UsageError("-o " + std::string(kind) + " is required");
 }
 
 struct Command {
@@ -42,6 +43,7 @@ struct Command {
   /// Adds the command's own options to `app` and returns what runs it. `common` is filled when the run starts.
   std::function<void()> (*define)(CLI::App& app, const CommonOptions& common);
   bool needs_output = false;  ///< whether it writes to the folder of -o in any case
+  std::string_view output = "DIR";  ///< what -o names, or FILE
 };
 
 inline constexpr bool kNeedsOutput = true;

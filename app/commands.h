@@ -9,6 +9,8 @@ namespace fathom {
 
 std::function<void()> define_capture(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_manual(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_view(CLI::App& app, const CommonOptions& common);
+std::function<void()> define_export(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
 std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
@@ -30,6 +32,12 @@ inline constexpr std::array kCommands{
             "  fathom capture scenes/paper_milk_tea.json -o out/milk_tea\n"
             "  fathom capture scenes/glass_water.json --light full -o out/glass",
             define_capture, kNeedsOutput},
+    Command{"view", "A capture as a page for a browser: its points turn, and each pixel shows where its rays bend",
+            "  fathom view out/water\n  fathom view out/glass -o out/glass.html", define_view, false, "FILE"},
+    Command{"export", "A scene as glTF 2.0 for Blender and others, or one of its cups as a shape for other scenes",
+            "  fathom export scenes/glass_water.json -o out/glass.glb\n"
+            "  fathom export scenes/glass_water.json --cup 0 -o out/tumbler.glb",
+            define_export, kNeedsOutput, "FILE"},
     Command{"theory", "The paper's Eq. 7 and the exact triangulation of the raised bottom, as CSV",
             "  fathom theory\n  fathom theory --fill-mm 30 --distance-mm 200,400,600 --lateral-mm 50 -o out/theory\n"
             "  fathom theory --max-skew",

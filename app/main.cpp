@@ -67,18 +67,17 @@ void check_options(const CLI::App& app, std::span<char* const> words) {
   }
 }
 
-std::string folder_name(const std::string& text) { return text.empty() ? "must name a folder, got ''" : ""; }
-
 int bad_usage(const std::string& what) {
   fathom::print_error(what, "Run with --help for more information.\n");
   return kBadUsage;
 }
 
-void add_common_options(CLI::App& app, fathom::CommonOptions& common, bool needs_output) {
-  app.add_option("-o,--output", common.output, "Folder for the results")
-      ->type_name("DIR")
-      ->check(folder_name)
-      ->required(needs_output);
+void add_common_options(CLI::App& app, const fathom::Command& command, fathom::CommonOptions& common) {
+  const std::string output(command.output), kind = output == "DIR" ? "folder" : "file";
+  app.add_option("-o,--output", common.output, output == "DIR" ? "Folder for the results" : "File for the result")
+      ->type_name(output)
+      ->check([kind](const std::string& text) { return text.empty() ? "must name a " + kind + ", got ''" : ""; })
+      ->required(command.needs_output);
   app.add_option("--seed", common.seed, "Seed of everything random")->capture_default_str();
   app.add_option("--threads", common.threads, "Threads; 0 = all")->check(CLI::Range(0, 1024))->capture_default_str();
   app.add_flag("--quiet", common.quiet, "No progress on the terminal");
@@ -104,7 +103,7 @@ int main(int argc, char** argv) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.summary));
     sub->footer("Examples:\n" + fathom::examples_from_here(std::string(command.examples)));
     sub->callback([&run, body = command.define(*sub, common)] { run = body; });
-    add_common_options(*sub, common, command.needs_output);
+    add_common_options(*sub, command, common);
   }
   fathom::require_numbers(app);
 

@@ -53,11 +53,11 @@ std::string html_escaped(std::string_view text) {
   return result;
 }
 
-std::string html_page(std::string_view title, std::string_view body) {
+std::string html_page(std::string_view title, std::string_view body, std::string_view head) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n{}</head><body>\n{}</body></html>\n",
-      html_escaped(title), kStyle, body);
+      "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n{}{}</head><body>\n{}</body></html>\n",
+      html_escaped(title), kStyle, head, body);
 }
 
 std::string html_picture(const std::filesystem::path& png, std::string_view alternative) {

@@ -14,8 +14,9 @@ namespace fathom {
 /// Text of any characters for HTML, also between the quotation marks (") of an attribute; visible_text().
 std::string html_escaped(std::string_view text);
 
-/// The page from its doctype to its closing tag. `title` is plain text, `body` is HTML.
-std::string html_page(std::string_view title, std::string_view body);
+/// The page from its doctype to its closing tag. `title` is plain text, `body` is HTML, as is what `head` adds to its
+/// head.
+std::string html_page(std::string_view title, std::string_view body, std::string_view head = "");
 
 /// A PNG file inside the page.
 std::string html_picture(const std::filesystem::path& png, std::string_view alternative);

@@ -17,6 +17,8 @@ if(FATHOM_SIMULATOR)
   set_tests_properties(pages PROPERTIES LABELS architecture)
   add_test(NAME datasets_load COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/datasets/load_test.py $<TARGET_FILE:fathom>)
   add_test(NAME datasets_slurm COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/datasets/slurm_test.py $<TARGET_FILE:fathom>)
+  add_test(NAME view_page COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/view/page_test.py $<TARGET_FILE:fathom>)
+  set_tests_properties(view_page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
   set_tests_properties(datasets_load datasets_slurm PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS 2 TIMEOUT 600)
 endif()
 

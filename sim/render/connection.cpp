@@ -44,9 +44,11 @@ inline std::optional<SeenPoint> seen_on_wall(const Geometry& geometry, const Sig
   return seen;
 }
 
-/// Follows a ray on from `hit`. `reflections` gets what is reflected in part on the way, if it is asked for.
+/// Follows a ray on from `hit`. `reflections` gets what is reflected in part on the way and `bends` where it changes
+/// its direction, if they are asked for.
 std::optional<SeenPoint> follow(const Intersector& world, Sight sight, std::optional<Hit> hit,
-                                std::vector<Sight>* reflections = nullptr) {
+                                std::vector<Sight>* reflections = nullptr,
+                                std::vector<Eigen::Vector3d>* bends = nullptr) {
   auto& [ray, inside, n_camera, through, refracted, crossings] = sight;
   for (; hit && crossings < kMostCrossings; hit = world.first_hit(ray)) {
     if (const auto seen = seen_on_wall(world.geometry(), sight, *hit)) return seen;
@@ -63,6 +65,7 @@ std::optional<SeenPoint> follow(const Intersector& world, Sight sight, std::opti
     ++crossings;
     const auto bent = refract(ray.direction, hit->normal, n_from, index_of(next));
     if (!bent) {
+      if (bends) bends->push_back(hit->point);
       ray.direction = reflect(ray.direction, hit->normal);
       continue;
     }
@@ -87,6 +90,7 @@ std::optional<SeenPoint> follow(const Intersector& world, Sight sight, std::opti
                        after};
     }
     through *= 1.0 - fresnel_reflectance(cosine, n_from, index_of(next));
+    if (bends) bends->push_back(hit->point);
     ray.direction = *bent;
     inside = after;
     refracted = true;
@@ -115,8 +119,9 @@ std::optional<Sight> draw_one(std::vector<Sight>& sights, Rng& rng) {
 
 }  // namespace
 
-std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside) {
-  return follow(world, sight_of(world, camera_ray, inside), world.first_hit(camera_ray));
+std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside,
+                             std::vector<Eigen::Vector3d>* bends) {
+  return follow(world, sight_of(world, camera_ray, inside), world.first_hit(camera_ray), nullptr, bends);
 }
 
 Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays, Packet<Hit>* first) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/rng.h"
 #include "sim/optics/glazed_wall.h"
@@ -36,12 +37,15 @@ struct Illumination {
   Eigen::Vector3d direction;  ///< unit, world: in which the light left the projector
   double irradiance;          ///< [1/m²] on the surface per unit radiant intensity of the projector in that direction
   double reflectance;         ///< reflectance_factor() of the surface for it
+  int crossings;              ///< as in Connection
   bool through_scattering;    ///< as in Connection
 };
 
 /// Follows a ray that starts in the bodies `inside` (none: in air). Where it cannot leave a body it is totally
-/// reflected; partial reflections are left to see_mirrored().
-std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0);
+/// reflected; partial reflections are left to see_mirrored(). `bends` gets the points [m] where it bends, if it is
+/// asked for.
+std::optional<SeenPoint> see(const Intersector& world, const Ray& camera_ray, BodySet inside = 0,
+                             std::vector<Eigen::Vector3d>* bends = nullptr);
 /// The same for at most kPacket rays in air that lie side by side. `first` gets the surfaces that they meet first, if
 /// it is asked for.
 Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays, Packet<Hit>* first = nullptr);
@@ -65,7 +69,7 @@ inline double reflectance_factor(const SeenPoint& seen, const Eigen::Vector3d& a
 
 inline Illumination illumination_by(const Connection& way, const SeenPoint& seen) {
   return {way.direction, -way.spreading * way.transmittance * seen.normal.dot(way.arrival),
-          reflectance_factor(seen, way.arrival), way.through_scattering};
+          reflectance_factor(seen, way.arrival), way.crossings, way.through_scattering};
 }
 
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.

@@ -1,0 +1,19 @@
+// The page: data, three.js and the script that draws them, in one file that works without a network.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/json.h"
+
+namespace fathom {
+
+/// Where Debian's package libjs-three has it.
+inline constexpr const char* kThreeFolder = "/usr/share/javascript/three";
+
+/// The page about `scene` (capture_scene()). `title` is plain text. Throws Error naming the file of three.js that is
+/// missing in `three`.
+std::string view_page(std::string_view title, const Json& scene, const std::filesystem::path& three);
+
+}  // namespace fathom

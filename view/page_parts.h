@@ -1,0 +1,11 @@
+// The page's own page.css and script/*.js, as they were when the program was built.
+#pragma once
+
+#include <string_view>
+
+namespace fathom {
+
+extern const std::string_view kPageStyle;
+extern const std::string_view kPageScript;
+
+}  // namespace fathom
