@@ -124,7 +124,7 @@ struct GltfModel::Impl {
     looks.push_back(look);
     tinygltf::Material material;
     material.name = name;
-    material.doubleSided = true;
+    material.doubleSided = !look.medium;
     material.pbrMetallicRoughness.metallicFactor = 0.0;
     if (look.medium) {
       make_clear(material, *look.medium);
