@@ -14,6 +14,7 @@
 #include "app/results.h"
 #include "core/json_text.h"
 #include "core/progress.h"
+#include "detector/detector_settings.h"
 #include "detector/fuse.h"
 #include "detector/read_cloud.h"
 #include "detector/robust.h"

@@ -17,6 +17,7 @@
 #include "core/median.h"
 #include "core/rows.h"
 #include "core/units.h"
+#include "detector/detector_settings.h"
 #include "report/gnuplot.h"
 #include "trials/clutter_templates.h"
 #include "trials/failure_gallery.h"

@@ -1,9 +1,9 @@
-#include "app/robust_options.h"
+#include "detector/robust_settings.h"
 
 #include <cmath>
 
-#include "app/detector_options.h"
 #include "core/units.h"
+#include "detector/detector_settings.h"
 
 namespace fathom {
 
