@@ -1,6 +1,4 @@
 // fathom calibrate: how a real device differs from its model, from clouds of desks and walls.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -13,8 +11,7 @@
 #include "app/results.h"
 #include "core/error.h"
 #include "core/folder_owner.h"
-#include "core/input_policy.h"
-#include "core/table.h"
+#include "diagnosis/unit/calibration_clouds.h"
 #include "report/gnuplot.h"
 #include "report/unit_report.h"
 
@@ -28,45 +25,12 @@ struct CalibrateOptions {
   std::optional<bool> registered;
 };
 
-bool is_table(const std::filesystem::path& file) { return file.extension() == ".csv"; }
-
-/// Whether `time_s` of the table is since one moment: it restarts with each session.
-bool is_timed(const Table& frames) {
-  if (!frames.has("time_s")) return false;
-  for (std::size_t row = 1; frames.has("session") && row < frames.rows(); ++row)
-    if (frames.text(row, "session") != frames.text(0, "session")) return false;
-  return true;
-}
-
-void add_clouds_of(const std::filesystem::path& table, bool with_times, std::vector<CalibrationCloud>& clouds) {
-  const Table frames = read_table(table);
-  frames.need("cloud");
-  with_times = with_times && is_timed(frames);
-  for (std::size_t row = 0; row < frames.rows(); ++row) {
-    const std::string& name = frames.text(row, "cloud");
-    if (name.empty()) continue;
-    clouds.push_back({path_named_in(table.string(), frames.place(row, "cloud"), name), {}});
-    if (!with_times) continue;
-    clouds.back().time_s = frames.number_if_any(row, "time_s");
-    if (clouds.back().time_s && *clouds.back().time_s < 0.0)
-      frames.fail(row, "time_s", fmt::format("must be at least 0, got '{}'", frames.text(row, "time_s")));
-  }
-}
-
-/// Clouds as they are named; of a frames.csv those of its rows, with their times where it is the only one.
 std::vector<CalibrationCloud> clouds_of(const CalibrateOptions& options) {
-  const auto tables = std::ranges::count_if(options.files, is_table);
-  if (tables > 0 && options.interval_s > 0.0)
+  std::optional<double> interval_s;
+  if (options.interval_s > 0.0) interval_s = options.interval_s;
+  if (interval_s && std::ranges::any_of(options.files, is_table))
     throw UsageError("--interval-s says when the clouds named here were taken; a frames.csv has time_s for that");
-  std::vector<CalibrationCloud> clouds;
-  for (const std::filesystem::path& file : options.files) {
-    if (is_table(file)) {
-      add_clouds_of(file, tables == 1, clouds);
-      continue;
-    }
-    clouds.push_back({file, {}});
-    if (options.interval_s > 0.0) clouds.back().time_s = options.interval_s * static_cast<double>(clouds.size() - 1);
-  }
+  std::vector<CalibrationCloud> clouds = calibration_clouds(options.files, interval_s);
   if (clouds.empty()) throw UsageError("needs a CLOUD");
   return clouds;
 }

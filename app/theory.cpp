@@ -51,19 +51,14 @@ void check_fills(const TheoryOptions& options) {
 }
 
 TheoryRow theory_row(const TheoryOptions& options, double fill_mm, double distance_mm, double lateral_mm) {
-  const double h = metres_from_mm(options.height_mm);
-  const double b = metres_from_mm(options.baseline_mm);
-  const double w = metres_from_mm(fill_mm);
-  const double d = metres_from_mm(distance_mm);
-  theory::TriangulationSetup setup{.sensor_height = h,
-                                   .baseline = b,
-                                   .fill = w,
+  theory::TriangulationSetup setup{.sensor_height = metres_from_mm(options.height_mm),
+                                   .baseline = metres_from_mm(options.baseline_mm),
+                                   .fill = metres_from_mm(fill_mm),
                                    .index = options.index,
                                    .lateral = metres_from_mm(lateral_mm),
-                                   .distance = d};
+                                   .distance = metres_from_mm(distance_mm)};
   if (options.pitch_deg) setup.pitch = radians_from_deg(*options.pitch_deg);
-  const theory::Triangulation exact = theory::triangulate(setup);
-  const double eq7 = theory::raised_height_at(w, {.h = h, .b = b, .d = d, .n = options.index});
+  const auto [eq7, exact] = theory::raised_bottom(setup);
   return {fill_mm,
           distance_mm,
           lateral_mm,

@@ -1,6 +1,8 @@
 #include "core/manifest.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
 #include <set>
@@ -18,8 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The file that this code was loaded from: the program, or a library in somebody else's.
+std::string own_file() {
+  Dl_info info;
+  void* map = nullptr;
+  if (::dladdr1(reinterpret_cast<const void*>(&own_file), &info, &map, RTLD_DL_LINKMAP) == 0) return "/proc/self/exe";
+  const std::string file = static_cast<const link_map*>(map)->l_name;
+  return file.empty() ? "/proc/self/exe" : file;
+}
+
 const std::string& program() {
-  static const std::string hash = sha256_of_file("/proc/self/exe");
+  static const std::string hash = sha256_of_file(own_file());
   return hash;
 }
 

@@ -4,6 +4,8 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "core/watcher.h"
+
 #ifdef FATHOM_TELL_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -35,8 +37,11 @@ struct Order {
 
 void parallel_ranges(int count, const std::function<void(int, int)>& body) {
   [[maybe_unused]] Order order;
+  Watcher* const who = watcher();
   tbb::parallel_for(tbb::blocked_range<int>(0, count, 4), [&](const tbb::blocked_range<int>& range) {
     order.begin_piece();
+    const WatcherScope scope(who);
+    go_on();
     body(range.begin(), range.end());
     order.end_piece();
   });

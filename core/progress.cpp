@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/standard_streams.h"
+#include "core/watcher.h"
 
 namespace fathom {
 namespace {
@@ -77,13 +78,19 @@ Progress::~Progress() {
 void Progress::step() {
   const std::lock_guard lock(mutex_);
   ++done_;
-  show();
+  tell();
 }
 
 void Progress::reach(std::size_t done, std::size_t total) {
   const std::lock_guard lock(mutex_);
   done_ = done;
   total_ = total;
+  tell();
+}
+
+void Progress::tell() const {
+  if (Watcher* const who = watcher()) who->hear(what_, done_, total_);
+  go_on();
   show();
 }
 

@@ -1,4 +1,5 @@
-// Progress of long work on stderr: done, rate, time left. Silent when stderr is no terminal or --quiet was given.
+// Progress of long work on stderr: done, rate, time left. Silent when stderr is no terminal or --quiet was given. The
+// work's watcher hears of it in any case, and may end it with each step (core/watcher.h).
 #pragma once
 
 #include <chrono>
@@ -22,6 +23,7 @@ class Progress {
   void reach(std::size_t done, std::size_t total);
 
  private:
+  void tell() const;
   void show() const;
 
   std::mutex mutex_;

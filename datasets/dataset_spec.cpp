@@ -172,8 +172,8 @@ Json drawn_kinds(const JsonReader& cups, std::uint64_t seed) {
 }
 
 /// The file's keys over those of the shipped specification, those of its objects as well.
-Json with_defaults(const Json& given, const std::filesystem::path& path) {
-  if (!given.is_object()) throw Error(path.string(), "/", "must be an object");
+Json with_defaults(const Json& given, const std::string& file) {
+  if (!given.is_object()) throw Error(file, "/", "must be an object");
   Json result = read_json(shipped_dataset_spec());
   for (const auto& [key, value] : given.items()) {
     if (!value.is_object() || !result.contains(key)) {
@@ -190,8 +190,12 @@ Json with_defaults(const Json& given, const std::filesystem::path& path) {
 std::filesystem::path shipped_dataset_spec() { return data_directory() / "datasets" / "cups.json"; }
 
 DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t seed) {
-  const Json all = with_defaults(read_json(path), path);
-  const JsonReader json(all, path.string());
+  return dataset_spec_from_json(read_json(path), path.string(), seed);
+}
+
+DatasetSpec dataset_spec_from_json(const Json& given, const std::string& file, std::uint64_t seed) {
+  const Json all = with_defaults(given, file);
+  const JsonReader json(all, file);
   const std::vector<KeyRow> things = thing_keys();
   std::vector<std::string_view> of_things;
   for (const KeyRow& row : things) of_things.push_back(row.key);
@@ -210,7 +214,7 @@ DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t s
   for (const KeyRow& row : things)
     if (json.has(row.key)) clutter[row.key] = json.at(row.key).value();
   clutter["cups"]["kinds"] = drawn_kinds(json.at("cups"), seed);
-  spec.clutter = clutter_spec_from_json(JsonReader(clutter, path.string()));
+  spec.clutter = clutter_spec_from_json(JsonReader(clutter, file));
   return spec;
 }
 

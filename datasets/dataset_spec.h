@@ -31,6 +31,8 @@ struct DatasetSpec {
 /// Keys that the file leaves out have the values of the shipped specification. `seed` draws the shapes of cups that are
 /// given by ranges. Throws Error naming file, path, what is wrong and what is allowed.
 DatasetSpec read_dataset_spec(const std::filesystem::path& path, std::uint64_t seed);
+/// The same of what stands in `file`.
+DatasetSpec dataset_spec_from_json(const Json& json, const std::string& file, std::uint64_t seed);
 
 /// The specification that comes with the program: scenes/datasets/cups.json.
 std::filesystem::path shipped_dataset_spec();

@@ -20,6 +20,11 @@ struct Cloud {
 /// A simulated cloud as a detector takes it.
 Cloud cloud_from_image(const Image<CloudPoint>& image);
 
+/// What others' clouds need first. Points with a coordinate that is not finite, and points at (0, 0, 0) (how some
+/// writers say "nothing measured"), become NaN. A cloud that lies wholly at negative z is in the other common camera
+/// frame (y up, z backward, as in OpenGL) and is turned.
+void take_as_measured(Cloud& cloud);
+
 /// The measured points only, in the cloud's order.
 Points finite_points(const Cloud& cloud);
 

@@ -4,7 +4,6 @@
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/io/pcd_io.h>
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -111,16 +110,6 @@ Cloud read_pcd(const std::string& file, std::string_view content) {
   return cloud;
 }
 
-void forget_unmeasured(Points& points) {
-  for (Eigen::Vector3f& point : points)
-    if (!point.allFinite() || point.isZero(0.0f)) point.setConstant(std::numeric_limits<float>::quiet_NaN());
-}
-
-void turn_if_behind(Points& points) {
-  if (std::any_of(points.begin(), points.end(), [](const Eigen::Vector3f& point) { return point.z() >= 0.0f; })) return;
-  for (Eigen::Vector3f& point : points) point.tail<2>() *= -1.0f;
-}
-
 }  // namespace
 
 Cloud read_cloud(const std::filesystem::path& path) {
@@ -131,8 +120,7 @@ Cloud read_cloud(const std::filesystem::path& path) {
   const bool ply = starts("ply\n") || starts("ply\r\n");
   if (!ply && !starts("#") && !starts("VERSION") && !starts("FIELDS")) throw Error(file, "is neither PCD nor PLY");
   Cloud cloud = ply ? read_ply(file, content) : read_pcd(file, content);
-  forget_unmeasured(cloud.points);
-  turn_if_behind(cloud.points);
+  take_as_measured(cloud);
   return cloud;
 }
 

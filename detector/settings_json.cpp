@@ -209,14 +209,16 @@ auto tables_of(DetectorSettings& settings) {
 
 }  // namespace
 
-DetectorSettings read_detector_settings(const std::filesystem::path& path) {
+DetectorSettings detector_settings(const JsonReader& json) {
   DetectorSettings settings;
-  if (!path.empty()) {
-    const Json json = read_json(path);
-    read_fields(JsonReader(json, path.string()), tables_of(settings));
-  }
+  read_fields(json, tables_of(settings));
   if (settings.templates.empty()) settings.templates = load_templates(data_directory() / "templates");
   return settings;
+}
+
+DetectorSettings read_detector_settings(const std::filesystem::path& path) {
+  const Json json = path.empty() ? Json::object() : read_json(path);
+  return detector_settings(JsonReader(json, path.string()));
 }
 
 std::vector<KeyTable> detector_key_tables() {

@@ -9,8 +9,11 @@
 
 namespace fathom {
 
-/// Reads the keys of the file over the defaults; the templates are those it names (beside the file), else those that
-/// come with the program. An empty path gives the defaults. Throws Error on anything unknown or out of range.
+/// Reads the object's keys over the defaults; the templates are those it names (beside its file), else those that come
+/// with the program. Throws Error on anything unknown or out of range.
+DetectorSettings detector_settings(const JsonReader& json);
+
+/// The same of a file. An empty path gives the defaults.
 DetectorSettings read_detector_settings(const std::filesystem::path& path);
 
 /// The file's objects.

@@ -38,6 +38,15 @@ if(NOT FATHOM_SANITIZE)  # a consumer would need the same sanitizer
     -P ${CMAKE_CURRENT_SOURCE_DIR}/find_package/run.cmake)
 endif()
 
+# The Python module, by the Python that it is for.
+if(FATHOM_PYTHON_FOUND)
+  foreach(test theory capture detect diagnose folders waiting package)
+    add_test(NAME python.${test} COMMAND ${FATHOM_PYTHON_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/python/${test}_test.py)
+    set_tests_properties(python.${test} PROPERTIES PROCESSORS 2 TIMEOUT 600 SKIP_REGULAR_EXPRESSION "OK [(]skipped="
+      ENVIRONMENT "FATHOM_PROGRAM=$<TARGET_FILE:fathom>;PYTHONPATH=${PROJECT_BINARY_DIR}/python")
+  endforeach()
+endif()
+
 # Hostile inputs, kills and races; many more by hand (docs/testing.md).
 if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
   foreach(test "hostile --mutants 500 --quiet" "kills --kills 12" "races --races 8")

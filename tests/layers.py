@@ -34,6 +34,7 @@ LAYERS = {
     "paper": ["core", "theory", "detector", "sim/*", "diagnosis/measurement", "report", "trials", "campaign"],
     "examples": ["core", "detector", "sim/*", "diagnosis/*", "report"],
     "app": EVERYTHING,
+    "python": EVERYTHING,
     "bench": EVERYTHING,
     "blind": ["core"],
     "tests": EVERYTHING,
@@ -53,6 +54,7 @@ BORDERS = {
     "Fontconfig": ["report/fonts.cpp"],
     "OpenCV": ["bench/*"],
     "OpenNI2": ["openni2/*", "app/live_cloud.cpp", "tests/openni2/*"],
+    "pybind11": ["python/*"],
 }
 LIBRARY_HEADERS = {
     "Embree": r"embree\d/",
@@ -67,6 +69,7 @@ LIBRARY_HEADERS = {
     "CLI11": r"CLI/",
     "Fontconfig": r"fontconfig/",
     "OpenCV": r"opencv\d?/",
+    "pybind11": r"pybind11/",
     "OpenNI2": r"(Oni\w+|OpenNI|PS1080)\.h|Driver/",
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
@@ -74,7 +77,7 @@ NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
 TYPE = re.compile(r"(?:struct|class|enum class|union) (\w+)[^;()]*\{")
 # What prints: libraries never do, and the program only where control characters are taken out of what files hold.
 PRINTS = re.compile(r"\b(fmt::print|f?printf|f?puts|putchar|say)\s*\(|\bstd::(cout|cerr|clog)\b")
-SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "report/*", "view/*", "trials/*", "datasets/*", "campaign/*", "paper/*", "app/*"]
+SILENT = ["core/*", "theory/*", "sim/*", "detector/*", "diagnosis/*", "report/*", "view/*", "trials/*", "datasets/*", "campaign/*", "paper/*", "app/*", "python/*"]
 PRINTERS = ["app/main.cpp", "app/print.cpp", "core/progress.cpp", "core/standard_streams.*"]
 DOCUMENT = "docs/architecture.md"
 

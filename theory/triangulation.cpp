@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "theory/raised_bottom.h"
 #include "theory/require.h"
 
 namespace fathom::theory {
@@ -70,6 +71,11 @@ Triangulation triangulate(const TriangulationSetup& setup) {
           .incidence_camera = std::atan(received.head<2>().norm()),
           .disparity_px = setup.focal_px * disparity,
           .epipolar_mismatch_px = setup.focal_px * mismatch};
+}
+
+RaisedBottom raised_bottom(const TriangulationSetup& setup) {
+  const BottomView view{.h = setup.sensor_height, .b = setup.baseline, .d = setup.distance, .n = setup.index};
+  return {.eq7 = raised_height_at(setup.fill, view), .exact = triangulate(setup)};
 }
 
 std::optional<double> fill_from_height(double height, TriangulationSetup setup, double max_fill) {

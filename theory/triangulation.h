@@ -35,6 +35,15 @@ struct Triangulation {
 /// Z = b / (ξ_c − ξ_p). Throws std::invalid_argument when the setup makes no sense or the point is not in front.
 Triangulation triangulate(const TriangulationSetup& setup);
 
+/// What the paper and exact optics say of the same bottom point.
+struct RaisedBottom {
+  double eq7;  ///< [m] height above the bottom by Eq. 7
+  Triangulation exact;
+};
+
+/// Both. Throws std::invalid_argument as either does.
+RaisedBottom raised_bottom(const TriangulationSetup& setup);
+
 /// Inverse of triangulate in the liquid's depth: the fill in (0, max_fill] whose bottom is measured at `height`
 /// (setup.fill is ignored). Nothing when there is none. Throws as triangulate, or unless 0 < max_fill < sensor_height.
 std::optional<double> fill_from_height(double height, TriangulationSetup setup, double max_fill);

@@ -125,8 +125,12 @@ Setup read_setup(const std::filesystem::path& path) {
   if (extension == ".gltf" || extension == ".glb")
     throw Error(path.string(),
                 "glTF scenes cannot be read yet; write a scene file (*.json) that names it under \"objects\"");
-  Setup setup = setup_from_json(read_json(path), path.string());
-  require_files(JsonReader(setup.source, path.string()), setup.scene);
+  return whole_setup_from_json(read_json(path), path.string());
+}
+
+Setup whole_setup_from_json(const Json& json, const std::string& file) {
+  Setup setup = setup_from_json(json, file);
+  require_files(JsonReader(setup.source, file), setup.scene);
   return setup;
 }
 

@@ -58,7 +58,9 @@ struct Setup {
 
 /// Reads a scene file. Throws Error naming file, path, what is wrong and what is allowed.
 Setup read_setup(const std::filesystem::path& path);
-/// `pointer` is where in the file it stands.
+/// The same of what stands in `file`.
+Setup whole_setup_from_json(const Json& json, const std::string& file);
+/// The same without a look at the files that objects name; `pointer` is where in the file it stands.
 Setup setup_from_json(const Json& json, const std::string& file, const std::string& pointer = "");
 
 /// The objects of a scene file.

@@ -130,16 +130,19 @@ void write_device_outputs(const std::filesystem::path& folder, const SensorModel
                            kMetresPerMm));
 }
 
+std::vector<ExrChannel> truth_channels(const Image<TruePixel>& truth) {
+  return {channel("position.X", truth, [](const TruePixel& p) { return p.position.x(); }),
+          channel("position.Y", truth, [](const TruePixel& p) { return p.position.y(); }),
+          channel("position.Z", truth, [](const TruePixel& p) { return p.position.z(); }),
+          channel("apparent.Z", truth, [](const TruePixel& p) { return p.apparent_depth.value_or(0.0); }),
+          channel("first.object", truth, [](const TruePixel& p) { return p.first ? p.first->object : 0; }),
+          channel("first.Z", truth, [](const TruePixel& p) { return p.first ? p.first->depth : 0.0; }),
+          channel("object", truth, [](const TruePixel& p) { return p.object; }),
+          channel("path", truth, [](const TruePixel& p) { return static_cast<int>(p.path); })};
+}
+
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth) {
-  write_exr(folder / "truth.exr",
-            {channel("position.X", truth, [](const TruePixel& p) { return p.position.x(); }),
-             channel("position.Y", truth, [](const TruePixel& p) { return p.position.y(); }),
-             channel("position.Z", truth, [](const TruePixel& p) { return p.position.z(); }),
-             channel("apparent.Z", truth, [](const TruePixel& p) { return p.apparent_depth.value_or(0.0); }),
-             channel("first.object", truth, [](const TruePixel& p) { return p.first ? p.first->object : 0; }),
-             channel("first.Z", truth, [](const TruePixel& p) { return p.first ? p.first->depth : 0.0; }),
-             channel("object", truth, [](const TruePixel& p) { return p.object; }),
-             channel("path", truth, [](const TruePixel& p) { return static_cast<int>(p.path); })});
+  write_exr(folder / "truth.exr", truth_channels(truth));
 }
 
 void write_scene_files(const std::filesystem::path& folder, const ResolvedScene& resolved) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/image_file.h"
 #include "core/json.h"
 #include "sim/scene/resolved_scene.h"
 #include "sim/sensor/capture.h"
@@ -35,7 +36,10 @@ void write_frame(const std::filesystem::path& folder, const Frame& frame, const 
 /// What the device itself would send of a frame: depth_100um.png, shift.png and depth_registered.png.
 void write_device_outputs(const std::filesystem::path& folder, const SensorModel& sensor, const Frame& frame);
 
-/// truth.exr: position.X/Y/Z, apparent.Z, first.object, first.Z, object, path.
+/// The channels of truth.exr: position.X/Y/Z, apparent.Z, first.object, first.Z, object, path.
+std::vector<ExrChannel> truth_channels(const Image<TruePixel>& truth);
+
+/// truth.exr
 void write_truth(const std::filesystem::path& folder, const Image<TruePixel>& truth);
 
 /// Copies of the files that a scene names.
