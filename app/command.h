@@ -42,7 +42,7 @@ struct Command {
   std::string_view examples;  ///< lines that run as they stand, shown under `fathom NAME --help`
   /// Adds the command's own options to `app` and returns what runs it. `common` is filled when the run starts.
   std::function<void()> (*define)(CLI::App& app, const CommonOptions& common);
-  bool needs_output = false;  ///< whether it writes to the folder of -o in any case
+  bool needs_output = false;        ///< whether it writes to the folder of -o in any case
   std::string_view output = "DIR";  ///< what -o names, or FILE
 };
 

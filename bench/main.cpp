@@ -26,7 +26,8 @@ constexpr std::array<Group, 8> kGroups{{
     {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
     {"detect", fathom::register_detect,
      "the methods beside a pipeline of PCL's tutorials, one thread; FATHOM_REAL_DATA adds measured clouds"},
-    {"generate", fathom::register_generate, "labelled frames of a data set beside a bare Embree loop, and a second thread"},
+    {"generate", fathom::register_generate,
+     "labelled frames of a data set beside a bare Embree loop, and a second thread"},
     {"others", fathom::register_others, "dots under water as POV-Ray and Blender's Cycles show them, beside ours"},
 }};
 

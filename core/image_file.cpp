@@ -140,7 +140,8 @@ bool write_grey16(PngFile& to, const Image<std::uint16_t>& image) {
   png_init_io(to.png, to.file);
   png_set_IHDR(to.png, to.info, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), 16,
                PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Trying every filter on every row takes longer than compressing and gains nothing on depths, which run on along rows.
+  // Trying every filter on every row takes longer than compressing and gains nothing on depths, which run on along
+  // rows.
   png_set_filter(to.png, 0, PNG_FILTER_SUB);
   png_set_compression_level(to.png, 3);
   png_write_info(to.png, to.info);

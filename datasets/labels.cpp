@@ -195,13 +195,11 @@ std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, 
   const Seen seen(camera, frame);
   std::vector<InstanceLabel> labels;
   for (std::size_t i = 0; i < scene.at("cups").size(); ++i) {
-    labels.push_back(
-        label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, seen));
+    labels.push_back(label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, seen));
     labels.back().liquid = liquid_of(seen, i);
   }
   for (std::size_t i = 0; i < scene.at("objects").size(); ++i)
-    labels.push_back(
-        label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, seen));
+    labels.push_back(label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, seen));
   return labels;
 }
 

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "detector/settings_json.h"
 #include "detector/read_cloud.h"
+#include "detector/settings_json.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/objects.h"

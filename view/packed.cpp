@@ -5,8 +5,8 @@
 #include <bit>
 #include <string_view>
 
-#include "core/error.h"
 #include "core/base64.h"
+#include "core/error.h"
 
 namespace fathom {
 namespace {
