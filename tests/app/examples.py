@@ -15,22 +15,31 @@ import time
 from pathlib import Path
 
 # Words of examples that take longer than some seconds.
-SLOW = ["full", "milk_tea", "evaluate", "campaign", "diagnose", "measure", "calibrate", "check out", "--frames 1000", "reproduce", "verify all", "verify slab",
+SLOW = ["full", "out/glass", "milk_tea", "evaluate", "campaign", "diagnose", "measure", "calibrate", "check out", "--frames 1000", "reproduce", "verify all", "verify slab",
         "--live"]
 
 
-def examples_of(program):
+def examples_of(program, folder):
+    """Each example with the help that shows it, asked for where it is going to run."""
     def printed(*words):
-        return subprocess.run([program, *words, "--help"], check=True, capture_output=True, text=True).stdout
+        return subprocess.run([program, *words, "--help"], cwd=folder, check=True, capture_output=True, text=True).stdout
 
     for command in re.findall(r"^  ([a-z]+) ", printed().split("Subcommands:")[1], re.M):
-        for line in printed(command).split("Examples:\n")[1].splitlines():
+        text = printed(command)
+        for line in text.split("Examples:\n")[1].splitlines():
             if line.startswith("  fathom "):
-                yield line.strip()
+                words = shlex.split(line)
+                is_subcommand = "Subcommands:" in text and words[2] in re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1], re.M)
+                yield line.strip(), (printed(command, words[2]) if is_subcommand else "") + text
 
 
-def run(program, words, folder, extra=()):
-    return subprocess.run([program, *words[1:], *extra], cwd=folder, capture_output=True, text=True)
+def unknown_options(example, text):
+    known = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", text.split("Examples:\n")[0]))
+    return [word for word in shlex.split(example) if word.startswith("-") and word not in known]
+
+
+def run(program, words, folder):
+    return subprocess.run([program, *words[1:]], cwd=folder, capture_output=True, text=True)
 
 
 def prepare(program, folder):
@@ -61,11 +70,15 @@ def main():
     failed = count = 0
     with tempfile.TemporaryDirectory() as name:
         prepare(program, Path(name))
-        for example in examples_of(program):
-            slow = any(word in example for word in SLOW)
-            started = time.monotonic()
-            done = run(program, shlex.split(example), name, ["--help"] if quick and slow else [])
+        for example, text in examples_of(program, name):
             count += 1
+            if unknown := unknown_options(example, text):
+                failed += 1
+                print(f"FAILED: {example}: no option {', '.join(unknown)}", file=sys.stderr)
+            if quick and any(word in example for word in SLOW):
+                continue
+            started = time.monotonic()
+            done = run(program, shlex.split(example), name)
             if not quick:
                 print(f"{time.monotonic() - started:6.1f} s  {example}", flush=True)
             if done.returncode != 0:
