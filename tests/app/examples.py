@@ -20,7 +20,7 @@ SLOW = ["full", "out/glass", "milk_tea", "evaluate", "campaign", "diagnose", "me
 
 
 def examples_of(program, folder):
-    """Each example with the help that shows it, asked for where it is going to run."""
+    """Each example with what --help says of its options, asked for where it is going to run."""
     def printed(*words):
         return subprocess.run([program, *words, "--help"], cwd=folder, check=True, capture_output=True, text=True).stdout
 
@@ -30,11 +30,12 @@ def examples_of(program, folder):
             if line.startswith("  fathom "):
                 words = shlex.split(line)
                 is_subcommand = "Subcommands:" in text and words[2] in re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1], re.M)
-                yield line.strip(), (printed(command, words[2]) if is_subcommand else "") + text
+                helps = [text, printed(command, words[2])] if is_subcommand else [text]
+                yield line.strip(), "".join(help.split("Examples:\n")[0] for help in helps)
 
 
 def unknown_options(example, text):
-    known = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", text.split("Examples:\n")[0]))
+    known = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", text))
     return [word for word in shlex.split(example) if word.startswith("-") and word not in known]
 
 
