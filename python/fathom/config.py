@@ -10,28 +10,6 @@ from fathom._configuration import Configuration
 
 
 @dataclass(kw_only=True, slots=True, repr=False)
-class (Configuration):
-    """Scene,  of a scene.
-
-    $schema: for editors: the file's schema; a text
-    sensor: the device, and where it stands; an object; required
-    desk: null: no desk; an object or null
-    cups: cups, and what is in them; a list of objects
-    objects: what else stands about; a list of objects
-    effects: what the scene has beside the above: names and parameters by fathom list effects; a list of objects
-    circumstances: when it is shot, and of what as far as the laboratory knows; for the effects that go by it; an object
-    """
-
-    $schema: str | Path | None = None
-    sensor: Sensor | None = None
-    desk: Desk | float | None = None
-    cups: Sequence[Cup] | None = None
-    objects: Sequence[Object] | None = None
-    effects: Sequence[Sequence[float]] | None = None
-    circumstances: Circumstances | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
 class Circumstances(Configuration):
     """Circumstances, circumstances of a scene.
 
@@ -44,7 +22,7 @@ class Circumstances(Configuration):
     time_s: float | None = None
     stood_s: float | None = None
     liquid: str | Path | None = None
-    liquids: Sequence[str | Path | Liquid | ChangedLiquid] | None = None
+    liquids: Sequence[str | Path | Sequence[float]] | None = None
 
 
 @dataclass(kw_only=True, slots=True, repr=False)
@@ -323,35 +301,6 @@ class Desk(Configuration):
 
 
 @dataclass(kw_only=True, slots=True, repr=False)
-class Cup(Configuration):
-    """Cup, cups[] of a scene.
-
-    shape: a name of fathom list cups, a glTF file (*.gltf, *.glb) relative to this file, or a description; a name, a
-        path or an object; required
-    position_mm: of the axis, or the glTF file's origin, on the desk; z, of glTF cups only: height of the lowest point;
-        [x, y] or [x, y, z]; required
-    rotation_deg: of glTF cups only: about the fixed axes x, then y, then z, before yaw_deg; [x, y, z]
-    yaw_deg: direction of the handle, from +x towards +y; any; default 0
-    glaze: a clear coat, which mirrors and through which the albedo is seen; of opaque cups of revolution; an object
-    liquid: a name of fathom list media, that name with a temperature or a dilution, or a description; a name or an
-        object
-    fill_mm: depth of the liquid above the lowest point of the cup's inside; from 0
-    fill_ml: its volume, instead of fill_mm; from 0
-    surface: what makes it other than level; of cups of revolution; an object
-    """
-
-    shape: str | Path | Shape | None = None
-    position_mm: Sequence[Sequence[float]] | None = None
-    rotation_deg: Sequence[float] | None = None
-    yaw_deg: float | None = None
-    glaze: Glaze | None = None
-    liquid: str | Path | ChangedLiquid | Liquid | None = None
-    fill_mm: float | None = None
-    fill_ml: float | None = None
-    surface: Surface | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
 class Surface(Configuration):
     """A liquid's surface, cups[].surface of a scene.
 
@@ -387,38 +336,6 @@ class Ripple(Configuration):
 
 
 @dataclass(kw_only=True, slots=True, repr=False)
-class Shape(Configuration):
-    """Shape of a cup of revolution, cups[].shape of a scene.
-
-    name: what the cup is called; a text
-    height_mm: of the rim; four lengths describe upright walls on a flat bottom; above 0, at most 2000
-    bottom_mm: of the inside, above the desk; above 0, at most 2000
-    inner_radius_mm: of the inside; above 0, at most 2000
-    outer_radius_mm: of the outside; above 0, at most 2000
-    inner_profile_mm: instead of lengths: the inside from the axis to the rim, heights above the desk; points [radius,
-        height]
-    outer_profile_mm: the same of the outside; points [radius, height]
-    albedo: of an opaque wall; 0 to 1; default 0.7
-    material: of a clear wall, which refracts: a name of fathom list walls or a description; without it the wall is
-        opaque; a name or an object
-    handle: of an opaque cup; an object
-    source: where the numbers come from; a text
-    """
-
-    name: str | Path | None = None
-    height_mm: float | None = None
-    bottom_mm: float | None = None
-    inner_radius_mm: float | None = None
-    outer_radius_mm: float | None = None
-    inner_profile_mm: Sequence[float] | None = None
-    outer_profile_mm: Sequence[float] | None = None
-    albedo: float | None = None
-    material: str | Path | Liquid | None = None
-    handle: Handle | None = None
-    source: str | Path | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
 class Handle(Configuration):
     """Handle, cups[].shape.handle of a scene.
 
@@ -444,127 +361,3 @@ class Glaze(Configuration):
 
     roughness: float | None = None
     index: float | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class Liquid(Configuration):
-    """Medium, cups[].liquid of a scene.
-
-    name: what it is called; a text
-    index: refractive index: a number, water's, or a law of dispersion; 1 to 4, or an object; required
-    absorption_per_mm: absorption coefficient at 830 nm and 20 °C; from 0; default 0
-    absorption_per_mm_k: its change with temperature; any; default 0
-    scattering_per_mm: scattering coefficient; from 0; default 0
-    anisotropy: mean cosine of the scattering angle (Henyey and Greenstein); -0.999 to 0.999; default 0
-    ranges: within which the numbers are believed to lie; an object
-    source: where the numbers come from; a text
-    quality: how good they are; a text
-    """
-
-    name: str | Path | None = None
-    index: float | WaterLike | Dispersion | None = None
-    absorption_per_mm: float | None = None
-    absorption_per_mm_k: float | None = None
-    scattering_per_mm: float | None = None
-    anisotropy: float | None = None
-    ranges: Ranges | None = None
-    source: str | Path | None = None
-    quality: str | Path | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class WaterLike(Configuration):
-    """Index like water's, cups[].liquid.index of a scene.
-
-    dispersion: water's index at any temperature (IAPWS R9-97); water; required
-    n: beside at_nm: the index there, which a constant added to water's makes; 1 to 4; default 0
-    at_nm: wavelength of n; 200 to 1100; default 0
-    """
-
-    dispersion: Literal["water"] | None = None
-    n: float | None = None
-    at_nm: float | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class Dispersion(Configuration):
-    """Sellmeier's law, cups[].liquid.index of a scene.
-
-    sellmeier_a: A of n² − 1 = Σ A λ² / (λ² − B), λ in µm; a list of numbers; required
-    sellmeier_b_um2: B; a list of numbers; required
-    range_nm: wavelengths at which that holds; [least, largest]; required
-    """
-
-    sellmeier_a: Sequence[float] | None = None
-    sellmeier_b_um2: Sequence[float] | None = None
-    range_nm: Sequence[float] | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class Ranges(Configuration):
-    """Ranges, cups[].liquid.ranges of a scene.
-
-    index: at 830 nm and 20 °C; [least, largest]
-    absorption_per_mm: of the key of this name; [least, largest]
-    reduced_scattering_per_mm: of scattering_per_mm times 1 − anisotropy; [least, largest]
-    """
-
-    index: Sequence[float] | None = None
-    absorption_per_mm: Sequence[float] | None = None
-    reduced_scattering_per_mm: Sequence[float] | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class ChangedLiquid(Configuration):
-    """Changed medium, cups[].liquid of a scene.
-
-    name: of fathom list media, of a liquid that follows water's dispersion; a name
-    of: its description, instead of the name; an object
-    in: description of the water that it is diluted in, instead of the library's; an object
-    temperature_c: of the liquid; 0 to 100; default 20
-    dilution: its share of the volume, the rest is water; above 0, at most 1; default 1
-    """
-
-    name: str | Path | None = None
-    of: Liquid | None = None
-    in: Liquid | None = None
-    temperature_c: float | None = None
-    dilution: float | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class Object(Configuration):
-    """Object, objects[] of a scene.
-
-    gltf: a glTF file, relative to this file; or solid; a path
-    solid: a name of fathom list solids, or one of box_mm, profile_mm and cup; a name or an object
-    position_mm: of the glTF file's origin, three numbers; a solid stands there on the desk, or with its lowest point at
-        z; [x, y] or [x, y, z]
-    rotation_deg: about the fixed axes x, then y, then z; [x, y, z]
-    """
-
-    gltf: str | Path | None = None
-    solid: str | Path | Solid | None = None
-    position_mm: Sequence[Sequence[float]] | None = None
-    rotation_deg: Sequence[float] | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
-class Solid(Configuration):
-    """Solid, objects[].solid of a scene.
-
-    name: what it is called; a text
-    box_mm: a box by its sides; the middle of its base is the origin; [x, y, z]
-    profile_mm: a body of revolution: from the axis round the outside and back to the axis above; points [radius,
-        height]
-    cup: a cup's shape, empty and opaque, to be turned over or laid down; a name or an object
-    albedo: share of the light that it scatters back; 0 to 1; default 0.5
-    source: where the numbers come from; a text
-    """
-
-    name: str | Path | None = None
-    box_mm: Sequence[Sequence[float]] | None = None
-    profile_mm: Sequence[float] | None = None
-    cup: str | Path | Shape | None = None
-    albedo: float | None = None
-    source: str | Path | None = None

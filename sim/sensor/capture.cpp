@@ -103,7 +103,7 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
     : setup_(with_effects(setup)), mode_(mode), seed_(seed) {
   const SensorModel& sensor = setup_.rig.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup_.scene, sensor.wavelength_nm); });
-  if (const auto overlap = find_overlap(setup_.scene, geometry_))
+  if (const auto overlap = find_overlap(setup.scene, geometry_))
     throw Error(setup_.file, overlap->one,
                 fmt::format("stands in {}: things may touch, not share their room", overlap->other));
   const Intersector world(geometry_);

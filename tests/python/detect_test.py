@@ -81,7 +81,7 @@ class Detect(unittest.TestCase):
             with self.assertRaisesRegex(fathom.Error, told.replace("(", r"\(").replace(")", r"\)")):
                 fathom.detect(*arguments)
         for keys, told in (({"method": "best"}, "unknown method 'best'"), ({"height_mm": 650}, "belong together"),
-                           ({"height_mm": np.nan, "pitch_deg": 3}, "height_mm: must be"), ({"config": {"plane": 1}}, "config: /: unknown key"),
+                           ({"height_mm": np.nan, "pitch_deg": 3}, "height_mm: must be"), ({"config": {"plane": 1}}, "config: /plane: unknown key"),
                            ({"config": "absent.json"}, "absent.json")):
             with self.assertRaises(fathom.Error) as raised:
                 fathom.detect(flat, **keys)
