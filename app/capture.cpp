@@ -13,6 +13,7 @@
 #include "app/output_size.h"
 #include "app/print.h"
 #include "app/scene_doubts.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
@@ -23,6 +24,7 @@
 #include "core/rows.h"
 #include "core/units.h"
 #include "sim/effects/effects_json.h"
+#include "sim/render/overlap.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"
 #include "sim/sensor/capture_files.h"
@@ -132,6 +134,9 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   if (options.frames > 1) announce(common, sentence);
   Progress progress(options.frames == 1 ? "capture" : "frame", static_cast<std::size_t>(options.frames), common.quiet);
   Camera camera(setup, mode, options.spp, common.seed, light);
+  if (const auto overlap = find_overlap(setup.scene, camera.geometry()))
+    throw Error(options.scene.string(), overlap->one,
+                fmt::format("stands in {}: things may touch, not share their room", overlap->other));
   const SensorModel& sensor = camera.setup().rig.sensor;
   const ResolvedScene resolved = resolved_scene(camera.setup());  // before anything goes that it may name
   CaptureFolder folder(common.output,

@@ -1,17 +1,13 @@
 #include "sim/sensor/capture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "core/timed.h"
 #include "sim/effects/effects_json.h"
 #include "sim/render/intersect.h"
-#include "sim/render/overlap.h"
 #include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
@@ -103,9 +99,6 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
     : setup_(with_effects(setup)), mode_(mode), seed_(seed) {
   const SensorModel& sensor = setup_.rig.sensor;
   geometry_ = timed(statistics_.build_s, [&] { return build_geometry(setup_.scene, sensor.wavelength_nm); });
-  if (const auto overlap = find_overlap(setup.scene, geometry_))
-    throw Error(setup_.file, overlap->one,
-                fmt::format("stands in {}: things may touch, not share their room", overlap->other));
   const Intersector world(geometry_);
   const auto projector = timed(
       statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, setup_.rig.projector_in_world()); });

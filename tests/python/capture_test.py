@@ -113,7 +113,7 @@ class Scenes(unittest.TestCase):
     def test_every_key_of_the_program_is_an_attribute(self):
         for table in program.run_json("list", "keys"):
             name = "".join(word.capitalize() for word in table["definition"].split("_"))
-            if table["file"] != "scene" or not hasattr(fathom, name or "absent"):
+            if table["file"] != "scene" or not hasattr(fathom.config, name or "absent"):
                 continue  # cups, liquids and objects are dictionaries
             keys = {key["key"]: key for key in table["keys"]}
             self.assertEqual(list(getattr(fathom, name).__dataclass_fields__), list(keys))
