@@ -10,22 +10,6 @@ from fathom._configuration import Configuration
 
 
 @dataclass(kw_only=True, slots=True, repr=False)
-class Circumstances(Configuration):
-    """Circumstances, circumstances of a scene.
-
-    time_s: since the session began, at frame 0; from 0; default 0
-    stood_s: how long the cups have been filled by then; from 0; default 0
-    liquid: as labelled, where that is not the liquid's name; a text
-    liquids: all that are poured, in the order of their labels; a list
-    """
-
-    time_s: float | None = None
-    stood_s: float | None = None
-    liquid: str | Path | None = None
-    liquids: Sequence[str | Path | Sequence[float]] | None = None
-
-
-@dataclass(kw_only=True, slots=True, repr=False)
 class Sensor(Configuration):
     """Sensor, sensor of a scene.
 
