@@ -143,6 +143,8 @@ def sensor(model: str = "xtion_pro_live", **keys: Any) -> Sensor:
 def read_cloud(path: PathLike) -> tuple[Floats, Floats | None]:
     """Points of a PCD or PLY file in metres, h x w x 3 or n x 3, and their intensities, h x w or n, or None.
 
+    path: of the file
+
     NaN where nothing was measured; camera frame: x right, y down, z forward.
     """
     return _fathom.read_cloud(path)
