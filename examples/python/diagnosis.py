@@ -25,7 +25,7 @@ left.set_ylabel("measured minus model [mm]")
 left.legend()
 likely = found.posterior[:6][::-1]
 right.barh([row.words for row in likely], [row.probability for row in likely])
-right.set_xlim(0, 1)
+right.set(xlim=(0, 1), ylim=(-0.8, max(len(likely), 4) - 0.2))
 right.set_xlabel("probability")
 right.set_title(f"verdict: {found.verdict}")
 figure.savefig(sys.argv[1], dpi=100)
