@@ -13,7 +13,6 @@
 #include "app/output_size.h"
 #include "app/print.h"
 #include "app/scene_doubts.h"
-#include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/image_file.h"
@@ -124,19 +123,16 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   Setup setup = read_setup(options.scene);
   for (const std::string& doubt : scene_doubts(setup.source))
     print_warning(fmt::format("{}: {}", options.scene.string(), doubt));
+  require_apart(setup);
   if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);
   const CaptureMode mode = options.mode == "geometric" ? CaptureMode::geometric : CaptureMode::photometric;
-  std::optional<LightModel> light;
-  if (options.light != "auto") light = options.light == "full" ? LightModel::full : LightModel::direct;
+  const std::optional<LightModel> light = light_named(options.light);
   const OutputSize size{static_cast<double>(options.frames),
                         capture_bytes(setup.rig.sensor, mode == CaptureMode::photometric, options.device_outputs)};
   const std::string sentence = require_space(common, size, options.yes);
   if (options.frames > 1) announce(common, sentence);
   Progress progress(options.frames == 1 ? "capture" : "frame", static_cast<std::size_t>(options.frames), common.quiet);
   Camera camera(setup, mode, options.spp, common.seed, light);
-  if (const auto overlap = find_overlap(setup.scene, camera.geometry()))
-    throw Error(options.scene.string(), overlap->one,
-                fmt::format("stands in {}: things may touch, not share their room", overlap->other));
   const SensorModel& sensor = camera.setup().rig.sensor;
   const ResolvedScene resolved = resolved_scene(camera.setup());  // before anything goes that it may name
   CaptureFolder folder(common.output,
@@ -202,7 +198,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
          "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
          "interreflected, mirrored and scattered as well; auto: full where light enters a liquid and is scattered "
          "there by more than 0.05 mm, else direct")
-      ->check(one_of("light", {"auto", "direct", "full"}))
+      ->check(one_of("light", light_names()))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")
       ->check(CLI::Range(1, kMostFrames))

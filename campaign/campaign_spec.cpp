@@ -128,15 +128,10 @@ std::span<const Field<CampaignSpec>> spec_fields() {
       {"placement_s", &Spec::placement_s, kNonNegative, "that putting down takes besides"},
       {"pour_s", &Spec::pour_s, kNonNegative, "that pouring takes besides"},
       {"mode",
-       Choice<Spec>{{"photometric", "geometric"},
-                    [](const Spec& spec) { return spec.mode == CaptureMode::photometric ? std::size_t{0} : 1; },
-                    [](Spec& spec, std::size_t choice) {
-                      spec.mode = choice == 0 ? CaptureMode::photometric : CaptureMode::geometric;
-                    }},
+       enum_choice<&Spec::mode, Spec>({"geometric", "photometric"}),
        {},
        "photometric: infrared images, in all light where a liquid lets it in by more than 0.05 mm before it scatters "
-       "it "
-       "back or an effect of light is on, else in direct light; geometric: exact refraction alone"},
+       "it back or an effect of light is on, else in direct light; geometric: exact refraction alone"},
       {"fill_sigma_mm",
        Part<Spec>{[](const JsonReader& json, Spec& spec) {
                     spec.nominal.fill_sigma_m = metres_from_mm(json.number({0.0, mm_from_metres(spec.deepest_fill())}));

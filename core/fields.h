@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -68,6 +69,15 @@ struct Choice {
   std::size_t (*get)(const T&);
   void (*set)(T&, std::size_t);
 };
+
+/// A member that is an enumeration; the names stand in the order of its values.
+template <auto member, class T>
+Choice<T> enum_choice(std::vector<std::string> names) {
+  return {std::move(names), [](const T& object) { return static_cast<std::size_t>(object.*member); },
+          [](T& object, std::size_t choice) {
+            object.*member = static_cast<std::remove_reference_t<decltype(object.*member)>>(choice);
+          }};
+}
 
 /// A value with a reader and a writer of its own. A writer that returns null leaves the key out; a reader that is not
 /// given takes nothing, because something else reads the key.

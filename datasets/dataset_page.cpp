@@ -99,8 +99,7 @@ void write_dataset_page(const fs::path& folder, const Dataset& dataset) {
       ".b{{height:.8em;background:#4a7fb5}} img{{margin:2px;width:320px;height:240px;display:inline}}</style>"
       "<h1>{} labelled frames</h1>"
       "<p>Measured depth, near is bright. Cups are green, other things blue, liquids that are seen through cyan, and "
-      "the "
-      "surfaces of turbid ones orange.</p>{}<h2>What was drawn</h2>{}",
+      "the surfaces of turbid ones orange.</p>{}<h2>What was drawn</h2>{}",
       dataset.frames, thumbnails(folder, dataset), charts);
   write_text(folder / "index.html", html_page("Labelled frames", body));
 }

@@ -95,25 +95,18 @@ std::span<const Field<DatasetSpec>> spec_fields() {
       {"fill_share", &Spec::fill_share, kShare, "of the cup's depth to which it is poured"},
       {"empty", &Spec::empty, kShare, "share of the cups that hold nothing"},
       {"mode",
-       Choice<Spec>{{"geometric", "photometric"},
-                    [](const Spec& spec) { return spec.mode == CaptureMode::geometric ? std::size_t{0} : 1; },
-                    [](Spec& spec, std::size_t choice) {
-                      spec.mode = choice == 0 ? CaptureMode::geometric : CaptureMode::photometric;
-                    }},
+       enum_choice<&Spec::mode, Spec>({"geometric", "photometric"}),
        {},
        "geometric: exact refraction and the noise of measured desks, cheap; photometric: infrared images, matched"},
       {"light",
-       Choice<Spec>{{"auto", "direct", "full"},
+       Choice<Spec>{light_names(),
                     [](const Spec& spec) {
                       return !spec.light ? std::size_t{0} : *spec.light == LightModel::direct ? 1 : 2;
                     },
-                    [](Spec& spec, std::size_t choice) {
-                      if (choice > 0) spec.light = choice == 1 ? LightModel::direct : LightModel::full;
-                    }},
+                    [](Spec& spec, std::size_t choice) { spec.light = light_named(light_names()[choice]); }},
        {},
        "of photometric frames; full: also what is scattered in liquids, mirrored and interreflected; auto: full where "
-       "a "
-       "liquid scatters, else direct"}};
+       "a liquid scatters, else direct"}};
   return fields;
 }
 

@@ -8,6 +8,7 @@
 #include "python/objects.h"
 #include "python/watched.h"
 #include "sim/effects/effects_json.h"
+#include "sim/render/overlap.h"
 #include "sim/scene/rig.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"
@@ -22,12 +23,6 @@ Setup setup_of(const ScenePath& path, const Json& scene) {
   return path ? read_setup(*path) : whole_setup_from_json(scene, "scene");
 }
 
-std::optional<LightModel> light_of(const std::string& name) {
-  const std::size_t choice = choice_of("light", name, {"auto", "direct", "full"});
-  if (choice == 0) return std::nullopt;
-  return choice == 1 ? LightModel::direct : LightModel::full;
-}
-
 /// The scene is a file or, where `path` is None, an object.
 std::unique_ptr<Camera> camera_of(const ScenePath& path, const py::object& scene, const std::string& mode,
                                   const std::string& light, int samples, std::uint64_t seed, const ScenePath& model,
@@ -35,10 +30,11 @@ std::unique_ptr<Camera> camera_of(const ScenePath& path, const py::object& scene
   const Json json = json_from_python(scene, "scene");
   const auto how =
       choice_of("mode", mode, {"geometric", "photometric"}) == 0 ? CaptureMode::geometric : CaptureMode::photometric;
-  const std::optional<LightModel> chosen = light_of(light);
+  const std::optional<LightModel> chosen = light_named(light);
   require_within("spp", samples, {1.0, 4096.0});
   return watched(progress, [&] {
     Setup setup = setup_of(path, json);
+    require_apart(setup);
     if (model) setup = with_effects_of_model(std::move(setup), *model);
     return std::make_unique<Camera>(setup, how, samples, seed, chosen);
   });

@@ -61,11 +61,16 @@ void search_scene(const fs::path& folder, const DatasetFrames& frames, const Dat
 }
 
 std::optional<std::vector<TrialResult>> searched(const fs::path& folder, const DatasetFrames& frames) {
+  const auto file_of = [&](const DatasetFrames::SceneFolder& scene, int image) {
+    return trial_file(answers_to(folder, scene), frame_name(image));
+  };
+  for (const DatasetFrames::SceneFolder& scene : frames.scenes())
+    for (int image = 0; image < scene.frames; ++image)
+      if (!fs::exists(file_of(scene, image))) return std::nullopt;
   std::vector<TrialResult> results;
   for (const DatasetFrames::SceneFolder& scene : frames.scenes())
     for (int image = 0; image < scene.frames; ++image) {
-      const fs::path file = trial_file(answers_to(folder, scene), frame_name(image));
-      if (!fs::exists(file)) return std::nullopt;
+      const fs::path file = file_of(scene, image);
       const Json json = read_json(file);
       results.push_back(trial_from_json(JsonReader(json, file.string())));
       results.back().name = fmt::format("{}_{}", scene.name, frame_name(image));

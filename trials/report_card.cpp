@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "core/files.h"
-#include "core/proportion.h"
 #include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "report/html.h"
@@ -110,10 +109,9 @@ std::string tables(const std::vector<CardRow>& card) {
     const auto end = std::find_if(begin, card.end(), [&](const CardRow& row) { return row.factor != begin->factor; });
     std::vector<std::vector<std::string>> rows;
     for (auto row = begin; row != end; ++row) {
-      const Interval interval = wilson_95(row->hits, row->of);
+      const Interval interval = row->interval();
       rows.push_back({row->group, row->rate, fmt::format("{}", row->hits), fmt::format("{}", row->of),
-                      percent(static_cast<double>(row->hits) / row->of), percent(interval.low),
-                      percent(interval.high)});
+                      percent(row->share()), percent(interval.low), percent(interval.high)});
     }
     html += html_folded("By " + begin->factor,
                         html_table({begin->factor, "rate", "hits", "of", "%", "95 % from", "to"}, rows, true));
@@ -136,12 +134,12 @@ void draw_card(const std::filesystem::path& folder, const std::vector<CardRow>& 
                             gnuplot_text(row.factor), labels.size());
     if (is_new_factor || row.group != group) labels.push_back(row.group);
     factor = row.factor, group = row.group;
-    const Interval interval = wilson_95(row.hits, row.of);
+    const Interval interval = row.interval();
     const auto rate =
         std::find_if(kRates.begin(), kRates.end(), [&](const auto& one) { return one.first == row.rate; });
     const double aside = kAside * static_cast<double>(rate - kRates.begin() - 1);
-    points[row.rate] += fmt::format("{},{},{},{}\n", static_cast<double>(labels.size()) - 1.0 + aside,
-                                    static_cast<double>(row.hits) / row.of, interval.low, interval.high);
+    points[row.rate] += fmt::format("{},{},{},{}\n", static_cast<double>(labels.size()) - 1.0 + aside, row.share(),
+                                    interval.low, interval.high);
   }
   std::string blocks;
   std::vector<std::string> series;
@@ -177,9 +175,9 @@ std::vector<CardRow> report_card(const std::vector<TrialResult>& trials) {
 Table card_table(const std::vector<CardRow>& card) {
   Table table({"factor", "group", "rate", "hits", "of", "share", "low", "high"});
   for (const CardRow& row : card) {
-    const Interval interval = wilson_95(row.hits, row.of);
+    const Interval interval = row.interval();
     table.add({row.factor, row.group, row.rate, fmt::format("{}", row.hits), fmt::format("{}", row.of),
-               fmt::format("{:.4f}", static_cast<double>(row.hits) / row.of), fmt::format("{:.4f}", interval.low),
+               fmt::format("{:.4f}", row.share()), fmt::format("{:.4f}", interval.low),
                fmt::format("{:.4f}", interval.high)});
   }
   return table;

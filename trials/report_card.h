@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/proportion.h"
 #include "core/rows.h"
 #include "core/table.h"
 #include "trials/trial.h"
@@ -17,6 +18,9 @@ struct CardRow {
   std::string group;   ///< "500 to 600"
   std::string rate;    ///< "recognised", "liquid told", "liquid right", "false cup"
   int hits, of;
+
+  double share() const { return static_cast<double>(hits) / of; }
+  Interval interval() const { return wilson_95(hits, of); }
 };
 
 /// Of cups: `recognised`; of these `liquid told`, where the method says yes or no; of these `liquid right`. Of frames:

@@ -8,7 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/error.h"
 #include "sim/render/intersect.h"
+#include "sim/scene/geometry.h"
 
 namespace fathom {
 namespace {
@@ -86,7 +88,8 @@ bool overlap(const Thing& one, const Thing& other) {
 
 }  // namespace
 
-std::optional<Overlap> find_overlap(const Scene& scene, const Geometry& geometry) {
+std::optional<Overlap> find_overlap(const Scene& scene, double wavelength_nm) {
+  const Geometry geometry = build_geometry(scene, wavelength_nm);
   std::vector<Thing> things;
   for (std::size_t i = 0; i < scene.cups.size(); ++i)
     things.emplace_back(fmt::format("/cups/{}", i), geometry, geometry.cups[i].cup, false);
@@ -97,6 +100,12 @@ std::optional<Overlap> find_overlap(const Scene& scene, const Geometry& geometry
     for (std::size_t j = 0; j < i; ++j)
       if (overlap(things[i], things[j])) return Overlap{things[i].place(), things[j].place()};
   return std::nullopt;
+}
+
+void require_apart(const Setup& setup) {
+  if (const auto overlap = find_overlap(setup.scene, setup.rig.sensor.wavelength_nm))
+    throw Error(setup.file, overlap->one,
+                fmt::format("stands in {}: things may touch, not share their room", overlap->other));
 }
 
 }  // namespace fathom

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "sim/scene/geometry.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/setup.h"
 
 namespace fathom {
 
@@ -18,8 +18,11 @@ struct Overlap {
 
 /// The first two cups or objects of the scene that stand in one another: whose surfaces cross, and go on crossing when
 /// one of them is moved by kTouching along any axis; or of which one lies within a solid. A thing may stand in a cup,
-/// in a bowl, or in a room that is a glTF file. `geometry` is build_geometry()'s of the scene; what effects have added
-/// to it behind the scene's own cups and objects, like a second layer of a liquid, is not looked at.
-std::optional<Overlap> find_overlap(const Scene& scene, const Geometry& geometry);
+/// in a bowl, or in a room that is a glTF file.
+std::optional<Overlap> find_overlap(const Scene& scene, double wavelength_nm);
+
+/// Throws Error where things stand in one another. Effects may add such things, like a second layer to a liquid: this
+/// is for a scene as its file has it.
+void require_apart(const Setup& setup);
 
 }  // namespace fathom

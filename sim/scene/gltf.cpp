@@ -1,10 +1,6 @@
 #include "sim/scene/gltf.h"
 
 #define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_USE_CPP14
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 

@@ -1,9 +1,5 @@
 #include "sim/scene/gltf_model.h"
 
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_USE_CPP14
 #include <tiny_gltf.h>
 
 #include <cmath>

@@ -93,10 +93,7 @@ std::span<const Field<MatcherModel>> matcher_fields() {
   constexpr Range kWindow{3.0, 31.0};
   static const Field<MatcherModel> fields[] = {
       {"method",
-       Choice<MatcherModel>{
-           {"precise", "device"},
-           [](const MatcherModel& matcher) { return static_cast<std::size_t>(matcher.method); },
-           [](MatcherModel& matcher, std::size_t choice) { matcher.method = MatchMethod{static_cast<int>(choice)}; }},
+       enum_choice<&MatcherModel::method, MatcherModel>({"precise", "device"}),
        {},
        "precise: slopes and edges are followed; device: block correlation in steps of 1/8 px"},
       {"window_columns", &MatcherModel::window_columns, kWindow, "of the block, odd"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "core/timed.h"
 #include "sim/effects/effects_json.h"
@@ -92,6 +93,18 @@ LightModel measured_light(const Setup& setup) {
     is_let_in = true;
   }
   return is_let_in ? LightModel::full : LightModel::direct;
+}
+
+const std::vector<std::string>& light_names() {
+  static const std::vector<std::string> names{"auto", "direct", "full"};
+  return names;
+}
+
+std::optional<LightModel> light_named(const std::string& name) {
+  if (name == "auto") return std::nullopt;
+  if (name == "direct") return LightModel::direct;
+  if (name == "full") return LightModel::full;
+  throw Error(unknown_name("light", name, light_names()));
 }
 
 Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,

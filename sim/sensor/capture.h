@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/cloud_file.h"
 #include "core/image.h"
@@ -28,6 +30,10 @@ enum class CaptureMode {
 /// than 0.05 mm below its surface it is direct, too: walks take too long there. Effects are switched on
 /// already.
 LightModel measured_light(const Setup& setup);
+
+/// What files and options call the light, and what they mean: measured_light() by "auto". Throws Error on other names.
+const std::vector<std::string>& light_names();
+std::optional<LightModel> light_named(const std::string& name);
 
 struct Frame {
   Image<float> ir;            ///< [DN] ir_width × ir_height; empty in geometric mode

@@ -119,6 +119,18 @@ TEST_F(CaptureCommand, SaysWhereCameraAndObjectsStand) {
   EXPECT_EQ(record["world_from_object"]["3"], at_cup);
 }
 
+TEST_F(CaptureCommand, ThingsThatShareTheirRoomAreRefusedBeforeAnythingIsWritten) {
+  Json scene = small_scene();
+  scene["cups"] =
+      Json::parse(R"([{"shape": "mug", "position_mm": [0, 300]}, {"shape": "paper_cup", "position_mm": [85, 300]}])");
+  write_json(scene_, scene);
+  const ProgramRun run = run_fathom("capture " + scene_.string() + " -o " + (folder_ / "out").string());
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.err,
+            "error: " + scene_.string() + ": /cups/1: stands in /cups/0: things may touch, not share their room\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
 TEST_F(CaptureCommand, IsReadBackWithItsEffectsAndAModels) {
   Json scene = small_scene();
   scene["effects"] = Json::parse(R"([{"name": "baseline", "baseline_mm": 0.3}, {"name": "fill_scale", "scale": 0.1}])");

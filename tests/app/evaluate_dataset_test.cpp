@@ -11,6 +11,7 @@
 #include "core/json.h"
 #include "core/table.h"
 #include "tests/app/run_fathom.h"
+#include "tests/core/files_below.h"
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
@@ -43,13 +44,6 @@ struct EvaluateDataset : testing::Test {
 
   ProgramRun evaluate(const std::string& to, const std::string& options = "", const fs::path& of = frames()) {
     return run_fathom(fmt::format("evaluate {} --json --quiet -o {} {}", of.string(), (folder / to).string(), options));
-  }
-  std::map<std::string, std::string> files(const std::string& of) {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : fs::recursive_directory_iterator(folder / of))
-      if (entry.is_regular_file() && entry.path().filename() != ".fathom.lock")
-        result[entry.path().lexically_relative(folder / of).string()] = read_text(entry.path());
-    return result;
   }
 };
 
@@ -96,10 +90,10 @@ TEST_F(EvaluateDataset, ShardsAndARepeatedRunGiveTheSameBytes) {
   EXPECT_EQ(Json::parse(first.out).at("complete").at("value"), "no");
   EXPECT_FALSE(fs::exists(folder / "parts/rates.json"));
   ASSERT_EQ(evaluate("parts", "--shard 0/2").exit_code, 0);
-  EXPECT_EQ(files("parts"), files("whole"));
+  EXPECT_EQ(files_below(folder / "parts"), files_below(folder / "whole"));
   fs::remove(folder / "parts/scenes/000001/trials/000002.json");
   ASSERT_EQ(evaluate("parts").exit_code, 0);
-  EXPECT_EQ(files("parts"), files("whole"));
+  EXPECT_EQ(files_below(folder / "parts"), files_below(folder / "whole"));
 }
 
 TEST_F(EvaluateDataset, AnotherMethodsAnswersAreNotMixed) {

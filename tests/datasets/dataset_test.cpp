@@ -12,6 +12,7 @@
 #include "core/json.h"
 #include "datasets/scene_folder.h"
 #include "tests/core/expect_error.h"
+#include "tests/core/files_below.h"
 #include "tests/core/temporary_folder.h"
 
 namespace fathom {
@@ -37,14 +38,6 @@ struct DatasetFolder : testing::Test {
   }
   int write(const Dataset& dataset, int scene, const std::string& to = "out") {
     return write_scene(folder / to, dataset, scene, kIdentity, [] {});
-  }
-  /// Bytes of every file by its name.
-  std::map<std::string, std::string> files(const std::string& of) {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : fs::recursive_directory_iterator(folder / of))
-      if (entry.is_regular_file() && entry.path().filename() != ".fathom.lock")
-        result[entry.path().lexically_relative(folder / of).string()] = read_text(entry.path());
-    return result;
   }
 };
 
@@ -147,16 +140,16 @@ TEST_F(DatasetFolder, HasTheSameBytesWhicheverWayItWasMade) {
   EXPECT_FALSE(is_complete(folder / "out", set));
   EXPECT_EQ(write(set, 0), 2);
   EXPECT_TRUE(is_complete(folder / "out", set));
-  const auto whole = files("out");
+  const auto whole = files_below(folder / "out");
   EXPECT_EQ(write(set, 0), 0) << "what is there is not made again";
-  EXPECT_EQ(files("out"), whole);
+  EXPECT_EQ(files_below(folder / "out"), whole);
 
   // A run that was killed has cut a file short, has not noted another, and has gathered nothing.
   write_text(folder / "out/train/000000/depth/000001.png", "half");
   fs::remove(folder / "out/train/000000/labels/000000.json");
   fs::remove(folder / "out/train/000000/complete.json");
   EXPECT_EQ(write(set, 0), 2);
-  EXPECT_EQ(files("out"), whole);
+  EXPECT_EQ(files_below(folder / "out"), whole);
 
   // A set of fewer frames that is continued becomes the longer one.
   const Dataset shorter = dataset(1);
@@ -167,7 +160,7 @@ TEST_F(DatasetFolder, HasTheSameBytesWhicheverWayItWasMade) {
   EXPECT_EQ(missing_frames(folder / "grown", set, 0), 1);
   EXPECT_EQ(write(set, 0, "grown"), 1);
   EXPECT_EQ(write(set, 1, "grown"), 1);
-  EXPECT_EQ(files("grown"), whole);
+  EXPECT_EQ(files_below(folder / "grown"), whole);
 }
 
 TEST_F(DatasetFolder, OfAnotherSpecificationIsRefused) {
@@ -175,9 +168,9 @@ TEST_F(DatasetFolder, OfAnotherSpecificationIsRefused) {
   write_common(folder / "out", set, kIdentity);
   write(set, 0);
   expect_error([&] { write_scene(folder / "out", set, 0, {"generate", {{"seed", 8}}}, [] {}); }, {"seed"});
-  const auto before = files("out");
+  const auto before = files_below(folder / "out");
   expect_error([&] { write_common(folder / "out", set, {"generate", {{"seed", 8}}}); }, {"seed", "another run"});
-  EXPECT_EQ(files("out"), before) << "what is refused has written nothing";
+  EXPECT_EQ(files_below(folder / "out"), before) << "what is refused has written nothing";
   make_directory(folder / "theirs/train");
   expect_error([&] { write_common(folder / "theirs", set, kIdentity); }, {"train: is there already"});
 }

@@ -14,7 +14,7 @@ std::string overlap_of(const char* cups, const char* objects) {
                       {"cups", Json::parse(cups)},
                       {"objects", Json::parse(objects)}};
   const Setup setup = setup_from_json(scene, "scene.json");
-  const auto found = find_overlap(setup.scene, build_geometry(setup.scene, 830.0));
+  const auto found = find_overlap(setup.scene, setup.rig.sensor.wavelength_nm);
   return found ? found->one + " in " + found->other : "";
 }
 
