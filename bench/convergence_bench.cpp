@@ -33,7 +33,7 @@ class Strip {
   }
 
   Image<float> image(int samples_across, std::uint64_t seed) const {
-    return render_ir(scene_.projector, scene_.setup.rig, pattern_, samples_across, LightModel::full, seed);
+    return render_ir(scene_.projector, scene_.setup.rig, pattern_, samples_across, LightModel::full, seed).projected;
   }
 
   std::vector<Eigen::Vector2i> pixels() const { return pixels_on_cups(scene_.projector, scene_.setup.rig); }

@@ -30,16 +30,17 @@ class Generated {
         Dataset{.spec = read_dataset_spec(folder_ / "spec.json", kSeed), .seed = kSeed, .frames = frames});
   }
 
-  /// All frames anew, with their labels gathered.
-  void make() const {
-    fs::remove_all(folder_ / "frames");
-    make_directory(folder_ / "frames");
-    write_scene(folder_ / "frames", *dataset_, 0, {"generate", {}}, [] {});
+  /// All frames anew, with their labels gathered; in a new folder, because files that take the place of deleted ones
+  /// cost the file system more.
+  void make() {
+    const fs::path frames = folder_ / fmt::format("frames_{}", made_++);
+    make_directory(frames);
+    write_scene(frames, *dataset_, 0, {"generate", {}}, [] {});
   }
 
   double bytes() const {
     double bytes = 0.0;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_ / "frames"))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_ / "frames_0"))
       if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
     return bytes / dataset_->frames;
   }
@@ -47,11 +48,12 @@ class Generated {
  private:
   static constexpr std::uint64_t kSeed = 1;
   TemporaryFolder folder_;
+  int made_ = 0;
   std::unique_ptr<Dataset> dataset_;
 };
 
 void measure_frames(const std::string& name, const char* mode, int frames) {
-  const auto generated = std::make_shared<const Generated>(mode, frames);
+  const auto generated = std::make_shared<Generated>(mode, frames);
   generated->make();
   measure(name, {{"frames", frames}, {"bytes", generated->bytes()}}, [generated] { generated->make(); });
 }
@@ -71,7 +73,7 @@ void register_generate() {
   constexpr int kGeometric = 40, kPhotometric = 4;
   measure_frames("generate/geometric", "geometric", kGeometric);
   measure_frames("generate/photometric", "photometric", kPhotometric);
-  const auto alone = std::make_shared<const Generated>("geometric", kGeometric);
+  const auto alone = std::make_shared<Generated>("geometric", kGeometric);
   measure_alone("generate/geometric_one_thread", 0.0, [alone] { alone->make(); });
 
   struct Yardstick {

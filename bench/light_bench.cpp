@@ -35,7 +35,7 @@ struct Case {
   }
 
   Image<float> image(const Pattern& of_projector, std::uint64_t seed) const {
-    return render_ir(scene.projector, scene.setup.rig, of_projector, kSamplesAcross, LightModel::full, seed);
+    return render_ir(scene.projector, scene.setup.rig, of_projector, kSamplesAcross, LightModel::full, seed).projected;
   }
 };
 

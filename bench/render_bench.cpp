@@ -39,7 +39,7 @@ void require_same_hits(const Yardstick& yardstick, const Recording& recording) {
 Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, const Reference& reference) {
   const SensorModel& sensor = scene.setup.rig.sensor;
   const Image<float> radiance =
-      render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, LightModel::direct, 1);
+      render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, LightModel::direct, 1).projected;
   const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
   const Image<float> depth = depth_image(sensor, match(sensor, ir, reference).disparity_px);
   return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));

@@ -54,8 +54,8 @@ StereoPair make_stereo_pair(Setup setup, const NoiseModel& noise) {
   const int margin = reference_margin(sensor.matcher);
   const Image<float> reference = reference_image(sensor, pattern, margin, kSamplesAcross);
   pattern.set_dot_gains(speckle_gains(noise, pattern, kSeed));
-  Image<float> ir =
-      expose(render_ir(scene.projector, rig, pattern, kSamplesAcross, LightModel::direct, kSeed), noise, kSeed, 0);
+  Image<float> ir = expose(
+      render_ir(scene.projector, rig, pattern, kSamplesAcross, LightModel::direct, kSeed).projected, noise, kSeed, 0);
 
   StereoPair pair;
   pair.sensor = sensor;

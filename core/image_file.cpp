@@ -143,7 +143,7 @@ bool write_grey16(PngFile& to, const Image<std::uint16_t>& image) {
   // Trying every filter on every row takes longer than compressing and gains nothing on depths, which run on along
   // rows.
   png_set_filter(to.png, 0, PNG_FILTER_SUB);
-  png_set_compression_level(to.png, 3);
+  png_set_compression_level(to.png, 2);
   png_write_info(to.png, to.info);
   png_set_swap(to.png);
   for (int y = 0; y < image.height(); ++y) png_write_row(to.png, reinterpret_cast<png_const_bytep>(image.row(y)));

@@ -31,8 +31,8 @@ template <class Depth>
 Image<std::uint16_t> depth_counts(const Image<TruePixel>& truth, Depth depth) {
   Image<std::uint16_t> counts(truth.width(), truth.height());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double count = std::round(depth(i) * 1e3 / kDepthUnitMm);
-    counts.pixels()[i] = count > 0.0 && count <= 65535.0 ? static_cast<std::uint16_t>(count) : 0;
+    const double count = depth(i) * (1e3 / kDepthUnitMm) + 0.5;  // a cast cuts off
+    counts.pixels()[i] = count >= 1.0 && count < 65536.0 ? static_cast<std::uint16_t>(count) : 0;
   }
   return counts;
 }
@@ -70,12 +70,13 @@ class FrameWriter {
 
 void write_depths(const Camera& camera, const Frame& frame, FrameWriter& writer) {
   const Image<TruePixel>& truth = camera.truth();
-  const Pose camera_from_world = camera.setup().rig.world_from_camera.inverse();
+  const Rig& rig = camera.setup().rig;
+  const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2), eye = rig.camera_in_world();
   writer.image("depth",
                depth_counts(truth, [&](std::size_t i) { return static_cast<double>(frame.depth.pixels()[i]); }));
   writer.image("depth_true", depth_counts(truth, [&](std::size_t i) {
                  const TruePixel& pixel = truth.pixels()[i];
-                 return pixel.object > 0 ? (camera_from_world * pixel.position).z() : 0.0;
+                 return pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0;
                }));
   writer.image("depth_apparent",
                depth_counts(truth, [&](std::size_t i) { return truth.pixels()[i].apparent_depth.value_or(0.0); }));

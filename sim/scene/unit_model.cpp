@@ -2,13 +2,23 @@
 
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
 #include "core/rng.h"
+#include "core/simd.h"
 
 namespace fathom {
+namespace {
+
+/// Adds amplitude · cos(a + b), from the amplitude's share in cos a and sin a along a row, and cos b and sin b.
+FATHOM_SIMD_CLONES
+void add_wave(const float* __restrict cosines, const float* __restrict sines, float cosine, float sine,
+              float* __restrict sum, int width) {
+  for (int x = 0; x < width; ++x) sum[x] += cosine * cosines[x] - sine * sines[x];
+}
+
+}  // namespace
 
 UnitError unit_error(const UnitModel& unit, std::uint64_t frame) {
   constexpr std::uint64_t kUnitStream = 0x756e6974ULL;
@@ -31,15 +41,18 @@ Image<float> reference_residue(const UnitModel& unit, int margin_px, int width, 
   // Waves at random, of wave numbers as the covariance's spectrum has them (Rahimi & Recht 2007).
   Image<float> residue(width, height);
   const auto amplitude = static_cast<float>(unit.residue_px * std::sqrt(2.0 / kWaves));
-  std::vector<std::complex<float>> along(width);
+  std::vector<float> cosines(width), sines(width);
   for (int wave = 0; wave < kWaves && unit.residue_px > 0.0; ++wave) {
     Rng rng(unit.serial, kResidueStream, wave);
     const double across = rng.normal() / unit.residue_reach_px, down = rng.normal() / unit.residue_reach_px;
     const double phase = 2.0 * std::numbers::pi * rng.uniform();
-    for (int x = 0; x < width; ++x) along[x] = std::polar(amplitude, static_cast<float>(across * (x - margin_px)));
+    for (int x = 0; x < width; ++x) {
+      const auto angle = static_cast<float>(across * (x - margin_px));
+      cosines[x] = amplitude * std::cos(angle), sines[x] = amplitude * std::sin(angle);
+    }
     for (int y = 0; y < height; ++y) {
-      const std::complex<float> here = std::polar(1.0f, static_cast<float>(down * y + phase));
-      for (int x = 0; x < width; ++x) residue(x, y) += here.real() * along[x].real() - here.imag() * along[x].imag();
+      const auto angle = static_cast<float>(down * y + phase);
+      add_wave(cosines.data(), sines.data(), std::cos(angle), std::sin(angle), residue.row(y), width);
     }
   }
   if (!unit.learned.map) return residue;

@@ -130,11 +130,10 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
   reference_ = timed(statistics_.reference_s, [&] { return reference_image(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
-  radiance_ = timed(statistics_.render_s,
-                    [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light_, seed); });
-  statistics_.camera_rays += radiance_.size() * samples_across_ * samples_across_;
+  light_of_scene_ = timed(statistics_.render_s,
+                          [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light_, seed); });
+  statistics_.camera_rays += light_of_scene_.projected.size() * samples_across_ * samples_across_;
   speckle_ = speckle_field(sensor, sensor.noise.pixel_speckle, sensor.ir_width, sensor.ir_height, seed);
-  if (sensor.noise.ambient_dn > 0.0) ambient_ = render_ambient(world, setup_.rig);
 }
 
 Frame Camera::shoot(std::uint64_t frame) {
@@ -168,9 +167,10 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
 Frame Camera::shoot_photometric(std::uint64_t frame) {
   const SensorModel& sensor = setup_.rig.sensor;
   Frame shot;
-  Image<float> light = radiance_;
+  Image<float> light = light_of_scene_.projected;
+  const Image<float>& ambient = light_of_scene_.ambient;
   add_speckle(renewed_speckle(sensor, speckle_, seed_, frame), light);
-  for (std::size_t i = 0; i < ambient_.size(); ++i) light.pixels()[i] += ambient_.pixels()[i];
+  for (std::size_t i = 0; i < ambient.size(); ++i) light.pixels()[i] += ambient.pixels()[i];
   shot.ir = expose(light, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
   add_unit_error(sensor, frame, shot.disparity_px);

@@ -68,7 +68,7 @@ class Camera {
   const Image<TruePixel>& truth() const { return truth_; }
   /// What every infrared pixel receives from the projector before noise and speckle on pixels [DN], ir_width ×
   /// ir_height; empty in geometric mode.
-  const Image<float>& radiance() const { return radiance_; }
+  const Image<float>& radiance() const { return light_of_scene_.projected; }
   /// Samples per infrared pixel after rounding up to a square grid; 0 in geometric mode.
   int samples_per_pixel() const { return samples_across_ * samples_across_; }
   const CaptureStatistics& statistics() const { return statistics_; }
@@ -84,9 +84,8 @@ class Camera {
   int samples_across_ = 0;
   Geometry geometry_;
   Image<TruePixel> truth_;
-  Image<float> radiance_;
+  IrLight light_of_scene_;
   Image<float> speckle_;                        ///< of the static scene; empty: none
-  Image<float> ambient_;                        ///< [DN]; empty: none
   std::shared_ptr<const Reference> reference_;  ///< none in geometric mode
   // Of geometric mode only, empty where the sensor has none.
   BlockChance still_chance_;

@@ -41,11 +41,17 @@ double depth_of_disparity(const SensorModel& sensor, double disparity_px) {
 
 Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px, double unit) {
   Image<float> depth(disparity_px.width(), disparity_px.height());
+  std::optional<int> last_code;  // neighbours often share one
+  std::optional<double> of_last_code;
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double disparity = disparity_px.pixels()[i];
     if (disparity <= 0.0) continue;
     std::optional<double> z = depth_of_disparity(sensor, disparity);
-    if (sensor.quantized) z = device_depth(sensor, device_code(sensor, *z), unit);
+    if (sensor.quantized) {
+      const int code = device_code(sensor, *z);
+      if (last_code != code) last_code = code, of_last_code = device_depth(sensor, code, unit);
+      z = of_last_code;
+    }
     if (z && *z >= sensor.near && *z <= sensor.far) depth.pixels()[i] = static_cast<float>(*z);
   }
   return depth;

@@ -48,50 +48,68 @@ void add_scaled(const float* __restrict row, float scale, float* __restrict sum,
 double second_moment(int count) { return count * (static_cast<double>(count) * count - 1.0) / 12.0; }
 
 /// What the light on a surface is made of, in pixels of the depth image.
-struct Dots {
-  double per_px2;   ///< number
-  double light;     ///< of one, over its centre's brightness when it is in focus [px²]
-  double variance;  ///< of its width, defocus included [px²]
-};
-Dots dots_at(const SensorModel& sensor, double depth) {
-  const PatternModel& pattern = sensor.pattern;
-  const double sharp = std::pow(pattern.dot_sigma_ir_px / sensor.ir_scale(), 2.0);
-  const double blur = std::pow(blur_steps(sensor, depth) * pattern.step_px, 2.0);
-  const double positions = pattern.tile_columns * pattern.tile_rows;
-  return {pattern.dots_per_tile / (positions * pattern.step_px * pattern.step_px), 2.0 * std::numbers::pi * sharp,
-          sharp + blur};
-}
+class Dots {
+ public:
+  explicit Dots(const SensorModel& sensor)
+      : step_px_(sensor.pattern.step_px),
+        sharp_(std::pow(sensor.pattern.dot_sigma_ir_px / sensor.ir_scale(), 2.0)),
+        per_px2_(sensor.pattern.dots_per_tile /
+                 (sensor.pattern.tile_columns * sensor.pattern.tile_rows * step_px_ * step_px_)),
+        defocus_(sensor) {}
 
-/// Campbell's theorem: the variance of Gaussian spots that lie at random.
-double contrast_of(const Dots& dots, double centre_dn) {
-  return centre_dn * dots.light * std::sqrt(dots.per_px2 / (4.0 * std::numbers::pi * dots.variance));
-}
+  /// Of a dot's width, defocus included [px²].
+  double variance(double depth) const {
+    const double blur = defocus_.blur_steps(depth) * step_px_;
+    return sharp_ + blur * blur;
+  }
+  /// Of one dot, over its centre's brightness when it is in focus [px²].
+  double light() const { return 2.0 * std::numbers::pi * sharp_; }
+  /// Their number.
+  double per_px2() const { return per_px2_; }
+  /// Campbell's theorem: the variance of Gaussian spots that lie at random.
+  double contrast(double centre_dn, double variance) const {
+    return centre_dn * light() * std::sqrt(per_px2_ / (4.0 * std::numbers::pi * variance));
+  }
+
+ private:
+  double step_px_, sharp_, per_px2_;
+  Defocus defocus_;
+};
 
 /// How uncertain a block's disparity is [px], by what is drawn once for a scene and by what each frame draws anew.
 struct Deviation {
   double still_px, renewed_px;
 };
-Deviation deviation_of(const SensorModel& sensor, const Dots& dots, double far_variance, double centre_dn) {
-  const NoiseModel& noise = sensor.noise;
-  // Speckle is as strong as the light that it weighs: of dots that are wider, root mean square light falls with the
-  // width, its gradient with the width's square. The shift that speckle looks like is their ratio.
-  const double speckle_px = noise.disparity.facing_px * std::sqrt(dots.variance / far_variance);
-  const double shot_variance =
-      noise.electrons_per_dn > 0.0 ? centre_dn * dots.light * dots.per_px2 * noise.gain / noise.electrons_per_dn : 0.0;
-  const double contrast = contrast_of(dots, centre_dn);
-  const double pixels = std::pow(sensor.ir_scale(), 2.0) * sensor.matcher.window_columns * sensor.matcher.window_rows;
-  const double detector_variance_px2 = (shot_variance + noise.read_dn * noise.read_dn) * 2.0 * dots.variance /
-                                       (pixels * contrast * contrast);  // mean squared slope: contrast² / 2 variance
-  const double renewed = noise.disparity.renewed;
-  return {std::sqrt(1.0 - renewed) * speckle_px, std::sqrt(renewed * speckle_px * speckle_px + detector_variance_px2)};
-}
+
+class DeviationLaw {
+ public:
+  DeviationLaw(const SensorModel& sensor, const Dots& dots)
+      : facing2_(std::pow(sensor.noise.disparity.facing_px, 2.0) / dots.variance(sensor.far)),
+        renewed_(sensor.noise.disparity.renewed),
+        shot_(sensor.noise.electrons_per_dn > 0.0
+                  ? dots.light() * dots.per_px2() * sensor.noise.gain / sensor.noise.electrons_per_dn
+                  : 0.0),
+        read2_(sensor.noise.read_dn * sensor.noise.read_dn),
+        pixels_(std::pow(sensor.ir_scale(), 2.0) * sensor.matcher.window_columns * sensor.matcher.window_rows) {}
+
+  Deviation operator()(double variance, double centre_dn, double contrast) const {
+    // Speckle is as strong as the light that it weighs: of dots that are wider, root mean square light falls with the
+    // width, its gradient with the width's square. The shift that speckle looks like is their ratio.
+    const double speckle_px2 = facing2_ * variance;
+    const double detector_px2 = (shot_ * centre_dn + read2_) * 2.0 * variance /
+                                (pixels_ * contrast * contrast);  // mean squared slope: contrast² / 2 variance
+    return {std::sqrt((1.0 - renewed_) * speckle_px2), std::sqrt(renewed_ * speckle_px2 + detector_px2)};
+  }
+
+ private:
+  double facing2_, renewed_, shot_, read2_, pixels_;
+};
 
 /// The disparity at a place in the image, between the pixels of one surface; across an edge the nearest pixel's.
 float disparity_at(const Image<float>& exact, float x, float y) {
   constexpr float kSameSurface = 1.0f;  // [px]
-  const float left = std::floor(x), top = std::floor(y);
-  const int i = std::clamp(static_cast<int>(left), 0, exact.width() - 2);
-  const int j = std::clamp(static_cast<int>(top), 0, exact.height() - 2);
+  const int i = std::clamp(static_cast<int>(x), 0, exact.width() - 2);
+  const int j = std::clamp(static_cast<int>(y), 0, exact.height() - 2);
   const float across = std::clamp(x - static_cast<float>(i), 0.0f, 1.0f);
   const float down = std::clamp(y - static_cast<float>(j), 0.0f, 1.0f);
   const float *upper = exact.row(j) + i, *lower = exact.row(j + 1) + i;
@@ -134,14 +152,16 @@ BlockChance block_chance(const SensorModel& sensor, std::uint64_t seed, std::uin
 }
 
 double block_contrast(const SensorModel& sensor, double intensity, double depth) {
-  return contrast_of(dots_at(sensor, depth), intensity * sensor.noise.gain);
+  const Dots dots(sensor);
+  return dots.contrast(intensity * sensor.noise.gain, dots.variance(depth));
 }
 
 Image<float> disparity_with_noise(const SensorModel& sensor, const Image<float>& exact_px,
                                   const Image<float>& intensity, const BlockChance& still, const BlockChance& renewed) {
   const DisparityNoise& noise = sensor.noise.disparity;
   const double focal_baseline = sensor.focal_px * sensor.baseline;
-  const double far_variance = dots_at(sensor, sensor.far).variance;
+  const Dots dots(sensor);
+  const DeviationLaw deviation_of(sensor, dots);
   const auto still_off = static_cast<float>(noise.lateral_px * std::sqrt(1.0 - noise.renewed));
   const auto renewed_off = static_cast<float>(noise.lateral_px * std::sqrt(noise.renewed));
   const int border = sensor.matcher.window_columns / 2;
@@ -153,10 +173,10 @@ Image<float> disparity_with_noise(const SensorModel& sensor, const Image<float>&
             exact_px, static_cast<float>(x) + still_off * still.across(x, y) + renewed_off * renewed.across(x, y),
             static_cast<float>(y) + still_off * still.down(x, y) + renewed_off * renewed.down(x, y));
         if (exact <= 0.0f) continue;
-        const Dots dots = dots_at(sensor, focal_baseline / exact);
-        const double centre_dn = intensity(x, y) * sensor.noise.gain;
-        if (contrast_of(dots, centre_dn) < sensor.matcher.contrast_min) continue;
-        const Deviation deviation = deviation_of(sensor, dots, far_variance, centre_dn);
+        const double variance = dots.variance(focal_baseline / exact), centre_dn = intensity(x, y) * sensor.noise.gain;
+        const double contrast = dots.contrast(centre_dn, variance);
+        if (contrast < sensor.matcher.contrast_min) continue;
+        const Deviation deviation = deviation_of(variance, centre_dn, contrast);
         noisy(x, y) = std::max(0.0f, exact + static_cast<float>(deviation.still_px) * still.level(x, y) +
                                          static_cast<float>(deviation.renewed_px) * renewed.level(x, y));
       }

@@ -44,12 +44,13 @@ struct Renderer {
   LightModel light;
   std::uint64_t seed;
   double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
+  std::optional<Defocus> defocus = rig.sensor.optics.defocuses() ? std::optional(Defocus(rig.sensor)) : std::nullopt;
 
   /// Of the dots as the camera sees them on a surface at `point`.
   double intensity(const Eigen::Vector3d& direction, const Eigen::Vector3d& point) const {
-    if (!rig.sensor.optics.defocuses()) return intensity_towards(pattern, rig, direction);
+    if (!defocus) return intensity_towards(pattern, rig, direction);
     const double depth = rig.world_from_camera.linear().col(2).dot(point - rig.camera_in_world());
-    return intensity_towards(pattern, rig, direction, blur_steps(rig.sensor, depth));
+    return intensity_towards(pattern, rig, direction, defocus->blur_steps(depth));
   }
 
   int samples_per_pixel() const { return static_cast<int>(places.size()); }
@@ -78,12 +79,20 @@ struct Renderer {
     return {FirstStep{number(0), number(1), number(2)}, sample % samples_per_pixel()};
   }
 
-  /// Radiance [DN] of at most kPacket samples of row y, from `first` on.
-  std::array<double, kPacket> radiances(int y, int first, int count) const {
+  /// Of at most kPacket samples.
+  struct Radiances {
+    std::array<double, kPacket> projected{};  ///< [DN]
+    std::array<double, kPacket> ambient{};    ///< over that of light on albedo 1
+  };
+  /// Of row y, from sample `first` on.
+  Radiances radiances(int y, int first, int count) const {
     std::array<Ray, kPacket> rays;
     for (int i = 0; i < count; ++i) rays[i] = camera_ray(y, first + i);
     Packet<SeenPoint> seen = see(projector.world(), std::span(rays.data(), count));
-    std::array<double, kPacket> sums{};
+    Radiances result;
+    for (int i = 0; i < count; ++i)
+      if (const SeenPoint* at = seen.find(i)) result.ambient[i] = at->transmittance * at->albedo;
+    std::array<double, kPacket>& sums = result.projected;
     if (light == LightModel::full)
       for (int i = 0; i < count; ++i) {
         Rng rng(seed, kWalkStream, y, first + i);
@@ -100,7 +109,7 @@ struct Renderer {
       const SeenPoint& at = *seen.find(i);
       sums[i] += radiance_dn(rig.sensor, at, from_projector) * intensity(from_projector.direction, at.point);
     });
-    return sums;
+    return result;
   }
 
   /// Radiance [DN] by light straight or refracted from the projector; of bodies that scatter the walks see all.
@@ -137,46 +146,34 @@ struct Renderer {
 
 }  // namespace
 
-Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
-                       LightModel light, std::uint64_t seed) {
+IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
+                  LightModel light, std::uint64_t seed) {
   const BlurredPattern blurred(pattern);
   const Renderer renderer{projector, rig, pattern, blurred, sample_places(samples_across), light, seed};
-  Image<float> image(rig.sensor.ir_width, rig.sensor.ir_height);
+  const int width = rig.sensor.ir_width, height = rig.sensor.ir_height;
+  const double ambient_dn = rig.sensor.noise.ambient_dn;
+  IrLight image{Image<float>(width, height), ambient_dn > 0.0 ? Image<float>(width, height) : Image<float>()};
   const int per_pixel = renderer.samples_per_pixel(), per_row = renderer.samples_per_row();
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    std::vector<double> sums(image.width());
+  parallel_ranges(height, [&](int begin, int end) {
+    std::vector<double> projected(width), ambient(width);
     for (int y = begin; y < end; ++y) {
-      std::fill(sums.begin(), sums.end(), 0.0);
+      std::fill(projected.begin(), projected.end(), 0.0);
+      std::fill(ambient.begin(), ambient.end(), 0.0);
       for (int first = 0; first < per_row; first += kPacket) {
         const int count = std::min<int>(kPacket, per_row - first);
-        const std::array<double, kPacket> radiances = renderer.radiances(y, first, count);
-        for (int i = 0; i < count; ++i) sums[(first + i) / per_pixel] += radiances[i];
+        const Renderer::Radiances radiances = renderer.radiances(y, first, count);
+        for (int i = 0; i < count; ++i) {
+          projected[(first + i) / per_pixel] += radiances.projected[i];
+          ambient[(first + i) / per_pixel] += radiances.ambient[i];
+        }
       }
-      for (int x = 0; x < image.width(); ++x) image(x, y) = static_cast<float>(sums[x] / per_pixel);
+      for (int x = 0; x < width; ++x) {
+        image.projected(x, y) = static_cast<float>(projected[x] / per_pixel);
+        if (ambient_dn > 0.0) image.ambient(x, y) = static_cast<float>(ambient_dn * ambient[x] / per_pixel);
+      }
     }
   });
-  if (light == LightModel::full) add_glints(projector, rig, pattern, image);
-  return image;
-}
-
-Image<float> render_ambient(const Intersector& world, const Rig& rig) {
-  const SensorModel& sensor = rig.sensor;
-  const double px_per_ir_px = 1.0 / sensor.ir_scale();
-  Image<float> image(sensor.ir_width, sensor.ir_height);
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    std::array<Ray, kPacket> rays;
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < image.width(); x += kPacket) {
-        const int count = std::min<int>(kPacket, image.width() - x);
-        for (int i = 0; i < count; ++i)
-          rays[i] = {rig.camera_in_world(), rig.direction_in_world((x + i + 0.5) * px_per_ir_px,
-                                                                   (y - sensor.ir_first_row() + 0.5) * px_per_ir_px)};
-        const Packet<SeenPoint> seen = see(world, std::span(rays.data(), count));
-        for (int i = 0; i < count; ++i)
-          if (const SeenPoint* at = seen.find(i))
-            image(x + i, y) = static_cast<float>(sensor.noise.ambient_dn * at->transmittance * at->albedo);
-      }
-  });
+  if (light == LightModel::full) add_glints(projector, rig, pattern, image.projected);
   return image;
 }
 

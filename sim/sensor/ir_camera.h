@@ -16,15 +16,16 @@ enum class LightModel {
   full     ///< all: thrown from wall to wall, mirrored by liquids, scattered within bodies
 };
 
-/// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise. Each pixel is sampled on a grid of
-/// `samples_across`² points; the dots are smooth, so a grid converges faster than random points and adds no noise. Only
-/// light that is not direct walks at random, keyed by (seed, row, sample).
-Image<float> render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
-                       LightModel light, std::uint64_t seed);
+/// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise.
+struct IrLight {
+  Image<float> projected;  ///< of the projector's light
+  Image<float> ambient;    ///< of NoiseModel::ambient_dn, even and from all sides, on what is seen; empty without it
+};
 
-/// Ambient infrared light that every infrared pixel receives [DN], even and from all sides, on what it sees; of one ray
-/// per pixel.
-Image<float> render_ambient(const Intersector& world, const Rig& rig);
+/// Each pixel is sampled on a grid of `samples_across`² points; the dots are smooth, so a grid converges faster than
+/// random points and adds no noise. Only light that is not direct walks at random, keyed by (seed, row, sample).
+IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
+                  LightModel light, std::uint64_t seed);
 
 /// Speckle of a static scene, dot by dot: one gain for each, Gamma(shape, mean/shape).
 std::vector<float> speckle_gains(const NoiseModel& noise, const Pattern& pattern, std::uint64_t seed);

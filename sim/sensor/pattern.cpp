@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/last_made.h"
 #include "core/rng.h"
+#include "core/simd.h"
 
 namespace fathom {
 namespace {
@@ -127,7 +129,10 @@ void compare_windows(const Image<WindowBits>& windows, int range, Visit visit) {
 }
 
 /// Brightness of the whole grid: tiles that are not alike bright, each with a spot in its middle.
-Image<float> tiled(const PatternModel& model, const Image<std::uint8_t>& tile) {
+Image<float> tiled(const PatternModel& model) {
+  static LastMade<PatternModel, Image<std::uint8_t>> kept;
+  const std::shared_ptr<const Image<std::uint8_t>> made = kept.get(model, [&] { return make_dot_tile(model); });
+  const Image<std::uint8_t>& tile = *made;
   Image<float> grid(model.tile_columns * model.tiles_across, model.tile_rows * model.tiles_down);
   for (int row = 0; row < grid.height(); ++row)
     for (int column = 0; column < grid.width(); ++column) {
@@ -139,6 +144,35 @@ Image<float> tiled(const PatternModel& model, const Image<std::uint8_t>& tile) {
       grid(column, row) = static_cast<float>(of_tile * (in_middle ? model.zero_order : 1.0));
     }
   return grid;
+}
+
+constexpr int kReach = 4;  ///< of a dot that is out of focus [steps]
+
+/// Σ dot · exp(exponent · distance²) over the 2 kReach × 2 kReach dots around a place, which lies by the fractions
+/// `across` and `down` of a step beyond the fourth of them.
+FATHOM_SIMD_CLONES
+float spots_around(const float* dots, int row_length, float across, float down, float exponent) {
+  static_assert(2 * kReach == 8);
+  constexpr float kLeast = -87.0f;
+  const Float8 steps{-3.0f, -2.0f, -1.0f, 0.0f, 1.0f, 2.0f, 3.0f, 4.0f};
+  const auto weights = [&](float fraction, Float8& weight) __attribute__((always_inline)) {
+    const Float8 off = steps - fraction;
+    const Float8 power = exponent * off * off;
+    exp8(power > kLeast ? power : Float8{} + kLeast, weight);
+  };
+  Float8 columns, rows, sums{}, sums_of_lower{};
+  weights(across, columns);
+  weights(down, rows);
+  for (int row = 0; row < kReach; ++row) {
+    Float8 upper, lower;
+    __builtin_memcpy(&upper, dots + row * row_length, sizeof upper);
+    __builtin_memcpy(&lower, dots + (row + kReach) * row_length, sizeof lower);
+    sums += rows[row] * upper;
+    sums_of_lower += rows[row + kReach] * lower;
+  }
+  sums += sums_of_lower;
+  sums *= columns;
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
 }  // namespace
@@ -177,7 +211,7 @@ int least_window_difference(const Image<std::uint8_t>& tile, int size, int range
 }
 
 Pattern::Pattern(const PatternModel& model, double ir_px_per_depth_px, double pincushion)
-    : permanent_(model.image.brightness ? *model.image.brightness : tiled(model, make_dot_tile(model))),
+    : permanent_(model.image.brightness ? *model.image.brightness : tiled(model)),
       step_px_(model.step_px),
       sigma_steps_(model.dot_sigma_ir_px / (ir_px_per_depth_px * model.step_px)),
       pincushion_(pincushion) {
@@ -211,28 +245,14 @@ double Pattern::intensity(const Eigen::Vector2d& on_grid) const {
 
 double Pattern::intensity(const Eigen::Vector2d& on_grid, double blur_steps) const {
   if (blur_steps == 0.0) return intensity(on_grid);
-  constexpr int kReach = 4;
-  const double sharp = sigma_steps_ * sigma_steps_, variance = sharp + blur_steps * blur_steps;
-  const int left = static_cast<int>(std::floor(on_grid.x())), top = static_cast<int>(std::floor(on_grid.y()));
-  if (left < kReach || top < kReach || left >= columns() - kReach || top >= rows() - kReach) return 0.0;
-  // exp(−(f − i)² / 2v) for i = 1 − kReach … kReach: neighbours differ by a factor that itself grows by a constant one.
-  const double bend = std::exp(-0.5 / variance);
-  const auto weights = [&](double fraction) {
-    std::array<double, 2 * kReach> weight;
-    const double tilt = std::exp(fraction / variance);
-    weight[kReach - 1] = std::exp(-0.5 * fraction * fraction / variance);
-    double up = bend * tilt, down = bend / tilt;
-    for (int k = kReach; k < 2 * kReach; ++k, up *= bend * bend) weight[k] = weight[k - 1] * up;
-    for (int k = kReach - 2; k >= 0; --k, down *= bend * bend) weight[k] = weight[k + 1] * down;
-    return weight;
-  };
-  const auto across = weights(on_grid.x() - left), down = weights(on_grid.y() - top);
-  double sum = 0.0;
-  for (int j = 0; j < 2 * kReach; ++j) {
-    const float* dots = &brightness_(left - kReach + 1, top - kReach + 1 + j);
-    for (int i = 0; i < 2 * kReach; ++i) sum += down[j] * across[i] * dots[i];
-  }
-  return sum * sharp / variance;
+  const double column = on_grid.x(), row = on_grid.y();
+  if (!(column >= kReach && row >= kReach && column < columns() - kReach && row < rows() - kReach)) return 0.0;
+  const int left = static_cast<int>(column), top = static_cast<int>(row);
+  const double sharp = sigma_steps_ * sigma_steps_, per_variance = 1.0 / (sharp + blur_steps * blur_steps);
+  const float* dots = &brightness_(left - kReach + 1, top - kReach + 1);
+  return sharp * per_variance *
+         spots_around(dots, columns(), static_cast<float>(column - left), static_cast<float>(row - top),
+                      static_cast<float>(-0.5 * per_variance));
 }
 
 double Pattern::mean_intensity() const {
@@ -241,15 +261,15 @@ double Pattern::mean_intensity() const {
   return 2.0 * std::numbers::pi * sigma_steps_ * sigma_steps_ * sum / static_cast<double>(permanent_.size());
 }
 
-double blur_steps(const SensorModel& sensor, double depth) {
+Defocus::Defocus(const SensorModel& sensor) {
   const OpticsModel& optics = sensor.optics;
-  if (!optics.defocuses()) return 0.0;
+  if (!optics.defocuses()) return;
   const double focal_ir_px = sensor.ir_scale() * sensor.focal_px;
   const double aperture = 1e-6 * optics.pixel_um * focal_ir_px / optics.f_number;  // [m]
+  const double steps_per_rad = sensor.focal_px / sensor.pattern.step_px;
   // The standard deviation of an evenly lit disc is a quarter of its diameter.
-  const double disc = optics.focus > 0.0 ? 0.25 * aperture * std::fabs(1.0 / depth - 1.0 / optics.focus) : 0.0;
-  const double beam = 0.25 * optics.beam / depth;
-  return sensor.focal_px / sensor.pattern.step_px * std::hypot(disc, beam);
+  if (optics.focus > 0.0) disc_ = 0.25 * aperture * steps_per_rad, focus_dioptres_ = 1.0 / optics.focus;
+  beam_ = 0.25 * optics.beam * steps_per_rad;
 }
 
 }  // namespace fathom

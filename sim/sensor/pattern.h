@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -61,9 +62,22 @@ class Pattern {
   double pincushion_;
 };
 
-/// How far the dots on a surface at `depth` [m] along the axis are spread by defocus, standard deviation in grid steps:
-/// the disc of light that the camera's aperture makes of a point, and the width of the projector's beam.
-double blur_steps(const SensorModel& sensor, double depth);
+/// How far the dots on a surface are spread by defocus: the disc of light that the camera's aperture makes of a point,
+/// and the width of the projector's beam.
+class Defocus {
+ public:
+  explicit Defocus(const SensorModel& sensor);
+
+  /// Standard deviation in grid steps, at `depth` [m] along the axis.
+  double blur_steps(double depth) const {
+    const double dioptres = 1.0 / depth;
+    const double disc = disc_ * (dioptres - focus_dioptres_), beam = beam_ * dioptres;
+    return std::sqrt(disc * disc + beam * beam);
+  }
+
+ private:
+  double disc_ = 0.0, focus_dioptres_ = 0.0, beam_ = 0.0;
+};
 
 /// Where a direction in the world lies on the pattern's grid; nothing behind the projector.
 inline std::optional<Eigen::Vector2d> on_grid(const Pattern& pattern, const Rig& rig,

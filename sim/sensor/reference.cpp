@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 #include <string>
 #include <utility>
 
+#include "core/last_made.h"
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "core/simd.h"
@@ -80,15 +80,44 @@ void split_mean_of_rows(const float* __restrict a, const float* __restrict b, fl
   }
 }
 
-/// Mean of sample(dx, dy) over a grid of `samples_across`² points, dx and dy in 0 … 1 from the pixel's upper left
-/// corner.
-template <class Sample>
-double pixel_mean(int samples_across, Sample sample) {
-  double sum = 0.0;
-  for (int j = 0; j < samples_across; ++j)
-    for (int i = 0; i < samples_across; ++i) sum += sample((i + 0.5) / samples_across, (j + 0.5) / samples_across);
-  return sum / (samples_across * samples_across);
-}
+/// What a pixel sees of dots near it: the mean of their light over the middles of the cells of a grid in the pixel.
+class PixelOfDots {
+ public:
+  /// Dots have `sigma_steps` on the grid, a pixel is `pixel_steps` wide there.
+  PixelOfDots(const Pattern& pattern, double sigma_steps, double pixel_steps, int samples_across)
+      : dots_(pattern.brightness()) {
+    for (int i = 0; i <= kTableSize; ++i)
+      for (int k = 0; k < samples_across; ++k) {
+        const double off = ((k + 0.5) / samples_across - 0.5) * pixel_steps;
+        for (int dot = 0; dot < kAcross; ++dot) {
+          const double steps = (static_cast<double>(i) / kTableSize + off - (dot - kBefore)) / sigma_steps;
+          profile_[i][dot] += static_cast<float>(std::exp(-0.5 * steps * steps) / samples_across);
+        }
+      }
+  }
+
+  /// Around a place on the grid, 0 near its border and outside.
+  double operator()(const Eigen::Vector2d& centre) const {
+    if (!(centre.x() >= kBefore && centre.y() >= kBefore)) return 0.0;
+    const int left = static_cast<int>(centre.x()), top = static_cast<int>(centre.y());
+    if (left + kAcross - kBefore > dots_.width() || top + kAcross - kBefore > dots_.height()) return 0.0;
+    const Weights &across = weights(centre.x() - left), &down = weights(centre.y() - top);
+    Weights sums = Weights::Zero();
+    for (int row = 0; row < kAcross; ++row)
+      sums += down[row] * Eigen::Map<const Weights>(&dots_(left - kBefore, top - kBefore + row));
+    return (across * sums).sum();
+  }
+
+ private:
+  static constexpr int kAcross = 8, kBefore = 3;  ///< dots that count, and how many of them come before the place
+  static constexpr int kTableSize = 1024;         ///< of fractions of a step
+  using Weights = Eigen::Array<float, kAcross, 1>;
+
+  const Weights& weights(double fraction) const { return profile_[static_cast<int>(fraction * kTableSize + 0.5)]; }
+
+  const Image<float>& dots_;
+  std::vector<Weights> profile_ = std::vector<Weights>(kTableSize + 1, Weights::Zero());
+};
 
 }  // namespace
 
@@ -102,20 +131,21 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
   const int scale = static_cast<int>(sensor.ir_scale());
   Image<float> image(sensor.ir_width + 2 * margin_px * scale, sensor.ir_height);
   const double parallax = sensor.baseline / sensor.reference;
-  const double blur = blur_steps(sensor, sensor.reference);
+  const double blur = Defocus(sensor).blur_steps(sensor.reference), sharp = pattern.sigma_steps();
+  const double sigma = std::sqrt(sharp * sharp + blur * blur);
+  const PixelOfDots pixel(pattern, sigma, 1.0 / (scale * sensor.pattern.step_px), samples_across);
+  const double brightness = kBrightness * (sharp / sigma) * (sharp / sigma);  // as much light, spread wider
   const Image<float> residue = reference_residue(sensor.unit, margin_px, image.width() / scale, image.height() / scale);
   parallel_ranges(image.height(), [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width(); ++x) {
         const double displaced = residue.empty() ? 0.0 : residue(x / scale, y / scale);
-        const auto sample = [&](double dx, double dy) {
-          const double x_px = (x + dx) / scale - margin_px + displaced, y_px = (y - sensor.ir_first_row() + dy) / scale;
-          const Eigen::Vector2d centred(x_px - sensor.principal_px.x(), y_px - sensor.principal_px.y());
-          Eigen::Vector2d seen = centred / sensor.focal_px;
-          if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
-          return pattern.intensity(pattern.on_grid(seen.x() - parallax, seen.y(), sensor.focal_px), blur);
-        };
-        image(x, y) = static_cast<float>(kBrightness * pixel_mean(samples_across, sample));
+        const Eigen::Vector2d centre_px((x + 0.5) / scale - margin_px + displaced,
+                                        (y - sensor.ir_first_row() + 0.5) / scale);
+        Eigen::Vector2d seen = (centre_px - sensor.principal_px) / sensor.focal_px;
+        if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
+        image(x, y) =
+            static_cast<float>(brightness * pixel(pattern.on_grid(seen.x() - parallax, seen.y(), sensor.focal_px)));
       }
   });
   return image;
@@ -187,22 +217,8 @@ Reference remember(const SensorModel& sensor, const Pattern& pattern, int sample
 
 std::shared_ptr<const Reference> reference_image(const SensorModel& sensor, const Pattern& pattern,
                                                  int samples_across) {
-  struct Kept {
-    SensorModel sensor;
-    int samples_across = 0;
-    std::shared_ptr<const Reference> reference;
-  };
-  static std::mutex mutex;
-  static Kept kept;
-  {
-    const std::lock_guard lock(mutex);
-    if (kept.reference && kept.sensor == sensor && kept.samples_across == samples_across) return kept.reference;
-  }
-  // Not under the lock: a thread that waits within may take up a task that asks for a reference itself.
-  auto made = std::make_shared<const Reference>(remember(sensor, pattern, samples_across));
-  const std::lock_guard lock(mutex);
-  kept = {sensor, samples_across, made};
-  return made;
+  static LastMade<std::pair<SensorModel, int>, Reference> kept;
+  return kept.get({sensor, samples_across}, [&] { return remember(sensor, pattern, samples_across); });
 }
 
 }  // namespace fathom

@@ -4,12 +4,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
 #include "core/parallel.h"
 #include "core/rng.h"
+#include "core/simd.h"
 
 namespace fathom {
 namespace {
@@ -41,24 +41,43 @@ std::array<double, kTaps> amplitude_kernel(const SensorModel& sensor) {
   return weights;
 }
 
-using Amplitude = std::complex<float>;
+using Kernel = std::array<float, kTaps>;
 
-/// White complex noise of unit power, smoothed along one row of samples.
-void smoothed_row(std::uint64_t seed, int row, const std::array<float, kTaps>& kernel, std::vector<Amplitude>& white,
-                  std::vector<Amplitude>& smoothed) {
-  // The number of ones among 32 random bits is all but normal, with variance 8, and cheap; smoothing does the rest.
+/// White complex noise of unit power, real and imaginary parts in turn. The number of ones among 32 random bits is all
+/// but normal, with variance 8, and cheap; smoothing does the rest.
+FATHOM_SIMD_CLONES
+void white_row(Rng rng, float* __restrict white, int samples) {
   constexpr float kUnit = 0.25f;  // 1 / √(8 + 8)
-  Rng rng(seed, kFieldStream, static_cast<std::uint64_t>(row));
-  for (Amplitude& sample : white) {
+  for (int x = 0; x < samples; ++x) {
     const std::uint64_t bits = rng.bits();
-    sample = {kUnit * static_cast<float>(std::popcount(bits >> 32) - 16),
-              kUnit * static_cast<float>(std::popcount(bits & 0xffffffffULL) - 16)};
+    white[2 * x] = kUnit * static_cast<float>(std::popcount(bits >> 32) - 16);
+    white[2 * x + 1] = kUnit * static_cast<float>(std::popcount(bits & 0xffffffffULL) - 16);
   }
-  for (std::size_t x = 0; x < smoothed.size(); ++x) {
-    Amplitude sum = 0.0f;
-    for (int tap = 0; tap < kTaps; ++tap) sum += kernel[tap] * white[x + tap];
-    smoothed[x] = sum;
+}
+
+FATHOM_SIMD_CLONES
+void smooth_along(const float* __restrict white, const Kernel& kernel, float* __restrict smoothed, int samples) {
+  for (int i = 0; i < 2 * samples; ++i) {
+    float sum = 0.0f;
+    for (int tap = 0; tap < kTaps; ++tap) sum += kernel[tap] * white[i + 2 * tap];
+    smoothed[i] = sum;
   }
+}
+
+FATHOM_SIMD_CLONES
+void smooth_across(const std::array<const float*, kTaps>& rows, const Kernel& kernel, float* __restrict sums,
+                   int samples) {
+  for (int i = 0; i < 2 * samples; ++i) {
+    float sum = 0.0f;
+    for (int tap = 0; tap < kTaps; ++tap) sum += kernel[tap] * rows[tap][i];
+    sums[i] = sum;
+  }
+}
+
+/// Adds the power of each pixel's samples of a row, times `part`.
+void add_power(const float* field, float part, float* __restrict gains, int width) {
+  for (int x = 0; x < width; ++x)
+    for (int i = 0; i < kAcross; ++i, field += 2) gains[x] += part * (field[0] * field[0] + field[1] * field[1]);
 }
 
 }  // namespace
@@ -66,27 +85,28 @@ void smoothed_row(std::uint64_t seed, int row, const std::array<float, kTaps>& k
 Image<float> speckle_field(const SensorModel& sensor, double coherent_share, int width, int height,
                            std::uint64_t seed) {
   if (coherent_share <= 0.0) return {};
-  std::array<float, kTaps> kernel;
+  Kernel kernel;
   const std::array<double, kTaps> exact = amplitude_kernel(sensor);
   for (int tap = 0; tap < kTaps; ++tap) kernel[tap] = static_cast<float>(exact[tap]);
   const auto incoherent = static_cast<float>(1.0 - coherent_share);
   const auto part = static_cast<float>(coherent_share / (kAcross * kAcross));
   Image<float> gains(width, height, incoherent);
-  const std::size_t samples = static_cast<std::size_t>(kAcross) * width;
+  const int samples = kAcross * width;
   parallel_ranges(height, [&](int begin, int end) {
-    std::vector<Amplitude> white(samples + 2 * kReach), sums(samples);
-    std::vector<std::vector<Amplitude>> rows(kTaps, std::vector<Amplitude>(samples));  // a ring
-    for (int row = kAcross * begin; row < kAcross * begin + kTaps - 1; ++row)
-      smoothed_row(seed, row, kernel, white, rows[row % kTaps]);
+    std::vector<float> white(2 * (samples + 2 * kReach)), sums(2 * samples);
+    std::vector<std::vector<float>> ring(kTaps, std::vector<float>(2 * samples));
+    const auto add_row = [&](int row) {
+      white_row(Rng(seed, kFieldStream, static_cast<std::uint64_t>(row)), white.data(), samples + 2 * kReach);
+      smooth_along(white.data(), kernel, ring[row % kTaps].data(), samples);
+    };
+    for (int row = kAcross * begin; row < kAcross * begin + kTaps - 1; ++row) add_row(row);
     for (int y = begin; y < end; ++y)
       for (int row = kAcross * y; row < kAcross * (y + 1); ++row) {
-        smoothed_row(seed, row + kTaps - 1, kernel, white, rows[(row + kTaps - 1) % kTaps]);
-        std::fill(sums.begin(), sums.end(), Amplitude(0.0f));
-        for (int tap = 0; tap < kTaps; ++tap) {
-          const std::vector<Amplitude>& smoothed = rows[(row + tap) % kTaps];
-          for (std::size_t x = 0; x < samples; ++x) sums[x] += kernel[tap] * smoothed[x];
-        }
-        for (std::size_t x = 0; x < samples; ++x) gains(static_cast<int>(x) / kAcross, y) += part * std::norm(sums[x]);
+        add_row(row + kTaps - 1);
+        std::array<const float*, kTaps> rows;
+        for (int tap = 0; tap < kTaps; ++tap) rows[tap] = ring[(row + tap) % kTaps].data();
+        smooth_across(rows, kernel, sums.data(), samples);
+        add_power(sums.data(), part, gains.row(y), width);
       }
   });
   return gains;

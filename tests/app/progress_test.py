@@ -4,6 +4,7 @@ On a terminal: whoever waits longer than two seconds sees that the program works
 import os
 import pty
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -14,8 +15,8 @@ SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scenes"
 CLEAR = "\r\x1b[K"
 
 
-def on_terminal(*words):
-    """All that a terminal gets of stdout and stderr."""
+def on_terminal(*words, until=None):
+    """All that a terminal gets of stdout and stderr; with `until`, when that has come the program is stopped."""
     ours, theirs = pty.openpty()
     process = subprocess.Popen([PROGRAM, *words], stdout=theirs, stderr=theirs, stdin=subprocess.DEVNULL)
     os.close(theirs)
@@ -28,8 +29,11 @@ def on_terminal(*words):
         if not got:
             break
         text += got
+        if until and until.encode() in text:
+            process.kill()
+            break
     os.close(ours)
-    assert process.wait() == 0, text
+    assert process.wait() == (-signal.SIGKILL if until else 0), text
     return text.decode().replace("\r\n", "\n")
 
 
@@ -44,8 +48,9 @@ class Progress(unittest.TestCase):
 
     def test_one_long_shot_says_that_it_goes_on(self):
         with tempfile.TemporaryDirectory() as folder:
-            text = on_terminal("capture", os.path.join(SCENES, "glass_water.json"), "--light", "full", "-o", folder)
-        self.assertIn("capture  2 s" + CLEAR, text)
+            running = "capture  2 s"
+            text = on_terminal("capture", os.path.join(SCENES, "glass_water.json"), "--light", "full", "-o", folder, until=running)
+        self.assertIn(running, text)
 
     def test_quiet_says_nothing(self):
         cloud = os.path.join(SCENES, "templates/paper_cup.pcd")

@@ -17,7 +17,7 @@ Image<float> image_of(Setup setup) {
   sensor.focal_px *= 0.5;
   const LitScene scene(setup);
   const Pattern pattern(sensor.pattern, sensor.ir_scale());
-  return render_ir(scene.projector, scene.rig, pattern, 1, LightModel::direct, 1);
+  return render_ir(scene.projector, scene.rig, pattern, 1, LightModel::direct, 1).projected;
 }
 
 struct Difference {

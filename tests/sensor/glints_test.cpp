@@ -66,7 +66,7 @@ TEST(Glints, AreAsBrightAsTheProjectorInAMirror) {
 TEST(Glints, AreSeenInFullLightOnly) {
   Pool pool;
   const auto brightest = [&](LightModel light) {
-    const Image<float> image = render_ir(pool.scene.projector, pool.scene.rig, pool.pattern, 1, light, 1);
+    const Image<float> image = render_ir(pool.scene.projector, pool.scene.rig, pool.pattern, 1, light, 1).projected;
     return *std::max_element(image.pixels().begin(), image.pixels().end());
   };
   add_glints(pool.scene.projector, pool.scene.rig, pool.pattern, pool.image);

@@ -62,8 +62,9 @@ TEST(Exposure, GainMultipliesLightAndItsShotNoise) {
 
 TEST(Ambient, LightsWhatIsSeenByItsAlbedo) {
   const LitScene scene(desk_setup(R"(, "noise": {"ambient_dn": 100})"));
-  const Image<float> image = render_ambient(scene.world, scene.rig);
-  EXPECT_FLOAT_EQ(image(640, 512), 55.0f);  // the desk's albedo is 0.55
+  const Pattern pattern(scene.rig.sensor.pattern, scene.rig.sensor.ir_scale());
+  const IrLight light = render_ir(scene.projector, scene.rig, pattern, 1, LightModel::direct, 1);
+  EXPECT_FLOAT_EQ(light.ambient(640, 512), 55.0f);  // the desk's albedo is 0.55
 }
 
 TEST(Exposure, RoundsAndSaturatesAtItsBits) {

@@ -24,7 +24,8 @@ struct Bench {
     reference = memorise(sensor(), reference_image(sensor(), pattern, margin, 2), margin);
     const Geometry geometry = build_geometry(setup.scene, sensor().wavelength_nm);
     const Intersector world(geometry);
-    ir = render_ir(PointLight(world, setup.rig.projector_in_world()), setup.rig, pattern, 2, LightModel::direct, 1);
+    ir = render_ir(PointLight(world, setup.rig.projector_in_world()), setup.rig, pattern, 2, LightModel::direct, 1)
+             .projected;
   }
   const SensorModel& sensor() const { return setup.rig.sensor; }
 

@@ -59,7 +59,7 @@ std::vector<SparseDot> SparseDots::on(const Ground& ground) const {
 }
 
 Image<float> SparseDots::image(int samples_across) const {
-  return render_ir(view_.projector, view_.rig, pattern_, samples_across, LightModel::direct, 1);
+  return render_ir(view_.projector, view_.rig, pattern_, samples_across, LightModel::direct, 1).projected;
 }
 
 /// Dots are taken row by row, where none of those taken before is near.
