@@ -53,7 +53,7 @@ if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
     separate_arguments(test)
     list(POP_FRONT test name)
     add_test(NAME hostile.${name} COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/hostile/${name}.py $<TARGET_FILE:fathom> ${test})
-    set_tests_properties(hostile.${name} PROPERTIES PROCESSORS 2 TIMEOUT 1200)
+    set_tests_properties(hostile.${name} PROPERTIES TIMEOUT 1200)
   endforeach()
 endif()
 

@@ -42,7 +42,7 @@ def main(program):
     blind = root / "out" / "blind"
     shutil.rmtree(blind / name, ignore_errors=True)
     (blind / "truth" / f"{name}.json").unlink(missing_ok=True)
-    subprocess.run(["scripts/blind", "--program", str(Path(program).resolve()), "--seed", str(SEED), "--sets", str(SETS)],
+    subprocess.run(["scripts/blind", "--program", str(Path(program).resolve()), "--seed", str(SEED), "--sets", str(SETS), "--no-follow-ups"],
                    cwd=root, check=True)
     goals = json.loads((blind / name / "score" / "score.json").read_text())["goals"]
     failed = failures(goals, SETS)
