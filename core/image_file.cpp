@@ -43,7 +43,8 @@ void write_png_rows(const std::filesystem::path& path, const Image<Pixel>& image
   header.flags = flags;
   write_atomically(path, [&](const std::filesystem::path& beside) {
     if (!png_image_write_to_file(&header, beside.c_str(), 0, image.pixels().data(), 0, nullptr))
-      throw Error(path.string(), std::string("cannot write PNG: ") + header.message);
+      throw Error(path.string(), fmt::format("cannot write PNG: {} (disk full or not writable)",
+                                             static_cast<const char*>(header.message)));
   });
 }
 

@@ -37,32 +37,45 @@ PixelBox window_of(const Model& model, const Pose& camera_from_model, const Sens
   return {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()};
 }
 
-/// Where the thing would be seen if nothing else were there.
+/// Where the thing would be seen if nothing else were there. Where it is seen no ray needs to say so.
 void see_alone(const Pose& world_from_model, const Rig& rig, const Image<float>& depth, InstanceLabel& label) {
   const Model& model = *label.model;
-  label.whole = Image<std::uint8_t>(rig.sensor.width, rig.sensor.height);
+  const int width = rig.sensor.width, height = rig.sensor.height;
+  label.whole = Image<std::uint8_t>(width, height);
   const Pose alone_from_world = model.alone_from_model * world_from_model.inverse();
   const Eigen::Vector3d origin = alone_from_world * rig.camera_in_world();
   const PixelBox window = window_of(model, label.camera_from_model, rig.sensor);
   Image<std::uint8_t> silhouette(window.width, window.height);
-  for (int y = 0; y < window.height; ++y)
+  for (int y = 0; y < window.height; ++y) {
+    const int row = window.y + y;
+    const auto in_image = [&](int column) { return column >= 0 && column < width && row >= 0 && row < height; };
     for (int x = 0; x < window.width; x += static_cast<int>(kPacket)) {
+      const int end = std::min(x + static_cast<int>(kPacket), window.width);
       std::array<Ray, kPacket> rays;
-      const std::size_t count = std::min<std::size_t>(kPacket, window.width - x);
+      std::array<int, kPacket> columns;
+      std::size_t count = 0;
+      for (int across = x; across < end; ++across) {
+        const int column = window.x + across;
+        if (in_image(column) && label.visible(column, row) > 0) {
+          silhouette(across, y) = 255;
+          continue;
+        }
+        rays[count] = {origin, alone_from_world.linear() * rig.direction_in_world(column + 0.5, row + 0.5)};
+        columns[count++] = across;
+      }
+      const Packet<Hit> hits = count > 0 ? model.alone->first_hits(std::span(rays).first(count)) : Packet<Hit>();
       for (std::size_t i = 0; i < count; ++i)
-        rays[i] = {origin, alone_from_world.linear() *
-                               rig.direction_in_world(window.x + x + static_cast<int>(i) + 0.5, window.y + y + 0.5)};
-      const Packet<Hit> hits = model.alone->first_hits(std::span(rays).first(count));
-      for (std::size_t i = 0; i < count; ++i) {
-        if (!hits.find(i)) continue;
-        const int across = x + static_cast<int>(i), column = window.x + across, row = window.y + y;
-        silhouette(across, y) = 255;
+        if (hits.find(i)) silhouette(columns[i], y) = 255;
+      for (int across = x; across < end; ++across) {
+        if (!silhouette(across, y)) continue;
         ++label.whole_pixels;
-        if (column < 0 || column >= label.whole.width() || row < 0 || row >= label.whole.height()) continue;
+        const int column = window.x + across;
+        if (!in_image(column)) continue;
         label.whole(column, row) = 255;
         label.valid += depth(column, row) > 0.0f;
       }
     }
+  }
   label.whole_box = box_of(silhouette);
   if (label.whole_box) label.whole_box->x += window.x, label.whole_box->y += window.y;
 }

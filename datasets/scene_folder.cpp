@@ -201,7 +201,10 @@ void gather(const fs::path& folder, const std::string& name, int images, bool ha
                                                                   {"coco.json", &coco},
                                                                   {"scene_gt.json", &poses},
                                                                   {kComplete, &frames}}) {
-    write_text(folder / file, content->dump() + "\n");
+    const std::string text = content->dump() + "\n";
+    // A data set that is whole stays as it is: a second run that is killed leaves no line twice in its manifest.
+    if (manifest.holds(file) && read_text(folder / file) == text) continue;
+    write_text(folder / file, text);
     manifest.add(file);
   }
 }

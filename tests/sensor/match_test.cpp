@@ -120,6 +120,34 @@ TEST(Reference, OfTheSameSensorIsMadeOnce) {
   EXPECT_NE(reference_image(sensor, pattern, 1), first);
 }
 
+TEST(Reference, IsTheMeanOfThePatternOverEachPixel) {
+  constexpr int kSamplesAcross = 2;
+  constexpr double kBrightness = 500.0;  // of a dot's centre in focus
+  for (const char* model : {"xtion_pro_live", "xtion_pro_live_device"}) {
+    const Json json = {{"model", model}, {"height_mm", 650}, {"pitch_deg", 90}};
+    SensorModel sensor = rig_from_json(JsonReader(json, "test")).sensor;
+    sensor.unit = {};
+    const Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
+    const double scale = sensor.ir_scale(), blur = Defocus(sensor).blur_steps(sensor.reference);
+    const Image<float> image = reference_image(sensor, pattern, 0, kSamplesAcross);
+    for (int y = 301; y < 700; y += 57)
+      for (int x = 301; x < 900; x += 7) {
+        double mean = 0.0;
+        for (const double dy : {0.25, 0.75})
+          for (const double dx : {0.25, 0.75}) {
+            const Eigen::Vector2d px((x + dx) / scale, (y - sensor.ir_first_row() + dy) / scale);
+            Eigen::Vector2d seen = (px - sensor.principal_px) / sensor.focal_px;
+            if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
+            mean += 0.25 * pattern.intensity(pattern.on_grid(seen.x() - sensor.baseline / sensor.reference, seen.y(),
+                                                             sensor.focal_px),
+                                             blur);
+          }
+        // Both look up a Gaussian in steps; it changes by at most 1.4 of its height per step of the grid.
+        ASSERT_NEAR(image(x, y) / kBrightness, mean, 4e-3) << model << ' ' << x << ' ' << y;
+      }
+  }
+}
+
 TEST(Match, WithoutContrastThereIsNoMatch) {
   const Bench bench(650.0);
   const Match found = match(bench.sensor(), Image<float>(1280, 1024, 200.0f), bench.reference);
