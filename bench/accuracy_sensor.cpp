@@ -8,6 +8,7 @@
 
 #include "bench/accuracy.h"
 #include "bench/comparison.h"
+#include "core/input_policy.h"
 
 namespace fathom {
 namespace {
@@ -36,6 +37,7 @@ constexpr std::array<SensorPart, 7> kParts{{{"desks", [] { compare_desks(Capture
 }  // namespace fathom
 
 int main(int argc, char** argv) {
+  const fathom::InputPolicyScope own_files({.allow_outside = true});  // scenes name meshes that are made here
   const auto asked = [&](std::string_view name) {
     for (int i = 1; i < argc; ++i)
       if (argv[i] == name) return true;
