@@ -48,7 +48,7 @@ class Progress(unittest.TestCase):
 
     def test_one_long_shot_says_that_it_goes_on(self):
         with tempfile.TemporaryDirectory() as folder:
-            running = "capture  2 s"
+            running = "capture  2 s" + CLEAR
             text = on_terminal("capture", os.path.join(SCENES, "glass_water.json"), "--light", "full", "-o", folder, until=running)
         self.assertIn(running, text)
 
