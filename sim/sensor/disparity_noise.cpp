@@ -1,7 +1,6 @@
 #include "sim/sensor/disparity_noise.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,23 +9,12 @@
 #include "core/rng.h"
 #include "core/simd.h"
 #include "sim/sensor/pattern.h"
+#include "sim/sensor/white_noise.h"
 
 namespace fathom {
 namespace {
 
 constexpr std::uint64_t kBlockStream = 0x626c6f636bULL;
-
-/// White noise of variance 1, the number of ones among 32 bits; adding up blocks makes it normal.
-void white_row(std::uint64_t seed, std::uint64_t key, int row, std::vector<float>& noise) {
-  const float per_deviation = 1.0f / std::sqrt(8.0f);
-  Rng rng(seed, kBlockStream, key, static_cast<std::uint64_t>(row));
-  for (std::size_t x = 0; x < noise.size(); x += 2) {
-    const std::uint64_t bits = rng.bits();
-    noise[x] = per_deviation * static_cast<float>(std::popcount(bits >> 32) - 16);
-    if (x + 1 < noise.size())
-      noise[x + 1] = per_deviation * static_cast<float>(std::popcount(bits & 0xffffffffULL) - 16);
-  }
-}
 
 /// sum[x] += Σ n[x + i], moment[x] += Σ (i − half) n[x + i] over `count` places.
 FATHOM_SIMD_CLONES
@@ -125,10 +113,12 @@ BlockChance block_chance(const SensorModel& sensor, std::uint64_t seed, std::uin
   const int width = sensor.width, height = sensor.height;
   const int columns = sensor.matcher.window_columns, rows = sensor.matcher.window_rows;
   Image<float> sums(width, height + rows - 1), moments(width, height + rows - 1);
+  const float per_deviation = 1.0f / std::sqrt(8.0f);  // adding up blocks makes it normal
   parallel_ranges(sums.height(), [&](int begin, int end) {
     std::vector<float> noise(width + columns - 1);
     for (int y = begin; y < end; ++y) {
-      white_row(seed, key, y, noise);
+      white_noise(Rng(seed, kBlockStream, key, static_cast<std::uint64_t>(y)), per_deviation, noise.data(),
+                  static_cast<int>(noise.size()));
       sum_along(noise.data(), columns, sums.row(y), moments.row(y), width);
     }
   });

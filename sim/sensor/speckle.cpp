@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "core/simd.h"
+#include "sim/sensor/white_noise.h"
 
 namespace fathom {
 namespace {
@@ -42,18 +42,6 @@ std::array<double, kTaps> amplitude_kernel(const SensorModel& sensor) {
 }
 
 using Kernel = std::array<float, kTaps>;
-
-/// White complex noise of unit power, real and imaginary parts in turn. The number of ones among 32 random bits is all
-/// but normal, with variance 8, and cheap; smoothing does the rest.
-FATHOM_SIMD_CLONES
-void white_row(Rng rng, float* __restrict white, int samples) {
-  constexpr float kUnit = 0.25f;  // 1 / √(8 + 8)
-  for (int x = 0; x < samples; ++x) {
-    const std::uint64_t bits = rng.bits();
-    white[2 * x] = kUnit * static_cast<float>(std::popcount(bits >> 32) - 16);
-    white[2 * x + 1] = kUnit * static_cast<float>(std::popcount(bits & 0xffffffffULL) - 16);
-  }
-}
 
 FATHOM_SIMD_CLONES
 void smooth_along(const float* __restrict white, const Kernel& kernel, float* __restrict smoothed, int samples) {
@@ -92,11 +80,13 @@ Image<float> speckle_field(const SensorModel& sensor, double coherent_share, int
   const auto part = static_cast<float>(coherent_share / (kAcross * kAcross));
   Image<float> gains(width, height, incoherent);
   const int samples = kAcross * width;
+  constexpr float kUnitPower = 0.25f;  // 1 / √(8 + 8), of real and imaginary parts in turn
   parallel_ranges(height, [&](int begin, int end) {
     std::vector<float> white(2 * (samples + 2 * kReach)), sums(2 * samples);
     std::vector<std::vector<float>> ring(kTaps, std::vector<float>(2 * samples));
     const auto add_row = [&](int row) {
-      white_row(Rng(seed, kFieldStream, static_cast<std::uint64_t>(row)), white.data(), samples + 2 * kReach);
+      white_noise(Rng(seed, kFieldStream, static_cast<std::uint64_t>(row)), kUnitPower, white.data(),
+                  static_cast<int>(white.size()));
       smooth_along(white.data(), kernel, ring[row % kTaps].data(), samples);
     };
     for (int row = kAcross * begin; row < kAcross * begin + kTaps - 1; ++row) add_row(row);
