@@ -23,10 +23,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void flush_to_disk(const fs::path& path) {
+/// By fsync or syncfs.
+void flush_to_disk(const fs::path& path, int (*flush)(int)) {
   const int file = ::open(path.c_str(), O_RDONLY);
   if (file < 0) throw Error(path.string(), std::strerror(errno));
-  const bool flushed = ::fsync(file) == 0 || errno == EINVAL;  // EINVAL: a file system without fsync
+  const bool flushed = flush(file) == 0 || errno == EINVAL;  // EINVAL: a file system without it
   ::close(file);
   if (!flushed) throw Error(path.string(), "cannot be flushed to disk");
 }
@@ -65,14 +66,14 @@ void require_regular(const std::string& name, const struct ::stat& about) {
 
 }  // namespace
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write, Flush flush) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) throw Error(path.string(), "cannot be written: its folder does not exist");
   if (fs::is_directory(path)) throw Error(path.string(), "cannot be written: a folder of that name exists");
   const fs::path beside = folder / name_beside(path);
   try {
     write(beside);
-    flush_to_disk(beside);
+    if (flush == Flush::at_once) flush_to_disk(beside, ::fsync);
     fs::rename(beside, path);
   } catch (const Error&) {
     std::error_code ignored;
@@ -85,6 +86,8 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
   }
 }
 
+void flush_file_system(const fs::path& folder) { flush_to_disk(folder, ::syncfs); }
+
 void remove_leftovers(const fs::path& folder) {
   std::error_code ignored;  // what cannot be removed does no harm
   std::vector<fs::path> leftovers;
@@ -93,13 +96,14 @@ void remove_leftovers(const fs::path& folder) {
   for (const fs::path& leftover : leftovers) fs::remove(leftover, ignored);
 }
 
-void write_text(const fs::path& path, std::string_view text) {
-  write_atomically(path, [&](const fs::path& beside) {
+void write_text(const fs::path& path, std::string_view text, Flush flush) {
+  const auto write = [&](const fs::path& beside) {
     std::ofstream file(beside, std::ios::binary);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     file.close();
     if (!file) throw Error(path.string(), "cannot be written");
-  });
+  };
+  write_atomically(path, write, flush);
 }
 
 std::string read_text(const fs::path& path) {

@@ -1,4 +1,4 @@
-// Files appear whole or not at all: written beside, fsynced, renamed.
+// Files appear whole or not at all: written beside, flushed to disk, renamed.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,25 @@
 
 namespace fathom {
 
+/// When a file reaches the disk: before it gets its name, so that a power cut leaves the old file or the new one; or
+/// later, with flush_file_system() for all of them, which takes a sixth less of the time that many small files take.
+enum class Flush { at_once, later };
+
 /// Calls `write` with a temporary path in the same folder, flushes it to disk and renames it to `path`.
 /// When `write` throws, the temporary file is removed and `path` is untouched. Throws Error if `path` cannot be
 /// written.
 void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path& beside)>& write);
+                      const std::function<void(const std::filesystem::path& beside)>& write,
+                      Flush flush = Flush::at_once);
+
+/// Waits until all that was written to the folder's file system is on the disk. Throws Error when it cannot be.
+void flush_file_system(const std::filesystem::path& folder);
 
 /// Removes the temporary files of write_atomically() whose process is gone from a folder, and no others. For the
 /// folder's owner (core/folder_owner.h).
 void remove_leftovers(const std::filesystem::path& folder);
 
-void write_text(const std::filesystem::path& path, std::string_view text);
+void write_text(const std::filesystem::path& path, std::string_view text, Flush flush = Flush::at_once);
 
 /// The whole file. Throws Error, at once, when it is missing, no regular file, unreadable or beyond the InputPolicy.
 std::string read_text(const std::filesystem::path& path);

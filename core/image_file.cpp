@@ -10,6 +10,7 @@
 #include <OpenEXR/ImfStdIO.h>
 #include <fmt/format.h>
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <csetjmp>
@@ -38,14 +39,15 @@ png_image png_header(const Image<Pixel>& image, std::uint32_t format) {
 
 template <class Pixel>
 void write_png_rows(const std::filesystem::path& path, const Image<Pixel>& image, std::uint32_t format,
-                    std::uint32_t flags = 0) {
+                    std::uint32_t flags, Flush flush) {
   png_image header = png_header(image, format);
   header.flags = flags;
-  write_atomically(path, [&](const std::filesystem::path& beside) {
+  const auto write = [&](const std::filesystem::path& beside) {
     if (!png_image_write_to_file(&header, beside.c_str(), 0, image.pixels().data(), 0, nullptr))
       throw Error(path.string(), fmt::format("cannot write PNG: {} (disk full or not writable)",
                                              static_cast<const char*>(header.message)));
-  });
+  };
+  write_atomically(path, write, flush);
 }
 
 /// A file's content for OpenEXR.
@@ -136,7 +138,7 @@ class PngFile {
   std::array<char, 160> problem_{};
 };
 
-bool write_grey16(PngFile& to, const Image<std::uint16_t>& image) {
+bool write_grey16(PngFile& to, const Image<std::uint16_t>& image, Packing packing) {
   if (setjmp(png_jmpbuf(to.png))) return false;
   png_init_io(to.png, to.file);
   png_set_IHDR(to.png, to.info, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), 16,
@@ -145,6 +147,7 @@ bool write_grey16(PngFile& to, const Image<std::uint16_t>& image) {
   // rows.
   png_set_filter(to.png, 0, PNG_FILTER_SUB);
   png_set_compression_level(to.png, 2);
+  png_set_compression_strategy(to.png, packing == Packing::noise ? Z_RLE : Z_DEFAULT_STRATEGY);
   png_write_info(to.png, to.info);
   png_set_swap(to.png);
   for (int y = 0; y < image.height(); ++y) png_write_row(to.png, reinterpret_cast<png_const_bytep>(image.row(y)));
@@ -153,12 +156,15 @@ bool write_grey16(PngFile& to, const Image<std::uint16_t>& image) {
 }
 
 /// libpng's simplified interface gamma-converts 16-bit data; depth and intensity are plain numbers and must not be.
-void write_png_grey16(const std::filesystem::path& path, const Image<std::uint16_t>& image) {
-  write_atomically(path, [&](const std::filesystem::path& beside) {
+void write_png_grey16(const std::filesystem::path& path, const Image<std::uint16_t>& image, Flush flush,
+                      Packing packing) {
+  const auto write = [&](const std::filesystem::path& beside) {
     PngFile to(beside);
-    if (!write_grey16(to, image)) throw Error(path.string(), fmt::format("cannot write PNG: {}", to.problem()));
+    if (!write_grey16(to, image, packing))
+      throw Error(path.string(), fmt::format("cannot write PNG: {}", to.problem()));
     if (!to.close()) throw Error(path.string(), "cannot write PNG: disk full or not writable");
-  });
+  };
+  write_atomically(path, write, flush);
 }
 
 bool read_header(PngFile& from) {
@@ -282,16 +288,21 @@ Image<float> read_exr_channel(const std::filesystem::path& path, const std::stri
   throw Error(path.string(), unknown_name("channel", name, names));
 }
 
-void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey) {
-  write_png_rows(path, grey, PNG_FORMAT_GRAY, PNG_IMAGE_FLAG_FAST);
+void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey, Flush flush) {
+  write_png_rows(path, grey, PNG_FORMAT_GRAY, PNG_IMAGE_FLAG_FAST, flush);
 }
 
-void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey) { write_png_grey16(path, grey); }
+void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey, Flush flush, Packing packing) {
+  write_png_grey16(path, grey, flush, packing);
+}
 
-void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb) { write_png_rows(path, rgb, PNG_FORMAT_RGB); }
+void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb, Flush flush) {
+  write_png_rows(path, rgb, PNG_FORMAT_RGB, 0, flush);
+}
 
 std::string png_bytes(const Image<std::uint8_t>& grey) {
   png_image header = png_header(grey, PNG_FORMAT_GRAY);
+  header.flags = PNG_IMAGE_FLAG_FAST;
   std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
   png_alloc_size_t size = bytes.size();
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, grey.pixels().data(), 0, nullptr))

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/files.h"
 #include "core/image.h"
 
 namespace fathom {
@@ -32,9 +33,14 @@ Image<float> read_exr_channel(const std::filesystem::path& path, const std::stri
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey);
-void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey);
-void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb);
+void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey, Flush flush = Flush::at_once);
+
+/// How 16 bits are packed. In noise nothing repeats, and to look for it takes twice the time and a tenth more space.
+enum class Packing { noise, repeats };
+void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey, Flush flush = Flush::at_once,
+               Packing packing = Packing::noise);
+
+void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb, Flush flush = Flush::at_once);
 
 /// What such a file would hold.
 std::string png_bytes(const Image<std::uint8_t>& grey);

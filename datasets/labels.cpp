@@ -37,6 +37,21 @@ PixelBox window_of(const Model& model, const Pose& camera_from_model, const Sens
   return {from.x(), from.y(), to.x() - from.x(), to.y() - from.y()};
 }
 
+std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask) {
+  int left = mask.width(), top = mask.height(), right = -1, bottom = -1;
+  for (int y = 0; y < mask.height(); ++y) {
+    const std::uint8_t *begin = mask.row(y), *end = begin + mask.width();
+    const std::uint8_t* first = std::find_if(begin, end, [](std::uint8_t value) { return value > 0; });
+    if (first == end) continue;
+    const std::uint8_t* last = end - 1;
+    while (*last == 0) --last;
+    left = std::min(left, static_cast<int>(first - begin)), right = std::max(right, static_cast<int>(last - begin));
+    top = std::min(top, y), bottom = y;
+  }
+  if (right < 0) return std::nullopt;
+  return PixelBox{left, top, right - left + 1, bottom - top + 1};
+}
+
 /// Where the thing would be seen if nothing else were there. Where it is seen no ray needs to say so.
 void see_alone(const Pose& world_from_model, const Rig& rig, const Image<float>& depth, InstanceLabel& label) {
   const Model& model = *label.model;
@@ -126,9 +141,11 @@ std::optional<LiquidLabel> liquid_of(const Seen& seen, std::size_t index) {
                     .surface_mm = mm_from_metres(liquid_level(cup)),
                     .bottom_mm = mm_from_metres(bottom_height(cup)),
                     .apparent_mm = {},
-                    .mask = seen.mask_of(*number, *number)};
+                    .mask = seen.mask_of(*number, *number),
+                    .runs = {}};
+  label.runs = run_lengths(label.mask);
   std::vector<double> heights;
-  const PixelBox box = box_of(label.mask).value_or(PixelBox{});
+  const PixelBox box = label.runs.box.value_or(PixelBox{});
   for (int y = box.y; y < box.y + box.height; ++y)
     for (int x = box.x; x < box.x + box.width; ++x)
       if (const auto& depth = camera.truth()(x, y).apparent_depth; label.mask(x, y) && depth)
@@ -145,8 +162,10 @@ InstanceLabel label_of(const Model& model, std::size_t index, int object, std::o
                       .camera_from_model = rig.world_from_camera.inverse() * world_from_model,
                       .whole = {},
                       .visible = seen.mask_of(object, liquid.value_or(object)),
+                      .visible_runs = {},
                       .whole_box = {},
                       .liquid = {}};
+  label.visible_runs = run_lengths(label.visible);
   see_alone(world_from_model, rig, seen.frame.depth, label);
   return label;
 }
@@ -168,11 +187,11 @@ int RunLengths::area() const {
 }
 
 RunLengths run_lengths(const Image<std::uint8_t>& mask) {
-  RunLengths runs{mask.width(), mask.height(), {}};
+  RunLengths runs{mask.width(), mask.height(), {}, box_of(mask)};
   int begun = 0;  // where the last run begins
   bool is_inside = false;
   // Around the box all is zero. A run ends in the row below the box, or at the top of the next column.
-  const PixelBox box = box_of(mask).value_or(PixelBox{});
+  const PixelBox box = runs.box.value_or(PixelBox{});
   const int below = box.y + box.height, top = below < mask.height() ? box.y : 0,
             bottom = std::min(below + 1, mask.height()), right = std::min(box.x + box.width + 1, mask.width());
   for (int x = box.x; x < right; ++x)
@@ -185,21 +204,6 @@ RunLengths run_lengths(const Image<std::uint8_t>& mask) {
       }
   runs.counts.push_back(static_cast<int>(mask.size()) - begun);
   return runs;
-}
-
-std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask) {
-  int left = mask.width(), top = mask.height(), right = -1, bottom = -1;
-  for (int y = 0; y < mask.height(); ++y) {
-    const std::uint8_t *begin = mask.row(y), *end = begin + mask.width();
-    const std::uint8_t* first = std::find_if(begin, end, [](std::uint8_t value) { return value > 0; });
-    if (first == end) continue;
-    const std::uint8_t* last = end - 1;
-    while (*last == 0) --last;
-    left = std::min(left, static_cast<int>(first - begin)), right = std::max(right, static_cast<int>(last - begin));
-    top = std::min(top, y), bottom = y;
-  }
-  if (right < 0) return std::nullopt;
-  return PixelBox{left, top, right - left + 1, bottom - top + 1};
 }
 
 std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, const Camera& camera,
@@ -233,9 +237,9 @@ Json pose_entry(const InstanceLabel& instance) {
 }
 
 Json info_entry(const InstanceLabel& instance) {
-  const int whole = instance.whole_pixels, visible = run_lengths(instance.visible).area();
+  const int whole = instance.whole_pixels, visible = instance.visible_runs.area();
   return {{"bbox_obj", box_entry(instance.whole_box)},
-          {"bbox_visib", box_entry(box_of(instance.visible))},
+          {"bbox_visib", box_entry(instance.visible_runs.box)},
           {"px_count_all", whole},
           {"px_count_valid", instance.valid},
           {"px_count_visib", visible},
@@ -274,8 +278,8 @@ Json cup_entry(const InstanceLabel& instance, const Cup& cup) {
                      {"surface_height_mm", liquid.surface_mm},
                      {"bottom_height_mm", liquid.bottom_mm},
                      {"apparent_height_mm", liquid.apparent_mm ? Json(*liquid.apparent_mm) : Json()},
-                     {"px_count_visib", run_lengths(liquid.mask).area()},
-                     {"bbox_visib", box_entry(box_of(liquid.mask))}};
+                     {"px_count_visib", liquid.runs.area()},
+                     {"bbox_visib", box_entry(liquid.runs.box)}};
   return entry;
 }
 

@@ -11,20 +11,20 @@
 
 namespace fathom {
 
-/// A mask in runs, as COCO has them: columns one after the other, first the number of zeros.
-struct RunLengths {
-  int width, height;
-  std::vector<int> counts;
-
-  int area() const;  ///< pixels of the mask
-};
-RunLengths run_lengths(const Image<std::uint8_t>& mask);
-
 /// Of pixels: left, top, width, height; nothing for an empty mask, and {-1, -1, -1, -1} in files, as BOP has it.
 struct PixelBox {
   int x, y, width, height;
 };
-std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask);
+
+/// A mask in runs, as COCO has them: columns one after the other, first the number of zeros.
+struct RunLengths {
+  int width, height;
+  std::vector<int> counts;
+  std::optional<PixelBox> box;  ///< around the mask
+
+  int area() const;  ///< pixels of the mask
+};
+RunLengths run_lengths(const Image<std::uint8_t>& mask);
 
 /// What a cup holds, where some of it is in sight.
 struct LiquidLabel {
@@ -35,6 +35,7 @@ struct LiquidLabel {
   double surface_mm, bottom_mm;       ///< heights above the desk: of the level, of the inner bottom's centre
   std::optional<double> apparent_mm;  ///< median height that a camera without noise measures where the liquid is seen
   Image<std::uint8_t> mask;           ///< 255 where the liquid's surface is the first that is seen
+  RunLengths runs;                    ///< of `mask`
 };
 
 struct InstanceLabel {
@@ -43,6 +44,7 @@ struct InstanceLabel {
   Pose camera_from_model;
   Image<std::uint8_t> whole;          ///< 255 where it would be seen alone
   Image<std::uint8_t> visible;        ///< 255 where it, or a liquid in it, is the first that is seen
+  RunLengths visible_runs;            ///< of `visible`
   int whole_pixels = 0;               ///< of its silhouette, also beyond the image
   std::optional<PixelBox> whole_box;  ///< of the silhouette, also beyond the image
   int valid = 0;                      ///< pixels of `whole` with a measured depth

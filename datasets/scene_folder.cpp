@@ -42,27 +42,40 @@ Setup setup_of(const Dataset& dataset, const Json& scene, int number) {
   return setup_from_json(scene, dataset.spec.clutter.file, fmt::format("frame {}", number));
 }
 
-/// Writes a frame's files into the scene's folder and keeps their names.
+/// Writes a frame's files into the scene's folder and keeps their names. They reach the disk with the scene.
 class FrameWriter {
  public:
   FrameWriter(fs::path folder, std::string frame) : folder_(std::move(folder)), frame_(std::move(frame)) {}
 
-  template <class Pixel>
-  void image(const std::string& kind, const Image<Pixel>& picture, const std::string& suffix = "") {
-    files_.push_back(fmt::format("{}/{}{}.png", kind, frame_, suffix));
-    write_png(folder_ / files_.back(), picture);
+  template <class Pixel, class... Packed>
+  void image(const std::string& kind, const Image<Pixel>& picture, Packed... packing) {
+    files_.push_back(fmt::format("{}/{}.png", kind, frame_));
+    write_png(folder_ / files_.back(), picture, Flush::later, packing...);
+  }
+
+  /// Both masks of the instance number `i`: where nothing hides it they are the same bytes.
+  void masks(const InstanceLabel& label, std::size_t i) {
+    const std::string whole = png_bytes(label.whole);
+    bytes("mask", i, whole);
+    bytes("mask_visib", i,
+          std::ranges::equal(label.visible.pixels(), label.whole.pixels()) ? whole : png_bytes(label.visible));
   }
 
   std::string text(const std::string& kind, Json content) {
     content["files"] = files_;
     std::string name = fmt::format("{}/{}.json", kind, frame_);
-    write_text(folder_ / name, content.dump() + "\n");
+    write_text(folder_ / name, content.dump() + "\n", Flush::later);
     return name;
   }
 
   const std::vector<std::string>& files() const { return files_; }
 
  private:
+  void bytes(const char* kind, std::size_t i, std::string_view png) {
+    files_.push_back(fmt::format("{}/{}_{:06}.png", kind, frame_, i));
+    write_text(folder_ / files_.back(), png, Flush::later);
+  }
+
   fs::path folder_;
   std::string frame_;
   std::vector<std::string> files_;
@@ -74,24 +87,18 @@ void write_depths(const Camera& camera, const Frame& frame, FrameWriter& writer)
   const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2), eye = rig.camera_in_world();
   writer.image("depth",
                depth_counts(truth, [&](std::size_t i) { return static_cast<double>(frame.depth.pixels()[i]); }));
-  writer.image("depth_true", depth_counts(truth, [&](std::size_t i) {
-                 const TruePixel& pixel = truth.pixels()[i];
-                 return pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0;
-               }));
-  writer.image("depth_apparent",
-               depth_counts(truth, [&](std::size_t i) { return truth.pixels()[i].apparent_depth.value_or(0.0); }));
-  writer.image("depth_first", depth_counts(truth, [&](std::size_t i) {
-                 const auto& first = truth.pixels()[i].first;
-                 return first ? first->depth : 0.0;
-               }));
+  const auto write_exact = [&](const char* kind, const auto& depth) {
+    writer.image(kind, depth_counts(truth, [&](std::size_t i) { return depth(truth.pixels()[i]); }), Packing::repeats);
+  };
+  write_exact("depth_true",
+              [&](const TruePixel& pixel) { return pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0; });
+  write_exact("depth_apparent", [](const TruePixel& pixel) { return pixel.apparent_depth.value_or(0.0); });
+  write_exact("depth_first", [](const TruePixel& pixel) { return pixel.first ? pixel.first->depth : 0.0; });
   if (frame.ir.empty()) return;
   writer.image("ir", whole_dn(at_depth_scale(camera.setup().rig.sensor, frame.ir)));
 }
 
-Json runs_json(const Image<std::uint8_t>& mask) {
-  const RunLengths runs = run_lengths(mask);
-  return {{"size", {runs.height, runs.width}}, {"counts", runs.counts}};
-}
+Json runs_json(const RunLengths& runs) { return {{"size", {runs.height, runs.width}}, {"counts", runs.counts}}; }
 
 /// Shoots a frame, writes its files and returns their names, that of its labels last.
 std::vector<std::string> make_frame(const fs::path& folder, const Dataset& dataset, int number) {
@@ -107,12 +114,11 @@ std::vector<std::string> make_frame(const fs::path& folder, const Dataset& datas
   Json instances = Json::array();
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const InstanceLabel& label = labels[i];
-    writer.image("mask", label.whole, fmt::format("_{:06}", i));
-    writer.image("mask_visib", label.visible, fmt::format("_{:06}", i));
-    Json entry = {{"pose", pose_entry(label)}, {"info", info_entry(label)}, {"visible", runs_json(label.visible)}};
+    writer.masks(label, i);
+    Json entry = {{"pose", pose_entry(label)}, {"info", info_entry(label)}, {"visible", runs_json(label.visible_runs)}};
     if (label.model->is_cup) {
       entry["cup"] = cup_entry(label, setup.scene.cups[label.index]);
-      if (label.liquid) entry["liquid_visible"] = runs_json(label.liquid->mask);
+      if (label.liquid) entry["liquid_visible"] = runs_json(label.liquid->runs);
     }
     instances.push_back(std::move(entry));
   }
@@ -292,6 +298,7 @@ int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, con
       step();
     }
   });
+  flush_file_system(folder);  // before anything says that the scene is whole
   gather(folder, scene_folder(scene), images, has_infrared, manifest);
   manifest.finish();
   return static_cast<int>(missing.size());

@@ -72,7 +72,7 @@ class Desktop {
     while (high - low > 1e-5) {
       const double middle = 0.5 * (low + high);
       const Eigen::Vector2d position = origins_[cup] + middle * direction_of(azimuth);
-      (thing.footprint.placed(position, yaw).distance(taken_[cup]) < distance ? low : high) = middle;
+      (thing.footprint.placed(position, yaw).is_within(distance, taken_[cup]) ? low : high) = middle;
     }
     return put(thing, {origins_[cup] + high * direction_of(azimuth), yaw}, cup);
   }
@@ -80,7 +80,7 @@ class Desktop {
   std::optional<Place> put(const ClutterThing& thing, const Place& place, std::optional<std::size_t> neighbour) {
     Footprint footprint = thing.footprint.placed(place.position, place.yaw);
     for (std::size_t i = 0; i < taken_.size(); ++i)
-      if (i != neighbour && footprint.distance(taken_[i]) < spec_.gap) return std::nullopt;
+      if (i != neighbour && footprint.is_within(spec_.gap, taken_[i])) return std::nullopt;
     taken_.push_back(std::move(footprint));
     origins_.push_back(place.position);
     return place;

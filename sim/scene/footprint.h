@@ -20,9 +20,13 @@ class Footprint {
 
   /// Least distance [m] between the two; 0 where they meet.
   double distance(const Footprint& other) const;
+  /// Whether distance() is below `distance` [m]. Quicker where the two are far apart.
+  bool is_within(double distance, const Footprint& other) const;
 
  private:
   std::vector<Eigen::Vector2d> corners_;  ///< closed, the first is also the last
+  Eigen::Vector2d centre_{0, 0};          ///< of a circle around it
+  double radius_ = 0.0;
 };
 
 }  // namespace fathom

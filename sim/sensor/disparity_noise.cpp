@@ -35,62 +35,37 @@ void add_scaled(const float* __restrict row, float scale, float* __restrict sum,
 /// Σ i² over a window of `count` places about its middle.
 double second_moment(int count) { return count * (static_cast<double>(count) * count - 1.0) / 12.0; }
 
-/// What the light on a surface is made of, in pixels of the depth image.
-class Dots {
+/// How uncertain a block's disparity is, by the dots' variance v [px²] and the brightness c of their centres [DN].
+/// Contrast [DN] is the standard deviation of Gaussian spots that lie at random, c √(k / v) by Campbell's theorem.
+/// Speckle is as strong as the light that it weighs. Of wider dots root mean square light falls with the width, its
+/// gradient with the width's square. The shift that speckle looks like is their ratio: its variance goes with v.
+/// The detector's noise shifts by (s c + r) v² / c², because the mean squared slope is contrast² / 2 v.
+class BlockLaw {
  public:
-  explicit Dots(const SensorModel& sensor)
-      : step_px_(sensor.pattern.step_px),
-        sharp_(std::pow(sensor.pattern.dot_sigma_ir_px / sensor.ir_scale(), 2.0)),
-        per_px2_(sensor.pattern.dots_per_tile /
-                 (sensor.pattern.tile_columns * sensor.pattern.tile_rows * step_px_ * step_px_)),
-        defocus_(sensor) {}
+  explicit BlockLaw(const SensorModel& sensor) : defocus_(sensor), step_px_(sensor.pattern.step_px) {
+    sharp_ = std::pow(sensor.pattern.dot_sigma_ir_px / sensor.ir_scale(), 2.0);
+    const double per_px2 =
+        sensor.pattern.dots_per_tile / (sensor.pattern.tile_columns * sensor.pattern.tile_rows * step_px_ * step_px_);
+    const double light = 2.0 * std::numbers::pi * sharp_;  // of one dot, over its centre's brightness in focus [px²]
+    contrast2_ = light * light * per_px2 / (4.0 * std::numbers::pi);
+    speckle_ = std::pow(sensor.noise.disparity.facing_px, 2.0) / variance(1.0 / sensor.far);
+    const double pixels = std::pow(sensor.ir_scale(), 2.0) * sensor.matcher.window_columns * sensor.matcher.window_rows;
+    if (sensor.noise.electrons_per_dn > 0.0)
+      shot_ = 2.0 / (pixels * contrast2_) * light * per_px2 * sensor.noise.gain / sensor.noise.electrons_per_dn;
+    read_ = 2.0 / (pixels * contrast2_) * sensor.noise.read_dn * sensor.noise.read_dn;
+  }
 
   /// Of a dot's width, defocus included [px²].
-  double variance(double depth) const {
-    const double blur = defocus_.blur_steps(depth) * step_px_;
-    return sharp_ + blur * blur;
-  }
-  /// Of one dot, over its centre's brightness when it is in focus [px²].
-  double light() const { return 2.0 * std::numbers::pi * sharp_; }
-  /// Their number.
-  double per_px2() const { return per_px2_; }
-  /// Campbell's theorem: the variance of Gaussian spots that lie at random.
-  double contrast(double centre_dn, double variance) const {
-    return centre_dn * light() * std::sqrt(per_px2_ / (4.0 * std::numbers::pi * variance));
+  double variance(double dioptres) const { return sharp_ + step_px_ * step_px_ * defocus_.blur2_steps(dioptres); }
+  double contrast2(double centre_dn, double variance) const { return centre_dn * centre_dn * contrast2_ / variance; }
+  double speckle_px2(double variance) const { return speckle_ * variance; }
+  double detector_px2(double centre_dn, double variance) const {
+    return (shot_ * centre_dn + read_) * variance * variance / (centre_dn * centre_dn);
   }
 
  private:
-  double step_px_, sharp_, per_px2_;
   Defocus defocus_;
-};
-
-/// How uncertain a block's disparity is [px], by what is drawn once for a scene and by what each frame draws anew.
-struct Deviation {
-  double still_px, renewed_px;
-};
-
-class DeviationLaw {
- public:
-  DeviationLaw(const SensorModel& sensor, const Dots& dots)
-      : facing2_(std::pow(sensor.noise.disparity.facing_px, 2.0) / dots.variance(sensor.far)),
-        renewed_(sensor.noise.disparity.renewed),
-        shot_(sensor.noise.electrons_per_dn > 0.0
-                  ? dots.light() * dots.per_px2() * sensor.noise.gain / sensor.noise.electrons_per_dn
-                  : 0.0),
-        read2_(sensor.noise.read_dn * sensor.noise.read_dn),
-        pixels_(std::pow(sensor.ir_scale(), 2.0) * sensor.matcher.window_columns * sensor.matcher.window_rows) {}
-
-  Deviation operator()(double variance, double centre_dn, double contrast) const {
-    // Speckle is as strong as the light that it weighs: of dots that are wider, root mean square light falls with the
-    // width, its gradient with the width's square. The shift that speckle looks like is their ratio.
-    const double speckle_px2 = facing2_ * variance;
-    const double detector_px2 = (shot_ * centre_dn + read2_) * 2.0 * variance /
-                                (pixels_ * contrast * contrast);  // mean squared slope: contrast² / 2 variance
-    return {std::sqrt((1.0 - renewed_) * speckle_px2), std::sqrt(renewed_ * speckle_px2 + detector_px2)};
-  }
-
- private:
-  double facing2_, renewed_, shot_, read2_, pixels_;
+  double step_px_, sharp_ = 0.0, contrast2_ = 0.0, speckle_ = 0.0, shot_ = 0.0, read_ = 0.0;
 };
 
 /// The disparity at a place in the image, between the pixels of one surface; across an edge the nearest pixel's.
@@ -105,6 +80,25 @@ float disparity_at(const Image<float>& exact, float x, float y) {
   if (least <= 0.0f || most - least > kSameSurface) return (down < 0.5f ? upper : lower)[across < 0.5f ? 0 : 1];
   return (1.0f - down) * ((1.0f - across) * upper[0] + across * upper[1]) +
          down * ((1.0f - across) * lower[0] + across * lower[1]);
+}
+
+/// Adds to a row of disparities [px] what is drawn once for a scene and what each frame draws anew; 0 where blocks have
+/// too little contrast.
+FATHOM_SIMD_CLONES
+void add_noise(const SensorModel& sensor, const BlockLaw& law, const float* __restrict intensity,
+               const float* __restrict still, const float* __restrict renewed, float* __restrict disparity, int width) {
+  const double dioptres_per_px = 1.0 / (sensor.focal_px * sensor.baseline), gain = sensor.noise.gain;
+  const double of_renewed = sensor.noise.disparity.renewed;
+  const double least2 = sensor.matcher.contrast_min * sensor.matcher.contrast_min;
+  for (int x = 0; x < width; ++x) {
+    const double exact = disparity[x], centre_dn = gain * intensity[x];
+    const double variance = law.variance(dioptres_per_px * exact);
+    const double speckle = law.speckle_px2(variance), detector = law.detector_px2(centre_dn, variance);
+    const double noisy = exact + std::sqrt((1.0 - of_renewed) * speckle) * still[x] +
+                         std::sqrt(of_renewed * speckle + detector) * renewed[x];
+    const bool is_matched = exact > 0.0 && law.contrast2(centre_dn, variance) >= least2 && noisy > 0.0;
+    disparity[x] = is_matched ? static_cast<float>(noisy) : 0.0f;
+  }
 }
 
 }  // namespace
@@ -142,34 +136,28 @@ BlockChance block_chance(const SensorModel& sensor, std::uint64_t seed, std::uin
 }
 
 double block_contrast(const SensorModel& sensor, double intensity, double depth) {
-  const Dots dots(sensor);
-  return dots.contrast(intensity * sensor.noise.gain, dots.variance(depth));
+  const BlockLaw law(sensor);
+  return std::sqrt(law.contrast2(intensity * sensor.noise.gain, law.variance(1.0 / depth)));
 }
 
 Image<float> disparity_with_noise(const SensorModel& sensor, const Image<float>& exact_px,
                                   const Image<float>& intensity, const BlockChance& still, const BlockChance& renewed) {
   const DisparityNoise& noise = sensor.noise.disparity;
-  const double focal_baseline = sensor.focal_px * sensor.baseline;
-  const Dots dots(sensor);
-  const DeviationLaw deviation_of(sensor, dots);
+  const BlockLaw law(sensor);
   const auto still_off = static_cast<float>(noise.lateral_px * std::sqrt(1.0 - noise.renewed));
   const auto renewed_off = static_cast<float>(noise.lateral_px * std::sqrt(noise.renewed));
-  const int border = sensor.matcher.window_columns / 2;
+  const int border = sensor.matcher.window_columns / 2, width = exact_px.width() - 2 * border;
   Image<float> noisy(exact_px.width(), exact_px.height());
+  if (width <= 0) return noisy;
   parallel_ranges(noisy.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = border; x < noisy.width() - border; ++x) {
-        const float exact = disparity_at(
+    for (int y = begin; y < end; ++y) {
+      for (int x = border; x < border + width; ++x)
+        noisy(x, y) = disparity_at(
             exact_px, static_cast<float>(x) + still_off * still.across(x, y) + renewed_off * renewed.across(x, y),
             static_cast<float>(y) + still_off * still.down(x, y) + renewed_off * renewed.down(x, y));
-        if (exact <= 0.0f) continue;
-        const double variance = dots.variance(focal_baseline / exact), centre_dn = intensity(x, y) * sensor.noise.gain;
-        const double contrast = dots.contrast(centre_dn, variance);
-        if (contrast < sensor.matcher.contrast_min) continue;
-        const Deviation deviation = deviation_of(variance, centre_dn, contrast);
-        noisy(x, y) = std::max(0.0f, exact + static_cast<float>(deviation.still_px) * still.level(x, y) +
-                                         static_cast<float>(deviation.renewed_px) * renewed.level(x, y));
-      }
+      add_noise(sensor, law, intensity.row(y) + border, still.level.row(y) + border, renewed.level.row(y) + border,
+                noisy.row(y) + border, width);
+    }
   });
   return noisy;
 }

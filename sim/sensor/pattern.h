@@ -69,10 +69,11 @@ class Defocus {
   explicit Defocus(const SensorModel& sensor);
 
   /// Standard deviation in grid steps, at `depth` [m] along the axis.
-  double blur_steps(double depth) const {
-    const double dioptres = 1.0 / depth;
+  double blur_steps(double depth) const { return std::sqrt(blur2_steps(1.0 / depth)); }
+  /// Its square, by inverse depth [1/m].
+  double blur2_steps(double dioptres) const {
     const double disc = disc_ * (dioptres - focus_dioptres_), beam = beam_ * dioptres;
-    return std::sqrt(disc * disc + beam * beam);
+    return disc * disc + beam * beam;
   }
 
  private:
