@@ -1,0 +1,30 @@
+#!/usr/bin/env python3
+"""usage: tests/app/laboratory_test.py FATHOM
+docs/laboratory.md as a reader follows it: its commands run one after another in an empty folder, and print what the page quotes."""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "laboratory.md"
+
+
+def main(program):
+    text = PAGE.read_text()
+    said = ""
+    with tempfile.TemporaryDirectory() as folder:
+        for block in re.findall(r"^```\n(.*?)^```$", text, re.M | re.S):
+            block = re.sub(r"^fathom ", f"{program} ", block, flags=re.M)
+            done = subprocess.run(["bash", "-euc", block], cwd=folder, capture_output=True, text=True)
+            if done.returncode:
+                return f"{block}{done.stdout}{done.stderr}"
+            said += done.stdout
+    quotes = re.findall(r"^> (.*)$", text, re.M)
+    return "\n".join(f"not printed: {quote}" for quote in quotes or ["a quote on the page"] if quote not in said) or None
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main(Path(sys.argv[1]).resolve()))
