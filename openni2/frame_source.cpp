@@ -3,15 +3,22 @@
 #include <filesystem>
 
 #include "sim/effects/effects_json.h"
+#include "sim/render/overlap.h"
 #include "sim/sensor/read_capture.h"
 
 namespace fathom {
 namespace {
 
+Setup setup_of(const std::filesystem::path& scene) {
+  Setup setup = read_setup(scene);
+  require_apart(setup);
+  return with_effects(std::move(setup));
+}
+
 /// A scene as `fathom capture` shoots it: rendered once, with new noise, matching and depth each time.
 class LiveScene : public FrameSource {
  public:
-  explicit LiveScene(const std::filesystem::path& path) : setup_(with_effects(read_setup(path))) {}
+  explicit LiveScene(const std::filesystem::path& path) : setup_(setup_of(path)) {}
 
   const Setup& setup() const override { return setup_; }
   bool has_infrared() const override { return true; }

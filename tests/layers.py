@@ -48,7 +48,7 @@ BORDERS = {
     "Boost.Math": ["core/*.cpp", "blind/*.cpp", "diagnosis/statistics/*.cpp", "bench/*.cpp"],
     "OpenEXR": ["core/*.cpp"],
     "libpng": ["core/*.cpp"],
-    "zlib": ["view/packed.cpp", "tests/view/*.cpp"],
+    "zlib": ["core/image_file.cpp", "view/packed.cpp", "tests/view/*.cpp"],
     "OpenSSL": ["core/*.cpp"],
     "CLI11": ["app/*.cpp", "blind/*"],
     "Fontconfig": ["report/fonts.cpp"],

@@ -318,6 +318,11 @@ TEST_F(Device, AWrongSceneIsAnsweredByItsOwnLine) {
   EXPECT_NE(error_of_opening(std::string(300, 'x') + ".json").find("is too long a path for OpenNI2"),
             std::string::npos);
 
+  Json twice = captured().setup.source;
+  twice["cups"].push_back(twice["cups"][0]);
+  write_json(scene, twice);
+  EXPECT_NE(error_of_opening(scene).find("/cups/1: stands in /cups/0"), std::string::npos);
+
   write_json(scene, captured().setup.source);  // mended, under the same name
   Client client(scene, openni::SENSOR_DEPTH);
 }
@@ -325,7 +330,10 @@ TEST_F(Device, AWrongSceneIsAnsweredByItsOwnLine) {
 TEST_F(Device, ASceneThatCannotBeShotIsAnsweredWhenItStarts) {
   const std::string scene = (captured().folder / "crowded.json").string();
   Json json = captured().setup.source;
-  for (int i = 0; i < 64; ++i) json["cups"].push_back(json["cups"][0]);  // more liquids than a ray can be in
+  for (int i = 0; i < 64; ++i) {  // more liquids than a ray can be in
+    json["cups"].push_back(json["cups"][0]);
+    json["cups"].back()["position_mm"] = {120 * (i % 8), 1000 + 120 * (i / 8)};
+  }
   write_json(scene, json);
   Client client(scene, openni::SENSOR_DEPTH);
   EXPECT_NE(client.stream.start(), STATUS_OK);
