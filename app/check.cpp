@@ -7,6 +7,8 @@
 #include "app/commands.h"
 #include "app/measurement_folder.h"
 #include "app/results.h"
+#include "core/error.h"
+#include "core/files.h"
 #include "core/json_text.h"
 #include "core/rows.h"
 #include "core/units.h"
@@ -16,6 +18,10 @@
 
 namespace fathom {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOfLaboratory[] = {"rig.json", "frames.csv"};
 
 std::string lengths(const std::set<double>& values_mm) { return fmt::format("{:g}", fmt::join(values_mm, ", ")); }
 
@@ -85,9 +91,11 @@ std::string rows_text(const MeasurementCheck& check) {
     text += "\n" + on_one_line(words.what) + "\n  costs:  " + on_one_line(words.costs) +
             "\n  remedy: " + on_one_line(words.remedy) + "\n";
   }
-  return text + (check.lacks.empty()
-                     ? "\nA diagnosis can run; nothing is missing.\n"
-                     : fmt::format("\nA diagnosis can run; {} things would make it say more.\n", check.lacks.size()));
+  return text +
+         (check.lacks.empty()
+              ? "\nA diagnosis can run; nothing is missing.\n"
+              : fmt::format("\nA diagnosis can run; {} would make it say more.\n",
+                            check.lacks.size() == 1 ? "one thing" : fmt::format("{} things", check.lacks.size())));
 }
 
 Json json_of(const MeasurementCheck& check) {
@@ -121,11 +129,27 @@ Json json_of(const MeasurementCheck& check) {
   return json;
 }
 
+/// A laboratory to start from, into a folder that holds none.
+void write_example(const fs::path& folder) {
+  make_directory(folder);
+  for (const char* name : kOfLaboratory)
+    if (fs::exists(folder / name)) throw Error((folder / name).string(), "is there already; choose another folder");
+  for (const char* name : kOfLaboratory)
+    write_text(folder / name, read_text(data_directory() / "measurements" / "beaker" / name));
+}
+
 }  // namespace
 
 std::function<void()> define_check(CLI::App& app, const CommonOptions& common) {
-  const auto folder = add_measurement_folder(app);
-  return [folder, &common] {
+  const auto folder = add_measurement_folder(app, false);
+  const auto example = std::make_shared<bool>(false);
+  app.add_flag("--example", *example, "Writes a rig.json and a frames.csv to start from into the folder of -o");
+  return [folder, example, &common] {
+    if (*example) {
+      require_output(common);
+      return write_example(common.output);
+    }
+    if (folder->empty()) throw UsageError("DIR is required, or --example");
     const MeasurementCheck check = check_measurement(*folder);
     nominal_model(check.rig, (*folder / "rig.json").string());  // refuses names and media that a diagnosis refuses
     print_results(common, "check", ".txt", common.json ? json_text(json_of(check)) : rows_text(check));

@@ -67,7 +67,7 @@ inline constexpr std::array kCommands{
     Command{"check",
             "Lists in seconds what a measurement directory holds and lacks, and what each lack means for a diagnosis",
             "  fathom check out/paper\n  fathom check scenes/measurements/paper_printed\n"
-            "  fathom check out/paper --json -o out/checked",
+            "  fathom check --example -o out/laboratory\n  fathom check out/paper --json -o out/checked",
             define_check},
     Command{"measure",
             "Fills the height columns of a measurement directory: writes heights.csv there, or to the folder of -o",

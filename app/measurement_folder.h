@@ -10,7 +10,7 @@ class App;
 
 namespace fathom {
 
-/// Adds it; it is filled when the run starts.
-std::shared_ptr<std::filesystem::path> add_measurement_folder(CLI::App& app);
+/// Adds it; it is filled when the run starts. One that is not required may stay empty.
+std::shared_ptr<std::filesystem::path> add_measurement_folder(CLI::App& app, bool is_required = true);
 
 }  // namespace fathom

@@ -23,7 +23,7 @@ double usual_focal_px(std::string_view sensor_model) { return sensor_model.start
 std::span<const Field<LaboratoryRig>> sensor_fields() {
   using Rig = LaboratoryRig;
   static const Field<Rig> fields[] = {
-      {"model", &Rig::sensor_model, {}, "the sensor's: a name of `fathom list sensors` or the laboratory's own", true},
+      {"model", &Rig::sensor_model, {}, "the sensor's: a name of `fathom list sensors`", true},
       {"height_mm", Length{&Rig::height_m}, kLengthMm, "height of the baseline's middle above the desk", true},
       {"pitch_deg", Angle{&Rig::pitch_rad}, {-90.0, 90.0}, "0: level, 90: straight down", true},
       {"roll_deg", Angle{&Rig::roll_rad}, {-180.0, 180.0}, "turn about the optical axis, clockwise from behind"},

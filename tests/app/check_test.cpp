@@ -57,6 +57,18 @@ TEST_F(CheckCommand, SaysTheSameInJsonAndKeepsIt) {
   for (const char* name : {"bare_desk_views", "empty_cup", "distances", "conditions"}) EXPECT_FALSE(has(name)) << name;
 }
 
+TEST_F(CheckCommand, AnExampleCanBeCheckedAndIsNeverWrittenOverAnother) {
+  const std::string lab = (folder / "lab").string();
+  EXPECT_EQ(run_fathom("check --example -o " + lab).exit_code, 0);
+  EXPECT_EQ(run_fathom("check " + lab).exit_code, 0);
+  const ProgramRun again = run_fathom("check --example -o " + lab);
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_EQ(again.err, "error: " + lab + "/rig.json: is there already; choose another folder\n");
+  const ProgramRun nothing = run_fathom("check");
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_NE(nothing.err.find("DIR is required, or --example"), std::string::npos) << nothing.err;
+}
+
 TEST_F(CheckCommand, WhereNoDiagnosisCanRunItFailsWithOneLine) {
   const auto expect_failed = [&](const std::string& rows, const std::string& what) {
     const ProgramRun run = check(rows);

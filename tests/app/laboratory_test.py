@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """usage: tests/app/laboratory_test.py FATHOM
-docs/laboratory.md as a reader follows it: its commands run one after another in an empty folder, and print what the page quotes."""
+docs/laboratory.md as a reader follows it: its commands run one after another in an empty folder, and print what the page quotes; the files
+that it shows are those that they write."""
 import re
 import subprocess
 import sys
@@ -20,6 +21,10 @@ def main(program):
             if done.returncode:
                 return f"{block}{done.stdout}{done.stderr}"
             said += done.stdout
+        for kind, file in ("json", "rig.json"), ("csv", "frames.csv"):
+            shown = re.search(rf"^```{kind}\n(.*?)^```$", text, re.M | re.S)[1]
+            if shown != Path(folder, "lab", file).read_text():
+                return f"{PAGE.name} shows another {file} than check --example writes"
     quotes = re.findall(r"^> (.*)$", text, re.M)
     return "\n".join(f"not printed: {quote}" for quote in quotes or ["a quote on the page"] if quote not in said) or None
 
