@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -58,12 +59,34 @@ void wait_for_frame(openni::VideoStream& stream, const std::string& device) {
   require(status, device);
 }
 
+void unmirror(openni::VideoStream& stream, const std::string& device) {
+  if (stream.isPropertySupported(openni::STREAM_PROPERTY_MIRRORING))
+    require(stream.setMirroringEnabled(false), device);  // a real one starts mirrored
+}
+
+/// The mode whose pixels are those of the depth image.
+std::optional<openni::VideoMode> mode_beside(const openni::SensorInfo& infrared, const openni::VideoMode& depth) {
+  const openni::Array<openni::VideoMode>& modes = infrared.getSupportedVideoModes();
+  for (int i = 0; i < modes.getSize(); ++i)
+    if (modes[i].getPixelFormat() == openni::PIXEL_FORMAT_GRAY16 &&
+        modes[i].getResolutionX() == depth.getResolutionX() && modes[i].getResolutionY() == depth.getResolutionY() &&
+        modes[i].getFps() == depth.getFps())
+      return modes[i];
+  return std::nullopt;
+}
+
+template <class Pixel>
+const Pixel* row_of(const openni::VideoFrameRef& frame, int y) {
+  return reinterpret_cast<const Pixel*>(static_cast<const char*>(frame.getData()) + y * frame.getStrideInBytes());
+}
+
 }  // namespace
 
 struct LiveCamera::Session {
   Session() { require(openni::OpenNI::initialize(), "OpenNI2"); }
   ~Session() {
     stream.destroy();
+    infrared.destroy();
     device.close();
     openni::OpenNI::shutdown();
   }
@@ -71,7 +94,7 @@ struct LiveCamera::Session {
   Session& operator=(const Session&) = delete;
 
   openni::Device device;
-  openni::VideoStream stream;
+  openni::VideoStream stream, infrared;
 };
 
 LiveCamera::LiveCamera(const std::string& uri) : uri_(uri) {
@@ -86,18 +109,41 @@ LiveCamera::LiveCamera(const std::string& uri) : uri_(uri) {
   }
   require(session_->device.open(uri_.c_str()), uri_);
   require(session_->stream.create(session_->device, openni::SENSOR_DEPTH), uri_);
-  if (session_->stream.isPropertySupported(openni::STREAM_PROPERTY_MIRRORING))
-    require(session_->stream.setMirroringEnabled(false), uri_);  // a real one starts mirrored
+  unmirror(session_->stream, uri_);
+  start_infrared();
   require(session_->stream.start(), uri_);
+}
+
+/// Not every device has such a stream beside depth. Clouds are without intensities then.
+void LiveCamera::start_infrared() {
+  openni::VideoStream& infrared = session_->infrared;
+  const openni::SensorInfo* sensor = session_->device.getSensorInfo(openni::SENSOR_IR);
+  if (!sensor) return;
+  const auto mode = mode_beside(*sensor, session_->stream.getVideoMode());
+  if (!mode || infrared.create(session_->device, openni::SENSOR_IR) != openni::STATUS_OK) return;
+  if (infrared.setVideoMode(*mode) == openni::STATUS_OK) {
+    unmirror(infrared, uri_);
+    if (infrared.start() == openni::STATUS_OK) return;
+  }
+  infrared.destroy();
 }
 
 LiveCamera::~LiveCamera() = default;
 
 Image<CloudPoint> LiveCamera::next_cloud() {
   constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
-  wait_for_frame(session_->stream, uri_);
-  openni::VideoFrameRef frame;
-  require(session_->stream.readFrame(&frame), uri_);
+  const auto next_frame = [this](openni::VideoStream& stream) {
+    openni::VideoFrameRef frame;
+    wait_for_frame(stream, uri_);
+    require(stream.readFrame(&frame), uri_);
+    return frame;
+  };
+  const openni::VideoFrameRef frame = next_frame(session_->stream);
+  const openni::VideoFrameRef infrared =
+      session_->infrared.isValid() ? next_frame(session_->infrared) : openni::VideoFrameRef();
+  const bool has_infrared =
+      infrared.isValid() && infrared.getWidth() == frame.getWidth() && infrared.getHeight() == frame.getHeight() &&
+      infrared.getCropOriginX() == frame.getCropOriginX() && infrared.getCropOriginY() == frame.getCropOriginY();
 
   const openni::VideoMode mode = frame.getVideoMode();
   const double unit = metres_per_unit(mode.getPixelFormat(), uri_);
@@ -105,15 +151,17 @@ Image<CloudPoint> LiveCamera::next_cloud() {
   const double focal_y = 0.5 * mode.getResolutionY() / std::tan(0.5 * session_->stream.getVerticalFieldOfView());
   Image<CloudPoint> cloud(frame.getWidth(), frame.getHeight(), {kInvalid, kInvalid, kInvalid, 0.0f});
   for (int y = 0; y < cloud.height(); ++y) {
-    const auto* row = reinterpret_cast<const openni::DepthPixel*>(static_cast<const char*>(frame.getData()) +
-                                                                  y * frame.getStrideInBytes());
+    const auto* row = row_of<openni::DepthPixel>(frame, y);
+    const auto* light = has_infrared ? row_of<openni::Grayscale16Pixel>(infrared, y) : nullptr;
     for (int x = 0; x < cloud.width(); ++x) {
+      const float intensity = light ? light[x] : 0.0f;
+      cloud(x, y).intensity = intensity;
       if (row[x] == 0) continue;
       const double z = row[x] * unit;
       const double right = x + frame.getCropOriginX() + 0.5 - 0.5 * mode.getResolutionX();
       const double down = y + frame.getCropOriginY() + 0.5 - 0.5 * mode.getResolutionY();
       cloud(x, y) = {static_cast<float>(z * right / focal_x), static_cast<float>(z * down / focal_y),
-                     static_cast<float>(z), 0.0f};
+                     static_cast<float>(z), intensity};
     }
   }
   return cloud;

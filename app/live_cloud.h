@@ -1,4 +1,4 @@
-// Depth from any device that OpenNI2 knows, real or virtual.
+// Clouds from any device that OpenNI2 knows, real or virtual.
 #pragma once
 
 #include <memory>
@@ -16,10 +16,13 @@ class LiveCamera {
 
   const std::string& uri() const { return uri_; }
   /// The next frame as an organised cloud in the camera frame [m], by the device's field of view; NaN where nothing was
-  /// measured, no intensities. Throws Error when none comes within 10 s.
+  /// measured. Intensities [DN] where the device gives infrared beside depth, else 0. Throws Error when none comes
+  /// within 10 s.
   Image<CloudPoint> next_cloud();
 
  private:
+  void start_infrared();
+
   struct Session;
   std::string uri_;
   std::unique_ptr<Session> session_;

@@ -56,12 +56,12 @@ std::string series(const std::array<HeightRow, kPaperFillings.size()>& rows, con
 std::string measured_series(const PaperHeights& heights) {
   const std::string enough = fmt::format("column('points') >= {} ? column('simulated_mm') : NaN)", kPointsEnough);
   const std::string few = fmt::format("column('points') < {} ? column('simulated_mm') : NaN)", kPointsEnough);
-  return series(
-             heights.rows, [](const HeightCell& cell) { return cell.enough(); }, enough,
-             "points pt 7 ps 1.9 lc rgb colour[int(i)]", "simulated measurement, ±1σ") +
-         series(
+  return series(  // below the points, which bars would make hollow
              heights.rows, [](const HeightCell& cell) { return cell.enough() && cell.seen > 1; },
              enough + ":'simulated_sd_mm'", "yerrorbars pt 0 lw 2 lc rgb colour[int(i)]", "") +
+         series(
+             heights.rows, [](const HeightCell& cell) { return cell.enough(); }, enough,
+             "points pt 7 ps 1.9 lc rgb colour[int(i)]", "simulated measurement, ±1σ") +
          series(
              heights.rows, [](const HeightCell& cell) { return cell.seen > 0 && !cell.enough(); }, few,
              "points pt 2 ps 1.3 lw 2 lc rgb colour[int(i)]", "the same, few points left by the near wall") +
