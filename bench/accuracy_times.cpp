@@ -59,7 +59,7 @@ void compare_times() {
   print_title("One unit beside another, and warming up");
   Setup wall = facing_wall(2.5);
   wall.rig.sensor.unit.warm_up_px = 0.17;
-  wall.rig.sensor.quantized = false;  // steps of 18 mm would hide it
+  wall.rig.sensor.law.quantized = false;  // steps of 18 mm would hide it
   const auto after = [&](double minutes) {
     wall.rig.sensor.unit.on_for_s = 60.0 * minutes;
     return mean_depth_mm(wall);

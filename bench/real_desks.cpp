@@ -41,9 +41,9 @@ Setup whole_twin() {
 Setup twin_without(const std::string& effect) {
   Setup twin = whole_twin();
   SensorModel& sensor = twin.rig.sensor;
-  if (effect == "depth_quantization") sensor.quantized = false;
-  if (effect == "depth_step_phase") sensor.step_phase = 0.0;
-  if (effect == "depth_truncation") sensor.cut = 0.0;
+  if (effect == "depth_quantization") sensor.law.quantized = false;
+  if (effect == "depth_step_phase") sensor.law.step_phase = 0.0;
+  if (effect == "depth_truncation") sensor.law.cut = 0.0;
   if (effect == "noise_correlation") sensor.matcher.window_columns = sensor.matcher.window_rows = 1;
   if (effect == "reference_residue") sensor.unit.residue_px = 0.0;
   if (effect == "colour_registration") twin.processing.colour_view = false;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <span>
 #include <string>
@@ -89,18 +90,30 @@ struct Part {
   std::string_view allowed = {};  ///< for people, beside a schema
 };
 
+/// A field of a part of the object, in the way of Part: see field_of_part().
+template <class T>
+struct FieldOfPart {
+  std::function<void(const JsonReader&, T&)> read;
+  std::function<Json(const T&)> write;
+  KeyRow row;
+};
+
 /// One key of an object T. The range of a number is in the file's unit, which the key's name ends with.
 template <class T>
 struct Field {
   std::string_view key;
   std::variant<double T::*, Length<T>, PerLength<T>, Angle<T>, int T::*, std::uint64_t T::*, Eigen::Vector2d T::*,
-               Lengths<T>, LengthRange<T>, Interval T::*, std::string T::*, Choice<T>, Part<T>>
+               Lengths<T>, LengthRange<T>, Interval T::*, std::string T::*, Choice<T>, Part<T>, FieldOfPart<T>>
       value;
   Range range;
   std::string_view meaning;  ///< one line
   bool is_required = false;
   std::string_view schema = {};  ///< as JSON, where the range does not say all
 };
+
+/// A field of a member that is an object itself, whose key stands among those of the object that has the member.
+template <class T, class Member>
+Field<T> field_of_part(Member T::*part, const Field<Member>& field);
 
 /// A table and the object that it is of. Several in a tuple stand side by side in one object of the file.
 template <class T>
@@ -183,6 +196,7 @@ void read_value(const JsonReader& json, const Field<T>& field, T& object) {
                  [&](const Part<T>& part) {
                    if (part.read) part.read(json, object);
                  },
+                 [&](const FieldOfPart<T>& part) { part.read(json, object); },
              },
              field.value);
 }
@@ -213,7 +227,27 @@ Json json_from_value(const Field<T>& field, const T& object) {
           [&](std::string T::*member) -> Json { return (object.*member).empty() ? Json() : Json(object.*member); },
           [&](const Choice<T>& choice) -> Json { return choice.names.at(choice.get(object)); },
           [&](const Part<T>& part) -> Json { return part.write ? part.write(object) : Json(); },
+          [&](const FieldOfPart<T>& part) -> Json { return part.write(object); },
       },
+      field.value);
+}
+
+/// What the value's kind says.
+template <class T>
+KeyRow row_of(const Field<T>& field) {
+  return std::visit(
+      Overloaded{
+          [&](auto) { return number_row(field.range, false); }, [&](int T::*) { return number_row(field.range, true); },
+          [&](std::uint64_t T::*) { return number_row(field.range, true); },
+          [&](Eigen::Vector2d T::*) { return vector_row(field.range); },
+          [&](Lengths<T>) { return vector_row(field.range); }, [&](LengthRange<T>) { return length_range_row(); },
+          [&](Interval T::*) { return interval_row(field.range); },
+          [&](std::string T::*) { return row_of(R"({"type": "string"})", "a text"); },
+          [&](const Choice<T>& choice) { return choice_row(choice.names); },
+          [&](const Part<T>& part) {
+            return part.schema.empty() ? number_row(field.range, false) : row_of(part.schema, part.allowed);
+          },
+          [&](const FieldOfPart<T>& part) { return part.row; }},
       field.value);
 }
 
@@ -229,6 +263,19 @@ void read_values(const JsonReader& json, std::span<const Field<T>> fields, T& ob
 }
 
 }  // namespace field_detail
+
+template <class T, class Member>
+Field<T> field_of_part(Member T::*part, const Field<Member>& field) {
+  return {
+      field.key,
+      FieldOfPart<T>{[=](const JsonReader& json, T& object) { field_detail::read_value(json, field, object.*part); },
+                     [=](const T& object) { return field_detail::json_from_value(field, object.*part); },
+                     field_detail::row_of(field)},
+      field.range,
+      field.meaning,
+      field.is_required,
+      field.schema};
+}
 
 template <class T>
 void read_fields(const JsonReader& json, std::span<const Field<T>> fields, T& object,
@@ -265,21 +312,7 @@ template <class T>
 std::vector<KeyRow> key_rows(std::span<const Field<T>> fields, const T& standard) {
   std::vector<KeyRow> rows;
   for (const Field<T>& field : fields) {
-    using namespace field_detail;
-    KeyRow row = std::visit(Overloaded{[&](auto) { return number_row(field.range, false); },
-                                       [&](int T::*) { return number_row(field.range, true); },
-                                       [&](std::uint64_t T::*) { return number_row(field.range, true); },
-                                       [&](Eigen::Vector2d T::*) { return vector_row(field.range); },
-                                       [&](Lengths<T>) { return vector_row(field.range); },
-                                       [&](LengthRange<T>) { return length_range_row(); },
-                                       [&](Interval T::*) { return interval_row(field.range); },
-                                       [&](std::string T::*) { return row_of(R"({"type": "string"})", "a text"); },
-                                       [&](const Choice<T>& choice) { return choice_row(choice.names); },
-                                       [&](const Part<T>& part) {
-                                         return part.schema.empty() ? number_row(field.range, false)
-                                                                    : row_of(part.schema, part.allowed);
-                                       }},
-                            field.value);
+    KeyRow row = field_detail::row_of(field);
     row.key = field.key, row.meaning = field.meaning, row.is_required = field.is_required;
     if (!field.is_required) row.standard = field_detail::json_from_value(field, standard);
     if (!field.schema.empty()) row.schema = field_detail::row_of(field.schema, {}).schema;

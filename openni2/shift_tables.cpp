@@ -9,7 +9,8 @@ std::vector<std::uint16_t> shift_to_depth(const SensorModel& sensor, double unit
   Image<float> depth(kMaxShift + 1, 1);
   for (int shift = 0; shift < kMaxShift; ++shift) {
     const auto metres = device_depth(sensor, shift - kShiftOfCodeZero, cut_of(sensor, unit));
-    if (metres && *metres >= sensor.near && *metres <= sensor.far) depth(shift, 0) = static_cast<float>(*metres);
+    if (metres && *metres >= sensor.law.near && *metres <= sensor.law.far)
+      depth(shift, 0) = static_cast<float>(*metres);
   }
   const Image<std::uint16_t> whole = depth_in_units(depth, unit);
   return {whole.pixels().begin(), whole.pixels().end()};

@@ -27,7 +27,7 @@ double announced_focal_px(const FrameSource& source, const StreamState& state) {
 double field_of_view(int pixels, double focal_px) { return 2.0 * std::atan(0.5 * pixels / focal_px); }
 
 int max_depth(const SensorModel& sensor, double unit) {
-  return static_cast<int>(std::min(std::floor(sensor.far / unit), 65535.0));
+  return static_cast<int>(std::min(std::floor(sensor.law.far / unit), 65535.0));
 }
 
 std::int64_t max_value(const FrameSource& source, const StreamState& state) {

@@ -9,8 +9,8 @@ namespace {
 Rig without_noise(Rig rig) {
   const SensorModel ideal;
   rig.sensor.noise = ideal.noise;
-  rig.sensor.step_phase = ideal.step_phase;
-  rig.sensor.cut = ideal.cut;
+  rig.sensor.law.step_phase = ideal.law.step_phase;
+  rig.sensor.law.cut = ideal.law.cut;
   rig.sensor.unit = ideal.unit;
   return rig;
 }
@@ -33,10 +33,10 @@ std::optional<SensedPoint> DeviceReader::point_read(const Eigen::Vector2d& pixel
   constexpr double kHalfCode_px = 1.0 / 16.0;  // by which the middle of an even number of codes is no code
   const SensorModel& sensor = rig_.sensor;
   const double read = read_disparity(sensor, error_, disparity_px);
-  const double read_as = sensor.quantized && sensor.codes_per_step % 2 == 0 ? read - kHalfCode_px : read;
+  const double read_as = sensor.law.quantized && sensor.law.codes_per_step % 2 == 0 ? read - kHalfCode_px : read;
   if (read_as <= 0.0) return std::nullopt;
   constexpr double kCutOff = 0.5 * kMetresPerMm;  // depths are cut to whole millimetres
-  const double z = depth_of_disparity(sensor, read_as) - (sensor.quantized ? kCutOff : 0.0);
+  const double z = depth_of_disparity(sensor, read_as) - (sensor.law.quantized ? kCutOff : 0.0);
   const Calibration calibration = sensor.calibration();
   const Eigen::Vector2d across = z / calibration.focal_px * (pixel - calibration.principal_px);
   return SensedPoint{Eigen::Vector3d(across.x() - aside_m_, across.y(), z).cast<float>(),

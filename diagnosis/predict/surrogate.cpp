@@ -28,8 +28,8 @@ Pose believed_pose(const LaboratoryRig& rig) {
 void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, double phase, FrameEstimates& estimates) {
   estimates.step_comb.setZero();
   estimates.coarse_combs.fill(0.0);
-  estimates.millimetre_comb = sensor.quantized ? 1.0 : 0.0;
-  if (!sensor.quantized) return;
+  estimates.millimetre_comb = sensor.law.quantized ? 1.0 : 0.0;
+  if (!sensor.law.quantized) return;
   const Calibration believed = sensor.calibration();
   const auto strength = [&](int codes) {
     double sum = 0.0, weight = 0.0;
@@ -43,7 +43,7 @@ void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, dou
   };
   estimates.step_comb = strength(1) * direction_of(2.0 * std::numbers::pi * phase);
   for (std::size_t i = 0; i < kCoarseCombs.size(); ++i)
-    if (sensor.codes_per_step % kCoarseCombs[i] == 0) estimates.coarse_combs[i] = strength(kCoarseCombs[i]);
+    if (sensor.law.codes_per_step % kCoarseCombs[i] == 0) estimates.coarse_combs[i] = strength(kCoarseCombs[i]);
 }
 
 /// In which direction light would have left the projector, if the raised bottom lay, by this share, where the paper's
@@ -230,7 +230,7 @@ std::optional<FrameEstimates> estimates_of(std::span<const SensedPoint> points, 
                                            const std::vector<SensedPoint>& desk, const LaboratoryRig& rig,
                                            const FrameView& looked_at) {
   auto estimates = estimate_frame(points, rig, looked_at);
-  if (estimates) set_combs(desk, view.reader.rig().sensor, view.step_phase - SensorModel().step_phase, *estimates);
+  if (estimates) set_combs(desk, view.reader.rig().sensor, view.step_phase - DepthLaw().step_phase, *estimates);
   return estimates;
 }
 
@@ -277,7 +277,7 @@ std::array<double, count> parts_near_shadows(const SurrogateFrame& frame, const 
 
 SurrogateView surrogate_view(const Setup& setup) {
   return {DeviceReader(setup), setup.scene.desk ? setup.scene.desk->albedo : 0.0, setup.processing.bisector,
-          setup.rig.sensor.step_phase, cup_optics(setup)};
+          setup.rig.sensor.law.step_phase, cup_optics(setup)};
 }
 
 double log_contrast_of_dots(const Setup& setup) {

@@ -129,9 +129,9 @@ std::vector<Effect> sensor_effects() {
        .discriminated_by = "the comb of the fractional disparities of any cloud",
        .apply =
            [](Setup& setup, const EffectSetting& setting) {
-             if (setting.values[0] >= 0.5) setup.rig.sensor.quantized = true;
-             setup.rig.sensor.codes_per_step =
-                 std::max(setup.rig.sensor.codes_per_step, static_cast<int>(std::lround(setting.values[1] / kCodePx)));
+             if (setting.values[0] >= 0.5) setup.rig.sensor.law.quantized = true;
+             setup.rig.sensor.law.codes_per_step = std::max(setup.rig.sensor.law.codes_per_step,
+                                                            static_cast<int>(std::lround(setting.values[1] / kCodePx)));
            }},
       {.id = "thermal_drift",
        .family = "sensor",
@@ -174,7 +174,8 @@ std::vector<Effect> sensor_effects() {
        .citation = "two tables are in use, half a step apart: libfreenect and OpenNI, and the vendor's SDK",
        .confounded = {"disparity_offset"},
        .discriminated_by = "the comb of the fractional disparities of any cloud",
-       .apply = [](Setup& setup, const EffectSetting& setting) { setup.rig.sensor.step_phase += setting.values[0]; }},
+       .apply = [](Setup& setup,
+                   const EffectSetting& setting) { setup.rig.sensor.law.step_phase += setting.values[0]; }},
       {.id = "depth_truncation",
        .family = "sensor",
        .sentence = "Depths are cut to whole millimetres, so all read short by half of one.",
@@ -184,7 +185,7 @@ std::vector<Effect> sensor_effects() {
        .discriminated_by = "the comb of the depths themselves",
        .apply =
            [](Setup& setup, const EffectSetting& setting) {
-             if (setting.values[0] >= 0.5) setup.rig.sensor.cut = kMetresPerMm;
+             if (setting.values[0] >= 0.5) setup.rig.sensor.law.cut = kMetresPerMm;
            }},
       {.id = "noise_correlation",
        .family = "sensor",

@@ -184,7 +184,7 @@ void GltfModel::add_camera(const std::string& name, const Rig& rig) {
   camera.perspective.yfov = 2.0 * std::atan(0.5 * rig.sensor.height / rig.sensor.focal_px);
   camera.perspective.aspectRatio = static_cast<double>(rig.sensor.width) / rig.sensor.height;
   camera.perspective.znear = 0.01;
-  camera.perspective.zfar = rig.sensor.far;
+  camera.perspective.zfar = rig.sensor.law.far;
   impl_->model.cameras.push_back(camera);
   // glTF's camera looks along −z with +y up, in a world with +y up.
   Eigen::Matrix3d up, turn;

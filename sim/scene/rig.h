@@ -71,6 +71,17 @@ struct Calibration {
   bool operator==(const Calibration&) const = default;
 };
 
+/// What becomes of a disparity on its way to a depth.
+struct DepthLaw {
+  double near = 0.45, far = 10.0;  ///< depths outside are invalid; nearer ones the search does not reach
+  bool quantized = true;           ///< depth on the device's law; false: float depth
+  double step_phase = 0.5;         ///< where the law's depths lie between whole codes [steps]; the vendor's own SDK: 0
+  int codes_per_step = 1;          ///< the law has a code for every 1/8 px; a matcher may resolve no more than some
+  double cut = 1e-3;               ///< [m] the law's depths are cut to whole multiples of it; 0: they are not
+
+  bool operator==(const DepthLaw&) const = default;
+};
+
 struct SensorModel {
   std::string name = "xtion_pro_live";  ///< of the model; empty for a full description
   double baseline = 0.075;
@@ -80,12 +91,8 @@ struct SensorModel {
   double focal_px = 1200.0 / (2 * 1.052);  ///< zero plane distance over twice the zero plane pixel size
   Eigen::Vector2d principal_px{320.0, 240.0};
   double reference = 1.2;          ///< distance of the memorised reference plane
-  double near = 0.45, far = 10.0;  ///< depths outside are invalid; nearer ones the search does not reach
   double radiant_dn_mm2 = 5.90e8;  ///< a dot's centre on albedo 1 at r mm: this · cos θ / r² [DN] (Landau 2016)
-  bool quantized = true;           ///< depth on the device's law; false: float depth
-  double step_phase = 0.5;         ///< where the law's depths lie between whole codes [steps]; the vendor's own SDK: 0
-  int codes_per_step = 1;          ///< the law has a code for every 1/8 px; a matcher may resolve no more than some
-  double cut = 1e-3;               ///< [m] the law's depths are cut to whole multiples of it; 0: they are not
+  DepthLaw law;
   PatternModel pattern;
   OpticsModel optics;
   NoiseModel noise;

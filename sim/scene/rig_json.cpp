@@ -162,6 +162,7 @@ std::string_view noise_schema() {
 
 std::span<const Field<SensorModel>> sensor_fields() {
   using Sensor = SensorModel;
+  constexpr auto in_law = [](const Field<DepthLaw>& field) { return field_of_part(&Sensor::law, field); };
   static const Field<Sensor> fields[] = {
       {"baseline_mm", Length{&Sensor::baseline}, kLengthMm, "from the camera to the projector"},
       {"wavelength_nm", &Sensor::wavelength_nm, {100.0, 5000.0}, "of the projector's light"},
@@ -192,25 +193,26 @@ std::span<const Field<SensorModel>> sensor_fields() {
       {"principal_px", &Sensor::principal_px, kPrincipalPx,
        "principal point of the depth image; its middle where only the size is given"},
       {"reference_mm", Length{&Sensor::reference}, kLengthMm, "distance of the reference plane"},
-      {"near_mm", Length{&Sensor::near}, kLengthMm, "nearer depths are invalid; a search of 63 px reaches to 440 mm"},
-      {"far_mm", Length{&Sensor::far}, kLengthMm, "farther depths are invalid"},
+      in_law({"near_mm", Length{&DepthLaw::near}, kLengthMm,
+              "nearer depths are invalid; a search of 63 px reaches to 440 mm"}),
+      in_law({"far_mm", Length{&DepthLaw::far}, kLengthMm, "farther depths are invalid"}),
       {"radiant_dn_mm2", &Sensor::radiant_dn_mm2, kPositive,
        "brightness: a dot's centre on albedo 1 at r mm has this times cos θ / r²"},
-      {"quantization",
-       Choice<Sensor>{{"device", "off"},
-                      [](const Sensor& sensor) { return sensor.quantized ? std::size_t{0} : std::size_t{1}; },
-                      [](Sensor& sensor, std::size_t choice) { sensor.quantized = choice == 0; }},
-       {},
-       "device: depths are rounded to the device's steps of 1/8 px of disparity; off: they are not"},
-      {"depth_step_phase",
-       &Sensor::step_phase,
-       {-2.0, 2.0},
-       "offset of the depth steps, as a share of a step; 0.5: halfway between two codes"},
-      {"codes_per_step", &Sensor::codes_per_step, {1.0, 64.0}, "number of codes of 1/8 px in one depth step"},
-      {"depth_cut_mm",
-       Length{&Sensor::cut},
-       {0.0, 100.0},
-       "depths are truncated to multiples of this; 0: they are not"},
+      in_law({"quantization",
+              Choice<DepthLaw>{{"device", "off"},
+                               [](const DepthLaw& law) { return law.quantized ? std::size_t{0} : std::size_t{1}; },
+                               [](DepthLaw& law, std::size_t choice) { law.quantized = choice == 0; }},
+              {},
+              "device: depths are rounded to the device's steps of 1/8 px of disparity; off: they are not"}),
+      in_law({"depth_step_phase",
+              &DepthLaw::step_phase,
+              {-2.0, 2.0},
+              "offset of the depth steps, as a share of a step; 0.5: halfway between two codes"}),
+      in_law({"codes_per_step", &DepthLaw::codes_per_step, {1.0, 64.0}, "number of codes of 1/8 px in one depth step"}),
+      in_law({"depth_cut_mm",
+              Length{&DepthLaw::cut},
+              {0.0, 100.0},
+              "depths are truncated to multiples of this; 0: they are not"}),
       {"optics",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_fields(json, optics_fields(), sensor.optics); },
                     [](const Sensor& sensor) { return json_from_fields(optics_fields(), sensor.optics); },
@@ -269,7 +271,7 @@ void read_model(const JsonReader& json, SensorModel& sensor, std::span<const std
                        bytes_of({static_cast<std::uint64_t>(sensor.ir_width),
                                  static_cast<std::uint64_t>(sensor.ir_height), kBytesPerPixel}),
                        "pixels");
-  if (sensor.far <= sensor.near) json.fail_at("far_mm", "must be above near_mm");
+  if (sensor.law.far <= sensor.law.near) json.fail_at("far_mm", "must be above near_mm");
   if (const UnitMap* map = sensor.unit.learned.map.get();
       map && (sensor.width != map->camera.width() || sensor.height != map->camera.height()))
     json.fail_at("unit", fmt::format("was learned of a depth image of {} × {} pixels, and depth_size_px is {} × {}",

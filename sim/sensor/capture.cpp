@@ -158,7 +158,7 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
         disparity_with_noise(sensor, shot.disparity_px, intensity, still_chance_, block_chance(sensor, seed_, frame));
   add_residue(sensor, residue_, shot.disparity_px);
   add_unit_error(sensor, frame, shot.disparity_px);
-  shot.depth = depth_image(sensor, shot.disparity_px, sensor.cut);
+  shot.depth = depth_image(sensor, shot.disparity_px, sensor.law.cut);
   shot.cloud = cloud_of_depth(sensor, shot.depth, intensity);
   if (setup_.processing.colour_view) move_to_colour_view(sensor, shot);
   return shot;
@@ -174,7 +174,7 @@ Frame Camera::shoot_photometric(std::uint64_t frame) {
   shot.ir = expose(light, sensor.noise, seed_, frame);
   shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
   add_unit_error(sensor, frame, shot.disparity_px);
-  shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px, sensor.cut); });
+  shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px, sensor.law.cut); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));
   if (setup_.processing.colour_view) move_to_colour_view(sensor, shot);
   return shot;

@@ -125,8 +125,8 @@ void write_device_outputs(const std::filesystem::path& folder, const SensorModel
             depth_in_units(depth_image(sensor, frame.disparity_px, cut_of(sensor, kTenth)), kTenth));
   write_png(folder / "shift.png", shift_image(sensor, frame.disparity_px));
   write_png(folder / "depth_registered.png",
-            depth_in_units(registered_to_colour(depth_image(sensor, frame.disparity_px, sensor.cut), sensor.focal_px,
-                                                sensor.focal_px),
+            depth_in_units(registered_to_colour(depth_image(sensor, frame.disparity_px, sensor.law.cut),
+                                                sensor.focal_px, sensor.focal_px),
                            kMetresPerMm));
 }
 

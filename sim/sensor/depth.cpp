@@ -14,8 +14,8 @@ class StepLaw {
  public:
   explicit StepLaw(const SensorModel& sensor)
       : inverse_reference_(1.0 / mm_from_metres(sensor.reference)),
-        phase_(sensor.step_phase),
-        together_(sensor.codes_per_step) {
+        phase_(sensor.law.step_phase),
+        together_(sensor.law.codes_per_step) {
     const Calibration calibration = sensor.calibration();
     steps_per_inverse_mm_ = 8.0 * calibration.focal_px * mm_from_metres(calibration.baseline);
   }
@@ -53,7 +53,7 @@ std::optional<double> device_depth(const SensorModel& sensor, int code, double u
   return depth_of(StepLaw(sensor), code, mm_from_metres(unit));
 }
 
-double cut_of(const SensorModel& sensor, double unit) { return sensor.cut / kMetresPerMm * unit; }
+double cut_of(const SensorModel& sensor, double unit) { return sensor.law.cut / kMetresPerMm * unit; }
 
 int device_code(const SensorModel& sensor, double depth) {
   return StepLaw(sensor).code_of(1.0 / mm_from_metres(depth));
@@ -76,18 +76,18 @@ Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparit
   std::optional<double> of_last_code = depth_of(law, last_code, unit_mm);
   for (int y = 0; y < depth.height(); ++y) {
     const float* disparity = disparity_px.row(y);
-    if (sensor.quantized) codes_of(law, mm_from_metres(focal_baseline), disparity, codes.data(), depth.width());
+    if (sensor.law.quantized) codes_of(law, mm_from_metres(focal_baseline), disparity, codes.data(), depth.width());
     for (int x = 0; x < depth.width(); ++x) {
       if (!(disparity[x] > 0.0f)) continue;
       std::optional<double> z;
-      if (sensor.quantized) {
+      if (sensor.law.quantized) {
         const int code = codes[static_cast<std::size_t>(x)];
         if (last_code != code) last_code = code, of_last_code = depth_of(law, code, unit_mm);
         z = of_last_code;
       } else {
         z = focal_baseline / disparity[x];
       }
-      if (z && *z >= sensor.near && *z <= sensor.far) depth(x, y) = static_cast<float>(*z);
+      if (z && *z >= sensor.law.near && *z <= sensor.law.far) depth(x, y) = static_cast<float>(*z);
     }
   }
   return depth;

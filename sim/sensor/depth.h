@@ -11,7 +11,7 @@
 
 namespace fathom {
 
-/// The device's depth law: z = floor(1 / (1/z_ref − (n + ½) p / 36000)) in mm (½: SensorModel::step_phase) with p =
+/// The device's depth law: z = floor(1 / (1/z_ref − (n + ½) p / 36000)) in mm (½: DepthLaw::step_phase) with p =
 /// 0.1052 for the Xtion PRO LIVE; in terms of the rig, p / 36000 mm⁻¹ = 1 / (8 f b), a step of 1/8 px of disparity.
 /// Verified on recorded depth without a fitted parameter (OpenNI's shift-to-depth table). `code` n is any integer,
 /// growing with distance. [m], nothing where the law has no positive depth. `unit` [m] is what depths are cut to, 0:

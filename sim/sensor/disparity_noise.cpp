@@ -48,7 +48,7 @@ class BlockLaw {
         sensor.pattern.dots_per_tile / (sensor.pattern.tile_columns * sensor.pattern.tile_rows * step_px_ * step_px_);
     const double light = 2.0 * std::numbers::pi * sharp_;  // of one dot, over its centre's brightness in focus [px²]
     contrast2_ = light * light * per_px2 / (4.0 * std::numbers::pi);
-    speckle_ = std::pow(sensor.noise.disparity.facing_px, 2.0) / variance(1.0 / sensor.far);
+    speckle_ = std::pow(sensor.noise.disparity.facing_px, 2.0) / variance(1.0 / sensor.law.far);
     const double pixels = std::pow(sensor.ir_scale(), 2.0) * sensor.matcher.window_columns * sensor.matcher.window_rows;
     if (sensor.noise.electrons_per_dn > 0.0)
       shot_ = 2.0 / (pixels * contrast2_) * light * per_px2 * sensor.noise.gain / sensor.noise.electrons_per_dn;

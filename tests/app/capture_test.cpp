@@ -143,10 +143,10 @@ TEST_F(CaptureCommand, IsReadBackWithItsEffectsAndAModels) {
   const SensorModel& sensor = recorded.sensor();
   EXPECT_EQ(recorded.setup, with_effects_of_model(read_setup(scene_), folder_ / "model.json"));
   EXPECT_EQ(sensor.believed->baseline, 0.075);
-  EXPECT_EQ(sensor.step_phase, 1.0);
+  EXPECT_EQ(sensor.law.step_phase, 1.0);
   const Image<float> disparity = read_frame(recorded, 0, false).disparity_px,
                      depth = read_exr_channel(out / "depth.exr", "Z");
-  EXPECT_TRUE(std::ranges::equal(depth_image(sensor, disparity, sensor.cut).pixels(), depth.pixels()));
+  EXPECT_TRUE(std::ranges::equal(depth_image(sensor, disparity, sensor.law.cut).pixels(), depth.pixels()));
   EXPECT_TRUE(std::ranges::equal(depth_in_units(depth_image(sensor, disparity, cut_of(sensor, 1e-4)), 1e-4).pixels(),
                                  read_png_grey(out / "depth_100um.png").pixels()));
 }

@@ -9,6 +9,12 @@
 namespace fathom {
 namespace {
 
+struct Arm {
+  double length = 0.3;
+
+  bool operator==(const Arm&) const = default;
+};
+
 struct Lamp {
   double power_w = 5.0;
   double width = 0.040;
@@ -18,6 +24,7 @@ struct Lamp {
   Eigen::Vector2d place{0.0, 0.0};
   bool is_on = false;
   std::string colour = "white";
+  Arm arm;
 
   bool operator==(const Lamp&) const = default;
 };
@@ -41,7 +48,8 @@ std::span<const Field<Lamp>> lamp_fields() {
                   [](const Lamp& lamp) { return lamp.colour == "white" ? Json() : Json(lamp.colour); },
                   R"({"type": "string"})", "a text"},
        {},
-       "of the light"}};
+       "of the light"},
+      field_of_part(&Lamp::arm, {"arm_mm", Length{&Arm::length}, {0.0, 2000.0}, "of the arm"})};
   return fields;
 }
 
@@ -60,7 +68,8 @@ TEST(Fields, WhatIsWrittenReadsBackToTheLastBit) {
             .serial = 9,
             .place = {1.5, -2.0},
             .is_on = true,
-            .colour = "red"};
+            .colour = "red",
+            .arm = {0.7}};
   const Lamp again = lamp_from(json_from_fields(lamp_fields(), lamp).dump());
   EXPECT_NEAR(again.turn, lamp.turn, 1e-15);
   lamp.turn = again.turn;
@@ -80,12 +89,13 @@ TEST(Fields, ErrorsSayFilePlaceAndWhatIsAllowed) {
   refuses(R"({"power_w": 101})", {"/power_w: must be a number from 0 to 100, got 101"});
   refuses(R"({"power_w": 5, "bulbs": 2.5})", {"/bulbs: must be a whole number from 1 to 8, got 2.5"});
   refuses(R"({"power_w": 5, "switch": "dim"})", {"/switch:", "dim", "off, on"});
+  refuses(R"({"power_w": 5, "arm_mm": -1})", {"/arm_mm: must be a number from 0 to 2000, got -1"});
   refuses(R"({"power_w": 5, "bulb": 2})", {"/bulb:", "bulbs"});
 }
 
 TEST(Fields, RowsSayWhatIsAllowedWithoutTheKeyAndAsASchema) {
   const std::vector<KeyRow> rows = key_rows(lamp_fields(), Lamp{});
-  ASSERT_EQ(rows.size(), 8u);
+  ASSERT_EQ(rows.size(), 9u);
   EXPECT_TRUE(rows[0].is_required);
   EXPECT_TRUE(rows[0].standard.is_null());
   EXPECT_EQ(rows[0].schema.dump(), R"({"type":"number","minimum":0,"maximum":100,"description":"of all bulbs"})");
@@ -94,6 +104,9 @@ TEST(Fields, RowsSayWhatIsAllowedWithoutTheKeyAndAsASchema) {
   EXPECT_EQ(rows[3].allowed, "1 to 8");
   EXPECT_EQ(rows[6].allowed, "`off`, `on`");
   EXPECT_EQ(rows[6].schema.at("enum"), Json({"off", "on"}));
+  EXPECT_EQ(rows[8].key, "arm_mm");
+  EXPECT_EQ(rows[8].allowed, "0 to 2000");
+  EXPECT_EQ(rows[8].standard, 300.0);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Setup stood(const char* liquid, const char* quantization) {
         {"quantization", quantization}}},
       {"cups", {{{"shape", "paper_cup"}, {"position_mm", {0, 300}}, {"liquid", liquid}, {"fill_mm", 30}}}}};
   Setup setup = setup_from_json(json, "scene.json");
-  setup.rig.sensor.cut = 0.0;  // steps of depth are not cut to millimetres before an effect does it
+  setup.rig.sensor.law.cut = 0.0;  // steps of depth are not cut to millimetres before an effect does it
   setup.circumstances.time_s = 300.0;
   setup.circumstances.stood_s = 200.0;
   const auto medium_of = [&](const char* name) {

@@ -63,7 +63,8 @@ TEST_F(Device, EveryDepthLiesOnTheLaw) {
   for (const auto& [format, unit] :
        {std::pair(openni::PIXEL_FORMAT_DEPTH_1_MM, 1e-3), std::pair(openni::PIXEL_FORMAT_DEPTH_100_UM, 1e-4)}) {
     std::set<long> law{0};
-    for (int code = device_code(sensor(), sensor().near) - 1; code <= device_code(sensor(), sensor().far); ++code)
+    for (int code = device_code(sensor(), sensor().law.near) - 1; code <= device_code(sensor(), sensor().law.far);
+         ++code)
       law.insert(std::lround(*device_depth(sensor(), code, unit) / unit));
     client.set_mode(format, sensor().width);
     ASSERT_EQ(client.stream.start(), STATUS_OK);

@@ -90,7 +90,7 @@ TEST(Rig, ADescriptionReadsBackAsTheSameRig) {
     EXPECT_EQ(again.sensor.pattern.seed, 7u);
     EXPECT_EQ(again.sensor.matcher.window_rows, 7);
     EXPECT_EQ(again.sensor.noise.read_dn, 3.0);
-    EXPECT_FALSE(again.sensor.quantized);
+    EXPECT_FALSE(again.sensor.law.quantized);
     EXPECT_EQ(again.sensor.focal_px, rig.sensor.focal_px);
   }
 }

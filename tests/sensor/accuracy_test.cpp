@@ -55,7 +55,7 @@ BottomHeights measure_bottom(double fill_mm, double distance_mm) {
   const Frame frame = camera.shoot(0);
   const Image<TruePixel>& truth = camera.truth();
   SensorModel& sensor = setup.rig.sensor;
-  sensor.quantized = true;
+  sensor.law.quantized = true;
   const Image<CloudPoint> device = cloud_of_depth(sensor, depth_image(sensor, frame.disparity_px), frame.depth);
   const Plane desk = fit_desk(frame.cloud, truth), device_desk = fit_desk(device, truth);
 

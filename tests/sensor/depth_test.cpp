@@ -100,7 +100,7 @@ TEST(DepthLaw, BeyondInfinityThereIsNoDepth) { EXPECT_FALSE(device_depth(sensor_
 
 TEST(DepthImage, IsFloatWithoutQuantisationAndEmptyOutsideTheRange) {
   SensorModel sensor = sensor_named("xtion_pro_live");
-  sensor.quantized = false;
+  sensor.law.quantized = false;
   Image<float> disparity(4, 1);
   disparity(0, 0) = static_cast<float>(disparity_of_depth(sensor, 0.7123));
   disparity(1, 0) = static_cast<float>(disparity_of_depth(sensor, 0.39));

@@ -30,7 +30,7 @@ TEST(Shift, IsThatOfOpenNisTable) {
     for (int code = -1200; code < 250; ++code) {
       const double x = 8.0 * sensor.focal_px * sensor.baseline;  // steps of 1/8 px
       const double inverse = 1.0 / sensor.reference - (code + 0.5) / x;
-      if (inverse <= 0.0 || 1.0 / inverse < sensor.near || 1.0 / inverse > 9.9) continue;
+      if (inverse <= 0.0 || 1.0 / inverse < sensor.law.near || 1.0 / inverse > 9.9) continue;
       const Image<float> disparity(1, 1, static_cast<float>(sensor.focal_px * sensor.baseline * inverse));
       const int shift = shift_image(sensor, disparity)(0, 0);
       ASSERT_LT(shift, kNoShift);

@@ -105,7 +105,7 @@ TEST(Match, ReachesAsNearAsTheSensorGivesDepths) {
   for (const char* model : {"xtion_pro_live", "xtion_pro_live_device", "kinect_v1", "kinect_v1_device"}) {
     const Json json = {{"model", model}, {"height_mm", 650}, {"pitch_deg", 90}};
     const SensorModel sensor = rig_from_json(JsonReader(json, "test")).sensor;
-    const double nearest = disparity_of_depth(sensor, sensor.near) - disparity_of_depth(sensor, sensor.reference);
+    const double nearest = disparity_of_depth(sensor, sensor.law.near) - disparity_of_depth(sensor, sensor.reference);
     EXPECT_LT(nearest, sensor.matcher.disparity_max_px - 1) << model;  // a peak needs a neighbour on both sides
     EXPECT_GT(nearest, sensor.matcher.disparity_max_px - 5) << model;
   }

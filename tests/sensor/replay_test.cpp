@@ -79,7 +79,7 @@ TEST(Replay, GivesTheSameBytesOfDepth) {
       EXPECT_TRUE(std::ranges::equal(first.depth.pixels(), second.depth.pixels()));
       if (again.processing.colour_view) continue;
       // Who has the disparities alone makes the same depths of them.
-      const Image<float> replayed = depth_image(again.rig.sensor, first.disparity_px, again.rig.sensor.cut);
+      const Image<float> replayed = depth_image(again.rig.sensor, first.disparity_px, again.rig.sensor.law.cut);
       EXPECT_TRUE(std::ranges::equal(replayed.pixels(), first.depth.pixels()));
     }
 }

@@ -96,8 +96,8 @@ std::vector<std::string> broken_capture_laws(const Rig& rig, const Camera& camer
   laws.of_pixels("disparity is finite and not negative", frame.disparity_px, a_power);
   laws.of_pixels("depth is in range or invalid", frame.depth, [&](float depth) {
     constexpr float kRounding = 1e-6f;  // of depths to float
-    return depth == 0.0f || (depth >= static_cast<float>(sensor.near) * (1.0f - kRounding) &&
-                             depth <= static_cast<float>(sensor.far) * (1.0f + kRounding));
+    return depth == 0.0f || (depth >= static_cast<float>(sensor.law.near) * (1.0f - kRounding) &&
+                             depth <= static_cast<float>(sensor.law.far) * (1.0f + kRounding));
   });
   Image<int> agrees(sensor.width, sensor.height);
   for (std::size_t i = 0; i < agrees.size(); ++i) {

@@ -38,7 +38,7 @@ TEST(OwnCup, IsSeenWhereItStands) {
     for (const double distance_mm : {200.0, 300.0}) {
       const LaboratoryRig rig = laboratory_with(cup, "cup");
       NominalModel model = nominal_model(rig, "rig.json");
-      model.rig.sensor.quantized = false;
+      model.rig.sensor.law.quantized = false;
       const Factors shot = paper_shot("empty", 0.0, distance_mm, 60.0);
       const FrameView written{Eigen::Vector2d(0.060, 1e-3 * distance_mm)};
       const SurrogateFrame frame = surrogate_frame(setup_of(model, shot), rig, sample_pixels(rig, written));

@@ -30,7 +30,7 @@ inline Factors paper_shot(std::string liquid, double fill_mm, double distance_mm
 /// One shot in it; depths are not quantised, because without noise steps are no steps in the mean.
 inline Setup paper_setup(const Factors& factors, Json effects) {
   NominalModel model = nominal_model(paper_laboratory(), "rig.json");
-  model.rig.sensor.quantized = false;
+  model.rig.sensor.law.quantized = false;
   Setup setup = setup_of(model, factors);
   setup.effects = std::move(effects);
   return with_effects(std::move(setup));

@@ -141,7 +141,7 @@ TEST(Surrogate, KnowsOnWhichCodesDepthsStand) {
   const SampledPixels pixels = sample_pixels(rig, view_of(factors));
   const auto quantized = [&](const Json& effects) {
     fathom::Setup setup = paper_setup(factors, effects);
-    setup.rig.sensor.quantized = true;
+    setup.rig.sensor.law.quantized = true;
     return setup;
   };
   const SurrogateFrame nominal = surrogate_frame(quantized(Json::array()), rig, pixels);

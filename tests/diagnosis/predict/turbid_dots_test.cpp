@@ -61,7 +61,7 @@ fathom::Setup wide_vessel_of_milk(double transport_length_mm) {
   LaboratoryRig rig = paper_laboratory();
   rig.liquids["milk"] = {{"index", 1.336}, {"scattering_per_mm", 1000.0}, {"absorption_per_mm", 0.0032}};
   NominalModel model = nominal_model(rig, "rig.json");
-  model.rig.sensor.quantized = false;
+  model.rig.sensor.law.quantized = false;
   const Factors factors = paper_shot("milk", 30.0, 300.0);
   Setup setup = setup_of(model, factors);
   CupShape& shape = std::get<CupShape>(setup.scene.cups[0].shape);
