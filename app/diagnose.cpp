@@ -45,7 +45,7 @@ Json model_json(const Json& had, const Diagnosis& diagnosis, const Json& provena
     model["effects"] = had["effects"];
     model["provenance"]["earlier"] = had.value("provenance", Json::object());
   }
-  for (const Mistake& mistake : diagnosis.mistakes)
+  for (const Mistake& mistake : diagnosis.data.mistakes)
     model["provenance"]["mistakes"].push_back({{"name", mistake.id}, {"sentence", mistake.sentence}});
   const bool is_sure = diagnosis.verdict == Verdict::named || diagnosis.verdict == Verdict::named_and_unknown;
   if (!is_sure) return model;
@@ -71,7 +71,7 @@ std::string rows_text(const Diagnosis& diagnosis, const std::vector<std::string>
                       bool as_json) {
   if (as_json) return json_text(json_from(diagnosis));
   std::string text = on_one_line(answer(diagnosis)) + "\n";
-  for (const auto& sentences : {notes, diagnosis.warnings})
+  for (const auto& sentences : {notes, diagnosis.data.warnings})
     for (const std::string& sentence : sentences) text += "note: " + on_one_line(sentence) + "\n";
   return text + fmt::format("report: {}\n", on_one_line((output / "report.html").string()));
 }

@@ -155,7 +155,7 @@ class Bench {
           if (value.effect == effect.name)
             covered.count(effect.parameters[0].low95 <= value.values[0] &&
                           value.values[0] <= effect.parameters[0].high95);
-      const GapSize& gap = c.diagnosis.held_out;
+      const GapSize& gap = c.diagnosis.gap.held_out;
       const double floor2 = gap.noise_floor_mm * gap.noise_floor_mm;
       const double open2 = gap.before_rms_mm * gap.before_rms_mm - floor2;
       if (open2 > 0.5 * floor2) closed.push_back(1.0 - (gap.after_rms_mm * gap.after_rms_mm - floor2) / open2);

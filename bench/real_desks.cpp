@@ -199,8 +199,8 @@ std::optional<DeskDiagnosis> diagnose_desks(const std::string& without) {
   DeskDiagnosis result;
   result.diagnosis = decide(evidence, [predict](const std::vector<EffectValue>& e) { return (*predict)(e); });
   if (result.diagnosis.verdict == Verdict::insufficient) return result;
-  result.before = rms_in_errors(result.diagnosis.before, result.diagnosis.error);
-  result.after = rms_in_errors(result.diagnosis.after, result.diagnosis.error);
+  result.before = rms_in_errors(result.diagnosis.residuals.before, result.diagnosis.residuals.error);
+  result.after = rms_in_errors(result.diagnosis.residuals.after, result.diagnosis.residuals.error);
   return result;
 }
 

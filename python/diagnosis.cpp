@@ -24,7 +24,7 @@ auto column_of(const std::vector<Observation>& observations, Value value) {
 /// The columns of residuals.csv.
 py::dict residuals_of(const WholeDiagnosis& whole) {
   const std::vector<Observation>& all = whole.observations;
-  std::vector<double> before = whole.diagnosis.before, after = whole.diagnosis.after, sigma = whole.diagnosis.error;
+  Residuals residuals = whole.diagnosis.residuals;
   py::dict columns;
   columns["observable"] = column_of(all, [](const Observation& o) { return o.observable; });
   columns["region"] = column_of(all, [](const Observation& o) { return o.factors.region; });
@@ -36,9 +36,9 @@ py::dict residuals_of(const WholeDiagnosis& whole) {
   columns["distance_mm"] = array_of(column_of(all, [](const Observation& o) { return o.factors.distance_mm; }));
   columns["lateral_mm"] = array_of(column_of(all, [](const Observation& o) { return o.factors.lateral_mm; }));
   columns["measured"] = array_of(column_of(all, [](const Observation& o) { return o.value; }));
-  columns["before"] = array_of(std::move(before));
-  columns["after"] = array_of(std::move(after));
-  columns["sigma"] = array_of(std::move(sigma));
+  columns["before"] = array_of(std::move(residuals.before));
+  columns["after"] = array_of(std::move(residuals.after));
+  columns["sigma"] = array_of(std::move(residuals.error));
   columns["pixels"] = array_of(column_of(all, [](const Observation& o) { return o.pixels; }));
   return columns;
 }

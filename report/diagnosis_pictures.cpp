@@ -70,7 +70,8 @@ std::map<std::string, Mean> means_by_region(const DiagnosedCampaign& campaign, s
   std::map<std::string, Mean> means;
   for (std::size_t i = 0; i < campaign.observations.size(); ++i)
     if (campaign.observations[i].observable == observable)
-      means[campaign.observations[i].factors.region].add(campaign.diagnosis.before[i], campaign.diagnosis.after[i]);
+      means[campaign.observations[i].factors.region].add(campaign.diagnosis.residuals.before[i],
+                                                         campaign.diagnosis.residuals.after[i]);
   return means;
 }
 
@@ -85,8 +86,9 @@ void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaig
     table.add({o.observable, f.region, fmt::format("{}", f.session), fmt::format("{}", f.pour),
                fmt::format("{}", f.placement), f.liquid, fmt::format("{:g}", f.fill_mm),
                fmt::format("{:g}", f.distance_mm), fmt::format("{:g}", f.lateral_mm), fmt::format("{:.5g}", o.value),
-               fmt::format("{:.5g}", campaign.diagnosis.before[i]), fmt::format("{:.5g}", campaign.diagnosis.after[i]),
-               fmt::format("{:.5g}", campaign.diagnosis.error[i]), fmt::format("{:.5g}", o.pixels)});
+               fmt::format("{:.5g}", campaign.diagnosis.residuals.before[i]),
+               fmt::format("{:.5g}", campaign.diagnosis.residuals.after[i]),
+               fmt::format("{:.5g}", campaign.diagnosis.residuals.error[i]), fmt::format("{:.5g}", o.pixels)});
   }
   write_table(folder / "residuals.csv", table);
 }
@@ -96,9 +98,9 @@ bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& 
   if (rows.empty()) return false;
   Table table({"number", "before_mm", "after_mm", "sigma_mm"});
   for (std::size_t i = 0; i < rows.size(); ++i)
-    table.add({fmt::format("{}", i), fmt::format("{:.4f}", campaign.diagnosis.before[rows[i]]),
-               fmt::format("{:.4f}", campaign.diagnosis.after[rows[i]]),
-               fmt::format("{:.4f}", campaign.diagnosis.error[rows[i]])});
+    table.add({fmt::format("{}", i), fmt::format("{:.4f}", campaign.diagnosis.residuals.before[rows[i]]),
+               fmt::format("{:.4f}", campaign.diagnosis.residuals.after[rows[i]]),
+               fmt::format("{:.4f}", campaign.diagnosis.residuals.error[rows[i]])});
   write_table(folder / "heights.csv", table);
   const LiquidMarks marks = liquid_marks(campaign.observations, rows);
   draw(folder, "heights",
@@ -189,7 +191,7 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
     const auto panel = static_cast<double>(known - liquids.begin());
     if (known == liquids.end()) liquids.push_back(f.liquid);
     for (int after = 0; after <= static_cast<int>(has_after); ++after) {
-      const double shown = after ? campaign.diagnosis.after[i] : campaign.diagnosis.before[i];
+      const double shown = after ? campaign.diagnosis.residuals.after[i] : campaign.diagnosis.residuals.before[i];
       most = std::max(most, std::abs(shown));
       cells.add({fmt::format("{:.2f}", kPanel * panel + f.within_mm->x() / width_mm),
                  fmt::format("{:.2f}", (after ? 0.0 : before_at) + f.within_mm->y() / width_mm),

@@ -29,9 +29,9 @@ std::string list(const std::vector<std::string>& items) {
   return html + "</ul>\n";
 }
 
-std::string mistakes_html(const Diagnosis& diagnosis) {
+std::string mistakes_html(const std::vector<Mistake>& mistakes) {
   Rows rows;
-  for (const Mistake& mistake : diagnosis.mistakes) rows.push_back({effect_words(mistake.id), mistake.sentence});
+  for (const Mistake& mistake : mistakes) rows.push_back({effect_words(mistake.id), mistake.sentence});
   return html_table({"mistake", "what was found, and put right for all that follows"}, rows);
 }
 
@@ -45,11 +45,11 @@ std::string folded_table(const std::vector<std::string>& head, const Rows& rows)
   return html;
 }
 
-std::string where_html(const Diagnosis& diagnosis) {
-  if (diagnosis.where.empty()) return paragraph("No part of the measurements departs from the model for sure.");
+std::string where_html(const std::vector<GapLocation>& locations) {
+  if (locations.empty()) return paragraph("No part of the measurements departs from the model for sure.");
   Rows rows;
   double left = 1.0;
-  for (const GapLocation& where : diagnosis.where) {
+  for (const GapLocation& where : locations) {
     rows.push_back({stratum_words(where),
                     fmt::format("{:+.2g} ± {:.1g}{}", where.mean, where.sigma, observable_words(where.observable).unit),
                     fmt::format("{:.0f} %", 100 * where.share_of_gap), fmt::format("{:.1g}", where.p)});
@@ -86,12 +86,13 @@ std::string gap_html(const Diagnosis& diagnosis) {
     return std::vector<std::string>{name, fmt::format("{:.3f}", gap.before_rms_mm),
                                     fmt::format("{:.3f}", gap.after_rms_mm), fmt::format("{:.3f}", gap.noise_floor_mm)};
   };
-  std::string html = html_table(
-      {heights_words(diagnosis) + ", root mean square [mm]", "before", "after", "expected of errors alone"},
-      {row("all conditions", diagnosis.train), row("each group of conditions, fitted without it", diagnosis.held_out)},
-      true);
+  std::string html =
+      html_table({heights_words(diagnosis) + ", root mean square [mm]", "before", "after", "expected of errors alone"},
+                 {row("all conditions", diagnosis.gap.train),
+                  row("each group of conditions, fitted without it", diagnosis.gap.held_out)},
+                 true);
   Rows rows;
-  for (const StratumGap& stratum : diagnosis.strata)
+  for (const StratumGap& stratum : diagnosis.gap.strata)
     rows.push_back({place_words(stratum.stratum), fmt::format("{:.3f}", stratum.train.before_rms_mm),
                     fmt::format("{:.3f}", stratum.train.after_rms_mm),
                     fmt::format("{:.3f}", stratum.held_out.after_rms_mm),
@@ -167,9 +168,9 @@ std::string departure_words(const UpperLimit& limit, double departure) {
   return is_beyond_bounds(limit, departure) ? "not visible here" : fmt::format("{:.3g}", departure);
 }
 
-std::string limits_html(const Diagnosis& diagnosis) {
+std::string limits_html(const std::vector<UpperLimit>& limits) {
   Rows rows;
-  for (const UpperLimit& limit : diagnosis.upper_limits)
+  for (const UpperLimit& limit : limits)
     rows.push_back({effect_words(limit.effect), limit.parameter, departure_words(limit, limit.limit95),
                     departure_words(limit, limit.smallest_seen)});
   return html_table({"effect", "parameter", "departs by less than (95 %)", "would be named half the time at"}, rows);
@@ -182,17 +183,17 @@ std::set<std::string> ids_of(const std::vector<std::string>& effects) {
   return ids;
 }
 
-std::string confusable_html(const Diagnosis& diagnosis) {
+std::string confusable_html(const Limits& limits) {
   std::set<std::set<std::string>> known;
   const auto is_new = [&](const std::set<std::string>& ids) { return ids.size() > 1 && known.insert(ids).second; };
   Rows rows;
-  for (const ConfusablePair& pair : diagnosis.confusable)
+  for (const ConfusablePair& pair : limits.confusable)
     if (is_new(ids_of({pair.first, pair.second})))
       rows.push_back({effect_words(pair.first), effect_words(pair.second), fmt::format("{:.1f}°", pair.angle_deg)});
   std::string html;
   if (!rows.empty()) html += html_table({"effect", "changes these measurements almost as", "angle"}, rows);
   std::vector<std::string> hidden;
-  for (const NearNullDirection& direction : diagnosis.near_null)
+  for (const NearNullDirection& direction : limits.near_null)
     if (const std::set<std::string> ids = ids_of(direction.effects); is_new(ids))
       hidden.push_back(effects_words({ids.begin(), ids.end()}));
   if (!hidden.empty()) html += paragraph("Where these act together, their changes nearly cancel:") + list(hidden);
@@ -228,14 +229,15 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
   const Diagnosis& diagnosis = campaign.diagnosis;
   std::string html = fmt::format("<h1>Where model and measurement differ: {}</h1>\n<p class=\"answer\">{}</p>\n",
                                  html_escaped(campaign.name), html_escaped(answer(diagnosis)));
-  if (!diagnosis.mistakes.empty()) html += heading("What was written down wrongly") + mistakes_html(diagnosis);
-  if (!diagnosis.warnings.empty()) html += heading("Look at this first") + list(diagnosis.warnings);
+  if (!diagnosis.data.mistakes.empty())
+    html += heading("What was written down wrongly") + mistakes_html(diagnosis.data.mistakes);
+  if (!diagnosis.data.warnings.empty()) html += heading("Look at this first") + list(diagnosis.data.warnings);
   if (!campaign.notes.empty()) html += heading("What limits this") + list(campaign.notes);
   if (diagnosis.verdict == Verdict::insufficient) {
     write_text(folder / "report.html", html_page("Fathom: diagnosis", html));
     return;
   }
-  html += heading("Where") + where_html(diagnosis);
+  html += heading("Where") + where_html(diagnosis.departures.where);
   if (draw_map(folder, campaign))
     html += html_picture(folder / "map.png", "Mean difference by region") +
             paragraph("A grey part has no height: the cup's wall hides it from the camera or from the projector.");
@@ -249,9 +251,9 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
   if (draw_heights(folder, campaign)) html += heights_chart(campaign);
   html += gap_html(diagnosis);
   if (!campaign.ray_traced_html.empty()) html += heading("Few rays and ray tracing") + campaign.ray_traced_html;
-  html += heading("What else it could be") + rivals_html(diagnosis) + confusable_html(diagnosis);
+  html += heading("What else it could be") + rivals_html(diagnosis) + confusable_html(diagnosis.limits);
   if (!diagnosis.next.empty()) html += heading("What to measure next") + next_html(diagnosis);
-  html += heading("What could still hide") + html_folded("Limits of every effect", limits_html(diagnosis));
+  html += heading("What could still hide") + html_folded("Limits of every effect", limits_html(diagnosis.limits.upper));
   html += heading("Uncertainty budget") + budget_html(diagnosis);
   write_residuals(folder, campaign);
   html += "<p>Every observation: <code>residuals.csv</code>.</p>\n";

@@ -64,8 +64,8 @@ std::string third_words(std::string_view stratum) {
 
 /// "Where liquid is milk tea, the height in the cup is 1.4 mm lower than the model has it.": where the gap is largest.
 std::string where_sentence(const Diagnosis& diagnosis) {
-  if (diagnosis.where.empty()) return {};
-  const GapLocation& where = diagnosis.where.front();
+  if (diagnosis.departures.where.empty()) return {};
+  const GapLocation& where = diagnosis.departures.where.front();
   // Of a shape that nothing explains, unknown_sentence() says where it is.
   if (where.observable == "content_shape_mm" && !diagnosis.unknown.part.empty()) return {};
   const ObservableWords words = observable_words(where.observable);
@@ -89,7 +89,7 @@ std::string size_words(const NamedParameter& found, const EffectParameter& param
 std::string named_sentence(const Diagnosis& diagnosis) {
   std::vector<std::string> clauses;
   for (const NamedEffect& effect : diagnosis.effects) clauses.push_back(effect_clause(effect));
-  const GapSize& gap = diagnosis.train;
+  const GapSize& gap = diagnosis.gap.train;
   return fmt::format(
       "Best explanation: {}. With that in the model the {} differ by {:.2f} mm instead of {:.2f} mm; errors of the "
       "measurement make {:.2f} mm. ",
@@ -172,11 +172,11 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
 }
 
 /// "In session 1 the height in the cup is 1.9 mm higher than in the others (16 σ). ": of each session the clearest.
-std::string excess_sentences(const Diagnosis& diagnosis) {
+std::string excess_sentences(const std::vector<Excess>& excesses) {
   constexpr std::size_t kMost = 3;
   std::vector<std::string> said;
   std::string text;
-  for (const Excess& excess : diagnosis.excess) {
+  for (const Excess& excess : excesses) {
     const std::string what = excess.level + excess.group;
     if (said.size() == kMost || std::find(said.begin(), said.end(), what) != said.end()) continue;
     said.push_back(what);
@@ -203,7 +203,8 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
   const UnknownShape& unknown = diagnosis.unknown;
   std::string text = fmt::format("{} is there that no effect in the list explains",
                                  diagnosis.effects.empty() ? "Something" : "Something else");
-  if (diagnosis.excess.empty()) text += fmt::format(" (probability {:.3g})", diagnosis.probability_of_unknown);
+  if (diagnosis.departures.excess.empty())
+    text += fmt::format(" (probability {:.3g})", diagnosis.probability_of_unknown);
   if (!unknown.part.empty())
     return text +
            fmt::format(": in {}, what is seen {} is {:.2g} mm {}, beside the rest of the cup, than the model has it. ",
@@ -225,7 +226,7 @@ std::string agreement(const Diagnosis& diagnosis) {
                                 : fmt::format("Model and measurement agree within their errors ({:.0f} % sure)",
                                               100 * diagnosis.probability_of_none);
   return fmt::format("{}: the {} differ by {:.2f} mm, {:.2f} mm are to be expected.", agree, heights_words(diagnosis),
-                     diagnosis.train.after_rms_mm, diagnosis.train.noise_floor_mm);
+                     diagnosis.gap.train.after_rms_mm, diagnosis.gap.train.noise_floor_mm);
 }
 
 /// Where cups are seen, but nothing in them.
@@ -247,16 +248,16 @@ std::string answer_of_physics(const Diagnosis& diagnosis) {
     case Verdict::none:
       return agreement(diagnosis);
     case Verdict::insufficient:
-      return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.missing, "and"));
+      return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.data.missing, "and"));
     case Verdict::named:
       if (diagnosis.effects.empty()) return agreement(diagnosis);
       return where_sentence(diagnosis) + named_sentence(diagnosis) + what_may_be_besides(diagnosis);
     case Verdict::ambiguous:
       return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
     case Verdict::unknown:
-      return where_sentence(diagnosis) + excess_sentences(diagnosis) + unknown_sentence(diagnosis);
+      return where_sentence(diagnosis) + excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
     case Verdict::named_and_unknown:
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + excess_sentences(diagnosis) +
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + excess_sentences(diagnosis.departures.excess) +
              unknown_sentence(diagnosis);
   }
   return {};
@@ -341,24 +342,25 @@ std::string parameter_words(const NamedParameter& parameter) {
                      parameter.high95);
 }
 
-std::string beside_words(const Diagnosis& diagnosis) {
+std::string beside_words(const Departures& departures) {
   std::vector<std::string> names;
-  for (const GapLocation& where : diagnosis.beside) {
+  for (const GapLocation& where : departures.beside) {
     const std::string name = fmt::format("the {}", observable_words(where.observable).name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  if (names.empty() && diagnosis.beside_effects.empty()) return {};
+  if (names.empty() && departures.beside_effects.empty()) return {};
   std::string text = names.empty()      ? "Something besides heights and shapes departs"
                      : names.size() > 1 ? joined(names, "and") + " depart"
                                         : names.front() + " departs";
   text = capitalised(std::move(text)) + " from the model. That alone is no gap: heights and shapes decide.";
-  if (!diagnosis.beside_effects.empty()) text += fmt::format(" It may be {}.", effects_words(diagnosis.beside_effects));
+  if (!departures.beside_effects.empty())
+    text += fmt::format(" It may be {}.", effects_words(departures.beside_effects));
   return text;
 }
 
 std::string answer(const Diagnosis& diagnosis) {
   std::string text;
-  for (const Mistake& mistake : diagnosis.mistakes) text += mistake.sentence + " ";
+  for (const Mistake& mistake : diagnosis.data.mistakes) text += mistake.sentence + " ";
   if (!text.empty()) text += "With that put right: ";
   text += answer_of_physics(diagnosis);
   while (text.ends_with(' ')) text.pop_back();

@@ -21,7 +21,7 @@ std::vector<NamedParameter> shown_parameters(const NamedEffect& effect);
 std::string parameter_words(const NamedParameter& parameter);  ///< "scattering = 2.1 per mm (1.9 to 2.4)"
 
 /// What departs and is no gap by itself, in two or three sentences; empty where nothing does.
-std::string beside_words(const Diagnosis& diagnosis);
+std::string beside_words(const Departures& departures);
 
 /// The answer in one to three sentences.
 std::string answer(const Diagnosis& diagnosis);

@@ -18,9 +18,9 @@ constexpr double kWidth = 960.0, kHeight = 400.0, kLeft = 60.0, kTop = 28.0, kBo
 /// Where a difference stands in the chart, which holds them all and 0.
 class Scale {
  public:
-  Scale(const Diagnosis& diagnosis, const std::vector<std::size_t>& rows) {
+  Scale(const Residuals& residuals, const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
-      const double before = diagnosis.before[row], after = diagnosis.after[row], error = diagnosis.error[row];
+      const double before = residuals.before[row], after = residuals.after[row], error = residuals.error[row];
       low_ = std::min({low_, before, after - error});
       high_ = std::max({high_, before, after + error});
     }
@@ -69,7 +69,8 @@ std::string words_of(const DiagnosedCampaign& campaign, std::size_t row) {
       "{}, {} of the cup\nsession {}, pour {}, placement {}{}\nmeasured {:.2f} mm; less the model {:+.2f} mm before, "
       "{:+.2f} mm after, ± {:.2f} mm (1 σ)",
       condition_words(f), f.region, f.session, f.pour, f.placement, shot ? ", frame " + shot->frame : "", o.value,
-      campaign.diagnosis.before[row], campaign.diagnosis.after[row], campaign.diagnosis.error[row]);
+      campaign.diagnosis.residuals.before[row], campaign.diagnosis.residuals.after[row],
+      campaign.diagnosis.residuals.error[row]);
 }
 
 /// What a click on a point shows: nothing of it is seen before.
@@ -125,7 +126,7 @@ std::vector<std::size_t> heights_in_order(const std::vector<Observation>& observ
 std::string heights_chart(const DiagnosedCampaign& campaign) {
   const std::vector<std::size_t> rows = heights_in_order(campaign.observations);
   if (rows.empty()) return {};
-  const Scale scale(campaign.diagnosis, rows);
+  const Scale scale(campaign.diagnosis.residuals, rows);
   const double step = (kWidth - kLeft) / static_cast<double>(rows.size());
   std::string svg = fmt::format(
       "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Heights: measured minus model\" font-size=\"13\">\n",
@@ -138,8 +139,8 @@ std::string heights_chart(const DiagnosedCampaign& campaign) {
   svg += liquids_svg(campaign.observations, rows, step);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];
-    const double x = kLeft + step * (static_cast<double>(i) + 0.5), after = campaign.diagnosis.after[row],
-                 error = campaign.diagnosis.error[row];
+    const double x = kLeft + step * (static_cast<double>(i) + 0.5), after = campaign.diagnosis.residuals.after[row],
+                 error = campaign.diagnosis.residuals.error[row];
     const bool has_shot = shot_of(campaign, row) != nullptr;
     if (has_shot) svg += fmt::format("<a href=\"#shot-{}\">", campaign.shots.of[row]);
     svg += fmt::format(
@@ -147,7 +148,7 @@ std::string heights_chart(const DiagnosedCampaign& campaign) {
         "<circle cx=\"{1:.1f}\" cy=\"{4:.1f}\" r=\"4\" fill=\"#D55E00\"/><circle cx=\"{1:.1f}\" cy=\"{5:.1f}\" r=\"4\" "
         "fill=\"#0072B2\"/></g>",
         html_escaped(words_of(campaign, row)), x, scale.y(after + error), scale.y(after - error),
-        scale.y(campaign.diagnosis.before[row]), scale.y(after));
+        scale.y(campaign.diagnosis.residuals.before[row]), scale.y(after));
     svg += has_shot ? "</a>\n" : "\n";
   }
   const std::vector<ReportShot>& shots = campaign.shots.shots;

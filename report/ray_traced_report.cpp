@@ -34,10 +34,11 @@ void add_values(const char* by, const Diagnosis& diagnosis, Rows& rows) {
     for (const NamedParameter& parameter : shown_parameters(effect))
       effects +=
           fmt::format("{}{}: {}", effects.empty() ? "" : "; ", effect_words(effect.name), parameter_words(parameter));
-  rows.push_back(
-      {by, std::string(name_of(diagnosis.verdict)), effects.empty() ? "nothing" : effects,
-       fmt::format("{:.3f}", diagnosis.train.before_rms_mm), fmt::format("{:.3f}", diagnosis.train.after_rms_mm),
-       fmt::format("{:.3f}", diagnosis.held_out.after_rms_mm), fmt::format("{:.3f}", diagnosis.train.noise_floor_mm)});
+  rows.push_back({by, std::string(name_of(diagnosis.verdict)), effects.empty() ? "nothing" : effects,
+                  fmt::format("{:.3f}", diagnosis.gap.train.before_rms_mm),
+                  fmt::format("{:.3f}", diagnosis.gap.train.after_rms_mm),
+                  fmt::format("{:.3f}", diagnosis.gap.held_out.after_rms_mm),
+                  fmt::format("{:.3f}", diagnosis.gap.train.noise_floor_mm)});
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ void add_values(const char* by, const Diagnosis& diagnosis, Rows& rows) {
 void add_ray_traced(const RayTracedDiagnosis& traced, const Diagnosis& by_few_rays, Json& report) {
   for (std::size_t i = 0; i < traced.diagnosis.effects.size(); ++i)
     if (const SensitivityCheck* check = check_of(traced, traced.diagnosis.effects[i].name)) {
-      Json& effect = report["effects"][traced.diagnosis.mistakes.size() + i];
+      Json& effect = report["effects"][traced.diagnosis.data.mistakes.size() + i];
       effect["cosine"] = check->cosine;
       effect["fit"] = check->is_fit();
     }

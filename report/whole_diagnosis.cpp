@@ -34,7 +34,7 @@ std::vector<std::string> leave_out(const std::vector<std::string>& ids, std::vec
 void add_inverses(const Diagnosis& diagnosis, Json& report) {
   for (std::size_t i = 0; i < diagnosis.effects.size(); ++i)
     for (const NamedParameter& parameter : shown_parameters(diagnosis.effects[i]))
-      report["effects"][diagnosis.mistakes.size() + i]["parameters"][parameter.name] = {
+      report["effects"][diagnosis.data.mistakes.size() + i]["parameters"][parameter.name] = {
           {"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
 }
 
@@ -126,7 +126,8 @@ WholeDiagnosis diagnose(const DiagnosisInput& input, bool quiet) {
     whole.observations = whole.traced->observations;
     whole.diagnosis = whole.traced->diagnosis;
   }
-  if (std::string beside = beside_words(whole.diagnosis); !beside.empty()) whole.notes.push_back(std::move(beside));
+  if (std::string beside = beside_words(whole.diagnosis.departures); !beside.empty())
+    whole.notes.push_back(std::move(beside));
   if (!physics.unseen.empty())
     whole.not_covered.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
   if (!input.not_looked_for.empty())

@@ -26,16 +26,16 @@ namespace {
 
 /// What the evidence says before any effect is weighed.
 void describe_evidence(const Case& c, Diagnosis& diagnosis) {
-  diagnosis.mistakes = c.evidence.mistakes;
-  diagnosis.warnings = hygiene_warnings(c.evidence);
+  diagnosis.data.mistakes = c.evidence.mistakes;
+  diagnosis.data.warnings = hygiene_warnings(c.evidence);
   if (!c.covariance.errors.from_replicates)
-    diagnosis.warnings.emplace_back(
+    diagnosis.data.warnings.emplace_back(
         "hardly any condition was poured or placed anew: errors are taken from what a smooth model leaves");
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
-  diagnosis.confusable = confusable_pairs(c.evidence, c.problem);
-  diagnosis.near_null = near_null_directions(c.evidence, c.problem);
+  diagnosis.limits.confusable = confusable_pairs(c.evidence, c.problem);
+  diagnosis.limits.near_null = near_null_directions(c.evidence, c.problem);
   const Eigen::MatrixXd columns = stratum_columns(c.strata, c.covariance);
-  diagnosis.where =
+  diagnosis.departures.where =
       locate(c.strata, columns, degrees_of_freedom(c.covariance, columns), c.problem.residual, c.settings.p_where);
 }
 
@@ -86,8 +86,8 @@ Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares,
 Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Designs& designs,
                     const DecisionSettings& settings) {
   Diagnosis diagnosis;
-  diagnosis.missing = missing_for_diagnosis(evidence);
-  if (!diagnosis.missing.empty()) return diagnosis;
+  diagnosis.data.missing = missing_for_diagnosis(evidence);
+  if (!diagnosis.data.missing.empty()) return diagnosis;
   const Case c(evidence, predict, settings);
   describe_evidence(c, diagnosis);
   const Posterior posterior = posterior_of(c);
@@ -98,10 +98,11 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);
-  diagnosis.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);
+  diagnosis.departures.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);
+  const bool is_excess = !diagnosis.departures.excess.empty();
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
-  diagnosis.verdict = verdict_of(c, set, shares, !diagnosis.excess.empty(), is_unknown, names_all, sure.has_value());
-  if (!diagnosis.excess.empty()) set.put_unknown_first();
+  diagnosis.verdict = verdict_of(c, set, shares, is_excess, is_unknown, names_all, sure.has_value());
+  if (is_excess) set.put_unknown_first();
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.probability_of_none = shares.nothing;
   diagnosis.probability_of_unknown = shares.unknown;
@@ -109,7 +110,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
     diagnosis.unknown =
         describe_unknown(evidence, c.covariance, c.problem, c.discrepancy, rest.residual, rest.explained);
   measure_gaps(c, fit, diagnosis);
-  diagnosis.upper_limits = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
+  diagnosis.limits.upper = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
   if (sure) {
     diagnosis.effects = named_effects(c, *sure);
     for (std::size_t e = 0; e < diagnosis.effects.size(); ++e)

@@ -14,6 +14,13 @@ enum class Verdict { none, named, ambiguous, unknown, named_and_unknown, insuffi
 /// As in report.json: "none", "named", …, "named+unknown".
 std::string_view name_of(Verdict verdict);
 
+/// What was found about the measurements themselves.
+struct DataQuality {
+  std::vector<std::string> missing;   ///< if insufficient: what they lack
+  std::vector<std::string> warnings;  ///< book-keeping that looks wrong; tests that could not be made
+  std::vector<Mistake> mistakes;      ///< of the laboratory, put right before all else
+};
+
 /// A part of the observations that departs from the prediction.
 struct GapLocation {
   std::string observable, stratum;  ///< "height_mm", "liquid=milk_tea, distance_mm=400"
@@ -31,6 +38,14 @@ struct Excess {
   double size = 0.0;       ///< beside the others' mean; of pours, placements and trials 1 σ of the scatter itself
   double sigma = 0.0;      ///< 1 σ of that
   double p = 1.0;          ///< of all groups and observables that were looked at
+};
+
+/// Where measurement and prediction differ by more than their errors.
+struct Departures {
+  std::vector<GapLocation> where;
+  std::vector<GapLocation> beside;          ///< of what only names; they are no gap by themselves
+  std::vector<std::string> beside_effects;  ///< that would explain these, if any would
+  std::vector<Excess> excess;               ///< largest first, in errors
 };
 
 struct NamedParameter {
@@ -67,6 +82,12 @@ struct StratumGap {
   GapSize train, held_out;
 };
 
+/// How large the gap is, and what the effects leave of it.
+struct Gap {
+  GapSize train, held_out;
+  std::vector<StratumGap> strata;
+};
+
 struct UpperLimit {
   std::string effect, parameter;
   double limit95 = 0.0;        ///< departure from nominal that would have been seen
@@ -83,6 +104,13 @@ struct NearNullDirection {
   std::vector<std::string> effects;
   std::vector<double> weights;  ///< of typical departures, together of length 1
   double strength = 0.0;        ///< norm of its whitened sensitivity
+};
+
+/// What the measurements cannot show, or cannot tell apart.
+struct Limits {
+  std::vector<UpperLimit> upper;
+  std::vector<ConfusablePair> confusable;
+  std::vector<NearNullDirection> near_null;
 };
 
 struct NextMeasurement {
@@ -113,32 +141,29 @@ struct UnknownShape {
   double higher_mm = 0.0;
 };
 
+/// Of every observation, in its unit.
+struct Residuals {
+  std::vector<double> before;  ///< measured minus predicted
+  std::vector<double> after;   ///< the same with the effects, nuisances at their best values
+  std::vector<double> error;   ///< 1 σ of that
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::insufficient;
-  std::vector<std::string> missing;     ///< if insufficient: what it lacks
-  std::vector<std::string> warnings;    ///< book-keeping that looks wrong; tests that could not be made
-  std::vector<Mistake> mistakes;        ///< of the laboratory, put right before all else
+  DataQuality data;
   double probability_of_none = 1.0;     ///< that nothing is missing
   double probability_of_unknown = 0.0;  ///< that something is there which no candidate explains, beside effects or not
-  std::vector<GapLocation> where;
-  std::vector<GapLocation> beside;          ///< departures of what only names; they are no gap by themselves
-  std::vector<std::string> beside_effects;  ///< that would explain these, if any would
-  std::vector<Excess> excess;               ///< largest first, in errors
+  Departures departures;
   std::vector<NamedEffect> effects;
   std::vector<Explanation> ambiguity_set;  ///< most probable first, together 1
   /// Of all effects' parameters, in their order, in their units: rows of the matrix.
   std::vector<std::vector<double>> parameter_covariance;
-  GapSize train, held_out;
-  std::vector<StratumGap> strata;
-  std::vector<UpperLimit> upper_limits;
-  std::vector<ConfusablePair> confusable;
-  std::vector<NearNullDirection> near_null;
+  Gap gap;
+  Limits limits;
   std::vector<NextMeasurement> next;
   std::vector<ConditionBudget> budget;
   UnknownShape unknown;  ///< where the verdict says that there is something
-  /// Of every observation, in its unit: measured minus predicted; the same with the effects, nuisances at their best
-  /// values; 1 σ of that.
-  std::vector<double> before, after, error;
+  Residuals residuals;
 };
 
 }  // namespace fathom

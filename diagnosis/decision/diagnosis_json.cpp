@@ -131,6 +131,10 @@ Json array_of(const std::vector<T>& items) {
   return array;
 }
 
+Json json_from(const Gap& gap) {
+  return {{"train", json_from(gap.train)}, {"held_out", json_from(gap.held_out)}, {"strata", array_of(gap.strata)}};
+}
+
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
@@ -154,21 +158,19 @@ std::string_view name_of(Verdict verdict) {
 Json json_from(const Diagnosis& diagnosis) {
   Json json;
   json["verdict"] = name_of(diagnosis.verdict);
-  json["missing"] = diagnosis.missing;
-  json["warnings"] = diagnosis.warnings;
+  json["missing"] = diagnosis.data.missing;
+  json["warnings"] = diagnosis.data.warnings;
   json["probability_of_none"] = diagnosis.probability_of_none;
   json["probability_of_unknown"] = diagnosis.probability_of_unknown;
-  json["where"] = array_of(diagnosis.where);
-  json["beside"] = array_of(diagnosis.beside);
-  json["excess"] = array_of(diagnosis.excess);
+  json["where"] = array_of(diagnosis.departures.where);
+  json["beside"] = array_of(diagnosis.departures.beside);
+  json["excess"] = array_of(diagnosis.departures.excess);
   json["effects"] = Json::array();
-  for (const Mistake& mistake : diagnosis.mistakes)
+  for (const Mistake& mistake : diagnosis.data.mistakes)
     json["effects"].push_back({{"name", mistake.id}, {"sentence", mistake.sentence}});
   for (const NamedEffect& effect : diagnosis.effects) json["effects"].push_back(json_from(effect));
   json["ambiguity_set"] = array_of(diagnosis.ambiguity_set);
-  json["gap"] = {{"train", json_from(diagnosis.train)},
-                 {"held_out", json_from(diagnosis.held_out)},
-                 {"strata", array_of(diagnosis.strata)}};
+  json["gap"] = json_from(diagnosis.gap);
   json["unknown"] = {{"formula", diagnosis.unknown.formula},
                      {"most_similar", diagnosis.unknown.most_similar},
                      {"similarity", diagnosis.unknown.similarity}};
@@ -176,9 +178,9 @@ Json json_from(const Diagnosis& diagnosis) {
     json["unknown"]["shape"] = {{"liquid", diagnosis.unknown.liquid},
                                 {"part", diagnosis.unknown.part},
                                 {"higher_mm", diagnosis.unknown.higher_mm}};
-  json["upper_limits"] = array_of(diagnosis.upper_limits);
-  json["confusable"] = array_of(diagnosis.confusable);
-  json["near_null"] = array_of(diagnosis.near_null);
+  json["upper_limits"] = array_of(diagnosis.limits.upper);
+  json["confusable"] = array_of(diagnosis.limits.confusable);
+  json["near_null"] = array_of(diagnosis.limits.near_null);
   json["next"] = array_of(diagnosis.next);
   json["budget"] = {{"conditions", array_of(diagnosis.budget)}};
   return json;

@@ -36,9 +36,9 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   const Eigen::VectorXd solved = c.covariance.factor.matrixU().solve(left_w);
   const Eigen::VectorXd after = left - c.covariance.nuisance * (c.covariance.nuisance.transpose() * solved);
   const Eigen::VectorXd errors = c.covariance.total.diagonal() - c.covariance.nuisance.rowwise().squaredNorm();
-  diagnosis.before.assign(before.begin(), before.end());
-  diagnosis.after.assign(after.begin(), after.end());
-  for (const double variance : errors) diagnosis.error.push_back(std::sqrt(variance));
+  diagnosis.residuals.before.assign(before.begin(), before.end());
+  diagnosis.residuals.after.assign(after.begin(), after.end());
+  for (const double variance : errors) diagnosis.residuals.error.push_back(std::sqrt(variance));
   std::vector<Eigen::Index> heights;
   const std::string compared = compared_height(c.evidence.observations);
   for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
@@ -50,14 +50,15 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   const auto held = [&](const std::vector<Eigen::Index>& rows) {
     return gap_size(before, other.residual, other.variance, rows);
   };
-  diagnosis.train = train(heights);
-  diagnosis.held_out = held(heights);
+  diagnosis.gap.train = train(heights);
+  diagnosis.gap.held_out = held(heights);
   for (const std::string factor : {"liquid", "fill_mm", "distance_mm", "lateral_mm"}) {
     std::map<std::string, std::vector<Eigen::Index>> levels;
     for (const Eigen::Index row : heights)
       if (const Observation& o = c.evidence.observations[row]; o.factors.liquid != "none")
         levels[level(o, factor)].push_back(row);
-    for (const auto& [name, rows] : levels) diagnosis.strata.push_back({factor + "=" + name, train(rows), held(rows)});
+    for (const auto& [name, rows] : levels)
+      diagnosis.gap.strata.push_back({factor + "=" + name, train(rows), held(rows)});
   }
 }
 

@@ -40,14 +40,13 @@ Predict predict_rows(const Predict& predict, const std::vector<Eigen::Index>& ro
 Diagnosis joined_tiers(Diagnosis by_all, Diagnosis by_deciding, const Evidence& evidence,
                        const std::vector<Eigen::Index>& deciding) {
   if (stands(by_all.verdict, by_deciding.verdict)) return by_all;
-  std::vector<double> before = std::move(by_all.before), after = std::move(by_all.after),
-                      error = std::move(by_all.error);
+  Residuals residuals = std::move(by_all.residuals);
   for (std::size_t i = 0; i < deciding.size(); ++i) {
-    before[deciding[i]] = by_deciding.before[i];
-    after[deciding[i]] = by_deciding.after[i];
-    error[deciding[i]] = by_deciding.error[i];
+    residuals.before[deciding[i]] = by_deciding.residuals.before[i];
+    residuals.after[deciding[i]] = by_deciding.residuals.after[i];
+    residuals.error[deciding[i]] = by_deciding.residuals.error[i];
   }
-  by_deciding.before = std::move(before), by_deciding.after = std::move(after), by_deciding.error = std::move(error);
+  by_deciding.residuals = std::move(residuals);
   if (!by_deciding.unknown.map.empty()) {
     std::vector<double> map(evidence.observations.size(), 0.0);
     for (std::size_t i = 0; i < deciding.size(); ++i) map[deciding[i]] = by_deciding.unknown.map[i];
@@ -59,8 +58,9 @@ Diagnosis joined_tiers(Diagnosis by_all, Diagnosis by_deciding, const Evidence& 
   };
   if (!by_all.ambiguity_set.empty() && !by_all.ambiguity_set.front().effects.empty() &&
       by_all.ambiguity_set.front().effects.back() != "unknown")
-    by_deciding.beside_effects = by_all.ambiguity_set.front().effects;
-  std::copy_if(by_all.where.begin(), by_all.where.end(), std::back_inserter(by_deciding.beside), only_names);
+    by_deciding.departures.beside_effects = by_all.ambiguity_set.front().effects;
+  std::copy_if(by_all.departures.where.begin(), by_all.departures.where.end(),
+               std::back_inserter(by_deciding.departures.beside), only_names);
   return by_deciding;
 }
 

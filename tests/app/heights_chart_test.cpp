@@ -17,9 +17,9 @@ DiagnosedCampaign campaign() {
   DiagnosedCampaign one;
   one.observations = {height};
   one.shots = {{{"7", "tea", "../a b/javascript:x.pcd", Image<std::uint8_t>(2, 3)}}, {0}};
-  one.diagnosis.before = {1.25};
-  one.diagnosis.after = {-0.125};
-  one.diagnosis.error = {0.25};
+  one.diagnosis.residuals.before = {1.25};
+  one.diagnosis.residuals.after = {-0.125};
+  one.diagnosis.residuals.error = {0.25};
   return one;
 }
 

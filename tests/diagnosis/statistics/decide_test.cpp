@@ -60,7 +60,7 @@ TEST(Decide, GapsAreOfHeightsInCupsAndNotOfTheDesk) {
     Evidence evidence = world.measure({}, {}, 3);
     for (Observation& o : evidence.observations)
       if (o.observable == "desk_mm") o.observable = "desk_height_mm", o.value += desk_mm;
-    return decide(evidence, world.predict()).train.before_rms_mm;
+    return decide(evidence, world.predict()).gap.train.before_rms_mm;
   };
   EXPECT_NEAR(before_rms_mm(0.0), before_rms_mm(1.0), 1e-9);
 }
@@ -78,7 +78,7 @@ TEST(Decide, NamesOneStrongEffectWithItsSizeAndClosesTheGap) {
     const NamedParameter& parameter = diagnosis.effects[0].parameters[0];
     covered += parameter.low95 <= truth.values[0] && truth.values[0] <= parameter.high95;
     // Held-out groups are predicted as well as their errors allow; 40 heights scatter by 11 %.
-    EXPECT_LT(diagnosis.held_out.after_rms_mm, 1.35 * diagnosis.held_out.noise_floor_mm) << effect;
+    EXPECT_LT(diagnosis.gap.held_out.after_rms_mm, 1.35 * diagnosis.gap.held_out.noise_floor_mm) << effect;
   }
   EXPECT_EQ(named, static_cast<int>(effects.size()));
   EXPECT_GE(covered, 3);  // of four 95 % intervals two or more miss once in 70 times
@@ -166,8 +166,8 @@ TEST(Decide, LeavesTwinsOpen) {
   std::vector<std::string> both = diagnosis.ambiguity_set[0].effects;
   for (const auto& other : diagnosis.ambiguity_set[0].alternatives) both.insert(both.end(), other.begin(), other.end());
   EXPECT_TRUE(has(both, "cup_bottom_height") && has(both, "cup_on_coaster"));
-  ASSERT_FALSE(diagnosis.confusable.empty());
-  EXPECT_NEAR(diagnosis.confusable[0].angle_deg, 0.0, 1e-4);
+  ASSERT_FALSE(diagnosis.limits.confusable.empty());
+  EXPECT_NEAR(diagnosis.limits.confusable[0].angle_deg, 0.0, 1e-4);
 }
 
 TEST(Decide, ProbabilitiesSumToOne) {
@@ -227,7 +227,7 @@ TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
   EXPECT_EQ(sunken(0.0).verdict, Verdict::none);
   const Diagnosis diagnosis = sunken(0.8);
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
-  EXPECT_EQ(diagnosis.where.at(0).stratum, "time_since_pour=early");
+  EXPECT_EQ(diagnosis.departures.where.at(0).stratum, "time_since_pour=early");
 }
 
 /// By its change near nothing it could never be as large, but it is as it grows.
@@ -460,8 +460,8 @@ TEST(Decide, ABumpThatOnlyTheShapeShowsIsUnknown) {
   EXPECT_EQ(decide(with_shape(world.measure({}, {}, 5), 0.0), predict).verdict, Verdict::none);
   const Diagnosis bump = decide(with_shape(world.measure({}, {}, 5), 0.6), predict);
   EXPECT_EQ(bump.verdict, Verdict::unknown);
-  ASSERT_FALSE(bump.where.empty());
-  EXPECT_EQ(bump.where[0].observable, "content_shape_mm");
+  ASSERT_FALSE(bump.departures.where.empty());
+  EXPECT_EQ(bump.departures.where[0].observable, "content_shape_mm");
 }
 
 TEST(Decide, FindsTheExactEffectInACampaignWithoutErrors) {
@@ -483,7 +483,7 @@ TEST(Decide, TakesATableOfHeightsWithOnePourOfEachFilling) {
   EXPECT_EQ(decide(world.measure({}, {}, 2), world.predict()).verdict, Verdict::none);
   const EffectValue truth = world.at_strength("subsurface_scattering", 12.0, 1.0);
   const Diagnosis diagnosis = decide(world.measure({truth}, {}, 2), world.predict());
-  EXPECT_TRUE(has(diagnosis.warnings, "poured or placed anew"));
+  EXPECT_TRUE(has(diagnosis.data.warnings, "poured or placed anew"));
   EXPECT_NE(diagnosis.verdict, Verdict::insufficient);
 }
 
@@ -496,8 +496,8 @@ TEST(Decide, SaysWhatIsMissing) {
   const World world(design);
   const Diagnosis diagnosis = decide(world.measure({}, {}, 1), world.predict());
   EXPECT_EQ(diagnosis.verdict, Verdict::insufficient);
-  EXPECT_TRUE(has(diagnosis.missing, "2 conditions"));
-  EXPECT_TRUE(has(diagnosis.missing, "the cup at other known places"));
+  EXPECT_TRUE(has(diagnosis.data.missing, "2 conditions"));
+  EXPECT_TRUE(has(diagnosis.data.missing, "the cup at other known places"));
 }
 
 TEST(Decide, ABareDeskAloneAsksForCups) {
@@ -508,8 +508,8 @@ TEST(Decide, ABareDeskAloneAsksForCups) {
   }
   const Diagnosis diagnosis = decide(evidence, {});
   EXPECT_EQ(diagnosis.verdict, Verdict::insufficient);
-  EXPECT_TRUE(has(diagnosis.missing, "1 condition ("));
-  EXPECT_TRUE(has(diagnosis.missing, "cups at known places"));
+  EXPECT_TRUE(has(diagnosis.data.missing, "1 condition ("));
+  EXPECT_TRUE(has(diagnosis.data.missing, "cups at known places"));
   evidence.is_calibrated = true;
   EXPECT_TRUE(missing_for_diagnosis(evidence).empty());
 }

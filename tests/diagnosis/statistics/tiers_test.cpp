@@ -30,8 +30,8 @@ TEST(Tiers, WhatOnlyNamesRaisesNoAlarmAndIsListed) {
   ASSERT_NE(as_gap.verdict, Verdict::none);  // it is a gap where it decides
   const Diagnosis diagnosis = decide(with_odd_brightness(world, true, 3), world.predict());
   EXPECT_EQ(diagnosis.verdict, Verdict::none);
-  EXPECT_FALSE(diagnosis.beside.empty());
-  EXPECT_EQ(diagnosis.before.size(), world.nominal().observations.size());
+  EXPECT_FALSE(diagnosis.departures.beside.empty());
+  EXPECT_EQ(diagnosis.residuals.before.size(), world.nominal().observations.size());
 }
 
 TEST(Tiers, WhatOnlyNamesDoesNotHideWhatHeightsShow) {
@@ -69,8 +69,8 @@ TEST(Excess, ASessionThatReadsHigherIsAFindingWithItsSize) {
   const Diagnosis diagnosis = decide(with_session_off(world, 1.9, 0.1, 4), world.predict());
   EXPECT_TRUE(diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
       << json_from(diagnosis).dump();
-  ASSERT_FALSE(diagnosis.excess.empty());
-  const Excess& excess = diagnosis.excess.front();
+  ASSERT_FALSE(diagnosis.departures.excess.empty());
+  const Excess& excess = diagnosis.departures.excess.front();
   EXPECT_EQ(excess.level, "session");
   EXPECT_EQ(excess.group, "1");
   EXPECT_EQ(excess.observable, "height_mm");
@@ -84,13 +84,13 @@ TEST(Excess, OnePourASessionIsEnough) {
   const World world = poured_in_sessions(1);
   const Diagnosis diagnosis = decide(with_session_off(world, 1.9, 0.1, 4), world.predict());
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown) << json_from(diagnosis).dump();
-  ASSERT_FALSE(diagnosis.excess.empty());
-  EXPECT_NEAR(diagnosis.excess.front().size, 1.9, 4.0 * diagnosis.excess.front().sigma);
+  ASSERT_FALSE(diagnosis.departures.excess.empty());
+  EXPECT_NEAR(diagnosis.departures.excess.front().size, 1.9, 4.0 * diagnosis.departures.excess.front().sigma);
 }
 
 TEST(Excess, ASessionThatMayDifferAsMuchIsNone) {
   const World world = poured_in_sessions(2);
-  EXPECT_TRUE(decide(with_session_off(world, 1.9, 3.0, 4), world.predict()).excess.empty());
+  EXPECT_TRUE(decide(with_session_off(world, 1.9, 3.0, 4), world.predict()).departures.excess.empty());
 }
 
 /// Every pour of the liquid is off by so much, up and down in turn.
@@ -103,7 +103,7 @@ TEST(Excess, PoursThatScatterMoreThanIsStatedAreAFinding) {
       if (o.observable == "height_mm" && o.factors.liquid != "empty" && o.factors.liquid != "none")
         o.value += (o.factors.pour + static_cast<int>(o.factors.fill_mm / 10.0)) % 2 ? 2.0 : -2.0;
     const Diagnosis diagnosis = decide(evidence, world.predict());
-    const bool is_finding = std::any_of(diagnosis.excess.begin(), diagnosis.excess.end(),
+    const bool is_finding = std::any_of(diagnosis.departures.excess.begin(), diagnosis.departures.excess.end(),
                                         [](const Excess& excess) { return excess.level == "pour"; });
     EXPECT_EQ(is_finding, stated_mm < 1.0) << json_from(diagnosis)["excess"].dump();
     if (is_finding) {
