@@ -1,54 +1,58 @@
 #include "detector/nearest.h"
 
-#include <algorithm>
 #include <cassert>
+#include <nanoflann.hpp>
 
 namespace fathom {
+namespace {
 
-NearestPoints::NearestPoints(const Points& points) : points_(points) {
-  assert(!points.empty());
-  build(0, static_cast<int>(points_.size()));
-}
+/// As nanoflann asks for them.
+struct TreePoints {
+  Points points;
 
-int NearestPoints::build(int begin, int end) {
-  constexpr int kLeaf = 8;
-  const int node = static_cast<int>(nodes_.size());
-  nodes_.push_back({begin, end});
-  if (end - begin <= kLeaf) return node;
-  Eigen::Array3f low = points_[begin].array(), high = low;
-  for (int i = begin; i < end; ++i) low = low.min(points_[i].array()), high = high.max(points_[i].array());
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  const int middle = begin + (end - begin) / 2;
-  std::nth_element(points_.begin() + begin, points_.begin() + middle, points_.begin() + end,
-                   [axis](const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return a[axis] < b[axis]; });
-  nodes_[node].axis = axis;
-  nodes_[node].split = points_[middle][axis];
-  build(begin, middle);
-  const int right = build(middle, end);
-  nodes_[node].right = right;
-  return node;
-}
-
-void NearestPoints::search(int node, const Eigen::Vector3f& to, float& best, int& index) const {
-  const Node& here = nodes_[node];
-  if (here.axis < 0) {
-    for (int i = here.begin; i < here.end; ++i) {
-      const float squared = (points_[i] - to).squaredNorm();
-      if (squared < best) best = squared, index = i;
-    }
-    return;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t index, std::size_t axis) const { return points[index][static_cast<int>(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;  // it finds it itself
   }
-  const float beyond = to[here.axis] - here.split;
-  search(beyond < 0.0f ? node + 1 : here.right, to, best, index);
-  if (beyond * beyond < best) search(beyond < 0.0f ? here.right : node + 1, to, best, index);
-}
+};
+
+/// One result that is there from the beginning, so that a search starts within its distance.
+struct NearestOne {
+  float squared;
+  int index;
+
+  bool full() const { return true; }
+  float worstDist() const { return squared; }
+  bool addPoint(float other, int at) {
+    if (other < squared) squared = other, index = at;
+    return true;
+  }
+};
+
+constexpr int kLeaf = 8;
+
+}  // namespace
+
+struct NearestPoints::Tree {
+  explicit Tree(const Points& of) : dataset{of}, index(3, dataset, nanoflann::KDTreeSingleIndexAdaptorParams(kLeaf)) {}
+
+  TreePoints dataset;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints, float, int>, TreePoints, 3, int>
+      index;
+};
+
+NearestPoints::NearestPoints(const Points& points) : tree_(std::make_unique<Tree>(points)) { assert(!points.empty()); }
+
+NearestPoints::~NearestPoints() = default;
+
+const Eigen::Vector3f& NearestPoints::point(int index) const { return tree_->dataset.points[index]; }
 
 int NearestPoints::nearest(const Eigen::Vector3f& to, int guess) const {
-  int index = guess;
-  float best = (points_[guess] - to).squaredNorm();
-  search(0, to, best, index);
-  return index;
+  NearestOne best{(point(guess) - to).squaredNorm(), guess};
+  tree_->index.findNeighbors(best, to.data(), nanoflann::SearchParams());
+  return best.index;
 }
 
 }  // namespace fathom

@@ -1,7 +1,7 @@
-// The nearest of a set of points, by a k-d tree.
+// The nearest of a set of points, by nanoflann's k-d tree.
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "detector/cloud.h"
 
@@ -11,23 +11,15 @@ class NearestPoints {
  public:
   /// At least one point.
   explicit NearestPoints(const Points& points);
+  ~NearestPoints();
 
-  const Eigen::Vector3f& point(int index) const { return points_[index]; }
+  const Eigen::Vector3f& point(int index) const;
   /// Index for point(). `guess` is any of them: the nearer it is, the less is looked at.
   int nearest(const Eigen::Vector3f& to, int guess = 0) const;
 
  private:
-  struct Node {
-    int begin, end;   ///< of its points
-    int axis = -1;    ///< −1: a leaf
-    float split = 0;  ///< left of it the next node's, right of it those of `right`
-    int right = 0;
-  };
-  int build(int begin, int end);
-  void search(int node, const Eigen::Vector3f& to, float& best, int& index) const;
-
-  Points points_;  ///< in the order of the leaves
-  std::vector<Node> nodes_;
+  struct Tree;
+  std::unique_ptr<const Tree> tree_;
 };
 
 }  // namespace fathom

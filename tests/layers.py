@@ -43,6 +43,7 @@ LAYERS = {
 BORDERS = {
     "Embree": ["sim/render/*.cpp", "bench/*.cpp"],
     "PCL": ["detector/*.cpp", "tests/*.cpp", "bench/*.cpp"],
+    "nanoflann": ["detector/nearest.cpp"],
     "tinygltf": ["sim/scene/*.cpp"],
     "Boost.Geometry": ["sim/scene/*.cpp"],
     "Boost.Math": ["core/*.cpp", "blind/*.cpp", "diagnosis/statistics/*.cpp", "bench/*.cpp"],
@@ -59,6 +60,7 @@ BORDERS = {
 LIBRARY_HEADERS = {
     "Embree": r"embree\d/",
     "PCL": r"pcl/",
+    "nanoflann": r"nanoflann\.hpp",
     "tinygltf": r"tiny_gltf\.h",
     "Boost.Geometry": r"boost/geometry",
     "Boost.Math": r"boost/math",
