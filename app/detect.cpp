@@ -11,7 +11,6 @@
 #include "app/live_cloud.h"
 #include "app/poses.h"
 #include "app/print.h"
-#include "app/results.h"
 #include "core/json_text.h"
 #include "core/progress.h"
 #include "detector/fuse.h"
@@ -19,6 +18,7 @@
 #include "detector/robust.h"
 #include "detector/settings_json.h"
 #include "report/detection_report.h"
+#include "report/kept_detection.h"
 
 namespace fathom {
 namespace {
@@ -31,21 +31,46 @@ struct DetectOptions {
   DeskOptions desk;
   std::filesystem::path config;
   std::filesystem::path poses;
+  int keep_clouds = 10;
 };
+
+/// The measured points of all views in one frame.
+Cloud joined(const std::vector<Cloud>& clouds, const std::vector<Pose>& world_from_view, const Pose& world_from_frame) {
+  Cloud all;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    const Pose frame_from_view = world_from_frame.inverse() * world_from_view[i];
+    for (const Eigen::Vector3f& point : finite_points(clouds[i]))
+      all.points.push_back((frame_from_view * point.cast<double>()).cast<float>());
+  }
+  all.width = static_cast<int>(all.points.size());
+  all.height = 1;
+  return all;
+}
 
 /// All clouds as views of one desk.
 void run_fused(const DetectOptions& options, const DetectorSettings& settings, const CommonOptions& common) {
   const std::vector<Pose> poses = read_poses(options.poses, options.clouds.size());
+  std::optional<KeptDetection> keeper;
+  if (!common.output.empty()) keeper.emplace(common.output, options.keep_clouds);
   std::vector<PosedDetection> views;
+  std::vector<Cloud> clouds;
+  Json names = Json::array();
   Progress progress("detect", poses.size(), common.quiet);
-  for (std::size_t i = 0; i < poses.size(); ++i, progress.step())
-    views.push_back({detect_robust(read_cloud(options.clouds[i]), settings), poses[i]});
+  for (std::size_t i = 0; i < poses.size(); ++i, progress.step()) {
+    Cloud cloud = read_cloud(options.clouds[i]);
+    views.push_back({detect_robust(cloud, settings), poses[i]});
+    names.push_back(options.clouds[i].string());
+    if (keeper) clouds.push_back(std::move(cloud));
+  }
   const Detection detection = fuse_views(views, settings);
-  if (common.json)
-    print_results(common, "detection", ".json", json_text(detection_json(detection)));
-  else
-    print_results(common, "detection", ".txt",
-                  format_rows(detection_rows(options.clouds.front().string(), detection), false));
+  Json json = {{"clouds", std::move(names)}};
+  json.update(detection_json(detection));
+  const std::string rows =
+      common.json ? "" : format_rows(detection_rows(options.clouds.front().string(), detection), false);
+  print_text(common.json ? json_text(json) : rows);
+  if (!keeper) return;
+  keeper->add(joined(clouds, poses, frame_of(views).world_from_camera));
+  keeper->finish(json, rows);
 }
 
 /// What a user wants to know of a cloud that is searched in vain.
@@ -72,6 +97,8 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
   Progress progress("detect", count, common.quiet);
   std::optional<LiveCamera> camera;
   if (options.live) camera.emplace(*options.live);
+  std::optional<KeptDetection> keeper;
+  if (!common.output.empty()) keeper.emplace(common.output, options.keep_clouds);
 
   Json all = Json::array();
   std::string rows;
@@ -80,12 +107,10 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
     const Cloud cloud = camera ? cloud_from_image(camera->next_cloud()) : read_cloud(options.clouds[i]);
     const Detection detection = method.detect(cloud, settings);
     warn_of(name, cloud, detection);
-    if (common.json && count == 1) {
-      all = detection_json(detection);
-    } else if (common.json) {
-      all.push_back({{"cloud", name}});
-      all.back().update(detection_json(detection));
-    } else {
+    if (keeper) keeper->add(cloud);
+    all.push_back({{"cloud", name}});
+    all.back().update(detection_json(detection));
+    if (!common.json) {
       const std::string text = format_rows(detection_rows(name, detection), false);
       print_text(text);
       std::fflush(stdout);  // into pipes too, while the next cloud is worked on
@@ -93,10 +118,9 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
     }
     progress.step();
   }
-  if (common.json)
-    print_results(common, "detection", ".json", json_text(all));
-  else
-    keep_results(common, "detection", ".txt", rows);
+  const Json& json = count == 1 ? all.front() : all;
+  if (common.json) print_text(json_text(json));
+  if (keeper) keeper->finish(json, rows);
 }
 
 }  // namespace
@@ -122,6 +146,9 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) 
                  "Takes the clouds as views of one desk: {\"world_from_camera\": [3 rows of 4 for each cloud]}, metres")
       ->type_name("JSON")
       ->excludes(live);
+  app.add_option("--keep-clouds", options->keep_clouds, "How many clouds the folder of -o keeps, for fathom view")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
   return [options, &common] {
     if (!options->poses.empty() && (options->clouds.empty() || options->method != "robust"))
       throw UsageError("--poses needs clouds and the method robust");

@@ -17,6 +17,7 @@
 #include "core/visible_text.h"
 #include "diagnosis/decision/diagnosis_json.h"
 #include "diagnosis/statistics/evidence.h"
+#include "report/cup_shots_json.h"
 #include "report/diagnosis_report.h"
 #include "report/diagnosis_words.h"
 #include "report/gnuplot.h"
@@ -125,6 +126,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   report["provenance"] = provenance;
   remove_diagnosis(common.output);
   write_diagnosis_report(common.output, campaign);
+  write_cup_shots(common.output, input.measurement, options.folders);
   write_next(common.output, campaign.diagnosis, whole.plans, input.measurement.rig);
   write_json(common.output / "model.json", model_json(earlier, campaign.diagnosis, provenance));
   write_json(common.output / "report.json", report);  // last: its presence says that the diagnosis is complete

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/files.h"
+#include "core/view_page.h"
+#include "report/cup_shots_json.h"
 #include "report/gnuplot.h"
 
 namespace fathom {
@@ -39,6 +41,8 @@ bool is_campaign(const std::string& name) {
 void remove_diagnosis(const fs::path& folder) {
   fs::remove(folder / "report.json");
   remove_if_ours(folder / "report.html", "<title>Fathom: diagnosis</title>");
+  remove_if_ours(folder / kShotsFile, kShotsBegin);
+  remove_view_page(folder);
   std::vector<fs::path> campaigns;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.is_regular_file() && is_campaign(entry.path().filename().string())) campaigns.push_back(entry.path());

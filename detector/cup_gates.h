@@ -31,6 +31,7 @@ struct CupCandidate {
   double top_m = 0.0;    ///< highest point above the desk
   int band_points = 0;
   std::optional<Circle> circle;
+  std::optional<double> lean{};  ///< change of the wall's radius with the height, where the method knows it
   std::string rejected;  ///< why this is no cup; empty while it may be one
 };
 

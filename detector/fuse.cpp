@@ -76,14 +76,19 @@ DetectedCup fused(const std::vector<SeenCup>& group, const Pose& frame_from_worl
 
 }  // namespace
 
-Detection fuse_views(const std::vector<PosedDetection>& views, const DetectorSettings& settings) {
+const PosedDetection& frame_of(const std::vector<PosedDetection>& views) {
   assert(!views.empty());
   const auto frame = std::find_if(views.begin(), views.end(),
                                   [](const PosedDetection& view) { return view.detection.desk.has_value(); });
-  if (frame == views.end()) return views.front().detection;
-  Detection result = frame->detection;
+  return frame == views.end() ? views.front() : *frame;
+}
+
+Detection fuse_views(const std::vector<PosedDetection>& views, const DetectorSettings& settings) {
+  const PosedDetection& frame = frame_of(views);
+  Detection result = frame.detection;
+  if (!result.desk) return result;
   result.cups.clear();
-  const Pose frame_from_world = frame->world_from_camera.inverse();
+  const Pose frame_from_world = frame.world_from_camera.inverse();
   const Pose desk_from_frame = desk_from_camera(result.desk->plane);
   for (const std::vector<SeenCup>& group : group_by_place(views))
     result.cups.push_back(fused(group, frame_from_world, desk_from_frame, settings.robust.fill));

@@ -12,7 +12,10 @@ struct PosedDetection {
   Pose world_from_camera;
 };
 
-/// The cups that any view finds, each once, in the frame of the first view that finds a desk. Circles are means
+/// The view in whose frame they are fused: the first that finds a desk, or else the first.
+const PosedDetection& frame_of(const std::vector<PosedDetection>& views);
+
+/// The cups that any view finds, each once, in the frame of frame_of(). Circles are means
 /// weighted by their certainty; contents are decided on all views' evidence. For the robust method. At least one view.
 Detection fuse_views(const std::vector<PosedDetection>& views, const DetectorSettings& settings);
 

@@ -45,6 +45,7 @@ CupCandidate candidate_from(const Points& segment, const RoundWall& wall, double
   candidate.top_m = wall.top_m;
   candidate.band_points = wall.points;
   candidate.circle = Circle{wall.center, wall.radius_m, wall.rms_m};
+  candidate.lean = wall.lean;
   return candidate;
 }
 

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "core/units.h"
+#include "detector/cone.h"
 
 namespace fathom {
 namespace {
@@ -34,10 +38,43 @@ Json circle_json(const CupCandidate& candidate, const std::optional<TemplateMatc
           {"icp_iterations", match ? Json(match->iterations) : Json()}};
 }
 
+/// Where something stands on the desk, and how much room it takes.
+struct Room {
+  Eigen::Vector2d middle;  ///< [m] desk frame
+  double width_m, height_m;
+};
+
+/// By the circle, or by the points where there is none.
+Room room_of(const CupCandidate& candidate) {
+  if (candidate.circle) return {candidate.circle->center, candidate.width_m, candidate.top_m};
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& point : candidate.points) box.extend(point);
+  const Eigen::Vector2f middle = box.center().head<2>();
+  float reach = 0.0f;
+  for (const Eigen::Vector3f& point : candidate.points) reach = std::max(reach, (point.head<2>() - middle).norm());
+  return {middle.cast<double>(), 2.0 * reach, box.max().z()};
+}
+
+Json candidate_json(const RejectedSegment& segment, const Eigen::Isometry3d& camera_from_desk) {
+  const Room room = room_of(segment.candidate);
+  Json json = {{"center_camera_m",
+                vector_json(camera_from_desk * Eigen::Vector3d(room.middle.x(), room.middle.y(), kWallHeight))},
+               {"width_mm", mm_from_metres(room.width_m)},
+               {"height_mm", mm_from_metres(room.height_m)}};
+  json.update(circle_json(segment.candidate, segment.match));
+  json["score"] = segment.match ? Json(mm_from_metres(segment.match->score_m)) : Json();
+  json["surface_mm"] = segment.interior ? Json(mm_from_metres(segment.interior->mean_m)) : Json();
+  json["reason"] = segment.candidate.rejected;
+  return json;
+}
+
 Json cup_json(const DetectedCup& cup) {
   Json json = {{"center_camera_m", vector_json(cup.center_in_camera)}};
   json.update(circle_json(cup.candidate, cup.match));
   json["radius_sigma_mm"] = optional_mm(cup.radius_sigma_m);
+  json["height_mm"] = mm_from_metres(cup.candidate.top_m);
+  json["lean_deg"] =
+      cup.candidate.lean ? Json(deg_from_radians(std::atan(*cup.candidate.lean))) : Json();
   json["score"] = mm_from_metres(cup.score_m);
   json["liquid"] = name_of(cup.liquid);
   json["p_liquid"] = cup.p_liquid ? Json(*cup.p_liquid) : Json();
@@ -79,14 +116,13 @@ Json detection_json(const Detection& detection) {
   json["cups"] = Json::array();
   for (const DetectedCup& cup : detection.cups) json["cups"].push_back(cup_json(cup));
   json["candidates"] = Json::array();
-  for (const RejectedSegment& segment : detection.rejected) {
-    json["candidates"].push_back(circle_json(segment.candidate, segment.match));
-    json["candidates"].back()["score"] = segment.match ? Json(mm_from_metres(segment.match->score_m)) : Json();
-    json["candidates"].back()["surface_mm"] =
-        segment.interior ? Json(mm_from_metres(segment.interior->mean_m)) : Json();
-    json["candidates"].back()["reason"] = segment.candidate.rejected;
+  if (!detection.desk) {
+    json["why"] = detection.why;
+    return json;
   }
-  if (!detection.desk) json["why"] = detection.why;
+  const Eigen::Isometry3d camera_from_desk = desk_from_camera(detection.desk->plane).inverse();
+  for (const RejectedSegment& segment : detection.rejected)
+    json["candidates"].push_back(candidate_json(segment, camera_from_desk));
   return json;
 }
 

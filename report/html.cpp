@@ -10,7 +10,7 @@
 namespace fathom {
 namespace {
 
-constexpr const char* kStyle = R"(<style>
+constexpr const char* kPageHead = R"(<style>
 body { font: 17px/1.55 system-ui, "DejaVu Sans", sans-serif; color: #222; max-width: 60rem; margin: 2.5rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.8rem; line-height: 1.2; } h2 { font-size: 1.25rem; margin-top: 3.2rem; border-top: 1px solid #ddd; padding-top: 1.4rem; }
 img { width: 100%; height: auto; margin: .4rem 0 .8rem; } .answer { font-size: 1.25rem; line-height: 1.45; }
@@ -57,7 +57,7 @@ std::string html_page(std::string_view title, std::string_view body, std::string
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n{}{}</head><body>\n{}</body></html>\n",
-      html_escaped(title), kStyle, head, body);
+      html_escaped(title), kPageHead, head, body);
 }
 
 std::string html_picture(const std::filesystem::path& png, std::string_view alternative) {

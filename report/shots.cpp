@@ -66,7 +66,6 @@ ReportShot shot_of(const FrameRecord& frame, const LaboratoryRig& rig, const fs:
 ReportShots shots_of(const std::vector<Observation>& observations, const Measurement& measurement,
                      const std::vector<fs::path>& folders, const fs::path& report) {
   ReportShots result{{}, std::vector<int>(observations.size(), -1)};
-  if (folders.size() > 1) return result;
   using Key = std::tuple<int, int, int, std::string>;
   std::map<Key, const FrameRecord*> first;
   for (const FrameRecord& f : measurement.frames)
@@ -77,7 +76,7 @@ ReportShots shots_of(const std::vector<Observation>& observations, const Measure
     const auto found = first.find({f.session, f.pour, f.placement, f.liquid});
     if (observations[i].observable != "height_mm" || found == first.end()) continue;
     const auto [number, is_new] = numbers.emplace(found->second, static_cast<int>(result.shots.size()));
-    if (is_new) result.shots.push_back(shot_of(*found->second, measurement.rig, folders.front(), report, f));
+    if (is_new) result.shots.push_back(shot_of(*found->second, measurement.rig, folders[found->second->folder], report, f));
     result.of[i] = number->second;
   }
   return result;

@@ -24,7 +24,7 @@ struct ReportShots {
   std::vector<int> of;  ///< of each observation that of its first trial; −1: it is no height, or there is no cloud
 };
 
-/// Of several folders it is not known whose sessions are whose: nothing leads to them.
+/// `folders` as they were read.
 ReportShots shots_of(const std::vector<Observation>& observations, const Measurement& measurement,
                      const std::vector<std::filesystem::path>& folders, const std::filesystem::path& report);
 

@@ -15,8 +15,6 @@
 namespace fathom {
 namespace {
 
-Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 Image<float> read_depth(const std::filesystem::path& file, const SensorModel& sensor) {
   check_exr(file, sensor.width, sensor.height);
   Image<float> depth = read_exr_channel(file, "Z");

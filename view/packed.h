@@ -11,6 +11,8 @@
 
 namespace fathom {
 
+inline Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 /// {"type": "u8" | "u16" | "i16" | "u32", "deflate": "…"}, little-endian.
 Json packed(std::span<const std::uint8_t> values);
 Json packed(std::span<const std::uint16_t> values);

@@ -33,24 +33,24 @@ std::string three_js(const std::filesystem::path& folder) {
 }
 
 /// JSON for an HTML element: no "<", so that no text of a file can end the element or begin a comment.
-std::string data_json(const Json& scene) {
-  std::string text = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string data_json(const Json& data) {
+  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
   return text;
 }
 
 }  // namespace
 
-std::string view_page(std::string_view title, const Json& scene, const std::filesystem::path& three) {
+std::string view_page(std::string_view title, const PageContent& content, const std::filesystem::path& three) {
   const std::string head = fmt::format("<style>{}</style>\n", kPageStyle);
   const std::string body = fmt::format(
       "<h1>{}</h1>\n<div id=\"page\"><noscript>This page is drawn by its script, which is switched off in this "
       "browser.</noscript></div>\n",
       html_escaped(title));
-  return html_page(
-      title,
-      body + script(data_json(scene), " type=\"application/json\" id=\"data\"") + three_js(three) + script(kPageScript),
-      head);
+  return html_page(title,
+                   body + script(data_json(content.data), " type=\"application/json\" id=\"data\"") + three_js(three) +
+                       script(kCommonScript) + script(content.script),
+                   head);
 }
 
 }  // namespace fathom

@@ -1,4 +1,4 @@
-// The page: data, three.js and the script that draws them, in one file that works without a network.
+// The pages: data, three.js and the script that draws them, in one file that works without a network.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,13 @@ namespace fathom {
 /// Where Debian's package libjs-three has it.
 inline constexpr const char* kThreeFolder = "/usr/share/javascript/three";
 
-/// The page about `scene` (capture_scene()). `title` is plain text. Throws Error naming the file of three.js that is
-/// missing in `three`.
-std::string view_page(std::string_view title, const Json& scene, const std::filesystem::path& three);
+/// What a page shows: its data and the script that draws them.
+struct PageContent {
+  Json data;
+  std::string_view script;  ///< of page_parts.h
+};
+
+/// `title` is plain text. Throws Error naming the file of three.js that is missing in `three`.
+std::string view_page(std::string_view title, const PageContent& content, const std::filesystem::path& three);
 
 }  // namespace fathom

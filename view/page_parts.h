@@ -1,4 +1,4 @@
-// The page's own page.css and script/*.js, as they were when the program was built.
+// The pages' own page.css and script/*/*.js, as they were when the program was built.
 #pragma once
 
 #include <string_view>
@@ -6,6 +6,7 @@
 namespace fathom {
 
 extern const std::string_view kPageStyle;
-extern const std::string_view kPageScript;
+extern const std::string_view kCommonScript;
+extern const std::string_view kCaptureScript, kDetectionScript, kDiagnosisScript;  ///< of each page, after the common one
 
 }  // namespace fathom

@@ -6,8 +6,8 @@
 namespace fathom {
 namespace {
 
-constexpr int kColumns = static_cast<int>(kImageWidth_px / kBiasCell_px),
-              kRows = static_cast<int>(kImageHeight_px / kBiasCell_px);
+constexpr int kCellColumns = static_cast<int>(kImageWidth_px / kBiasCell_px),
+              kCellRows = static_cast<int>(kImageHeight_px / kBiasCell_px);
 constexpr double kFullCell = kBiasCell_px * kBiasCell_px;
 constexpr double kMostly = 0.75;  ///< of a cell, in one cloud: where less is desk, blocks hold an edge
 /// [px] A unit's bias has a deviation of 0.1 and blocks on a slope one of as much: three of both together. Things lower
@@ -19,7 +19,7 @@ constexpr double kMostOff = 0.45;
 void DeskCells::add(std::span<const SensedPoint> points, const Plane& desk, const LaboratoryRig& rig,
                     const FrameView& view) {
   DeskCells own;
-  own.cells_.resize(static_cast<std::size_t>(kColumns) * kRows);
+  own.cells_.resize(static_cast<std::size_t>(kCellColumns) * kCellRows);
   const double of_inverse = rig.focal_px * rig.baseline_m;  // [px m] disparity times depth
   const Eigen::Vector3d inverse_desk = -desk.normal / desk.offset;
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
@@ -30,7 +30,7 @@ void DeskCells::add(std::span<const SensedPoint> points, const Plane& desk, cons
     const double off_px = of_inverse * (1.0 - inverse_desk.dot(point)) / point.z();
     if (std::abs(off_px) > kMostOff) continue;
     if (view.cup && ((to_desk * point).head<2>() - axis).squaredNorm() < clear * clear) continue;
-    Cell& cell = own.cells_[part_of_image(sensed.point, rig.focal_px, kColumns, kRows)];
+    Cell& cell = own.cells_[part_of_image(sensed.point, rig.focal_px, kCellColumns, kCellRows)];
     cell.pixels += sensed.weight;
     cell.error_px += sensed.weight * static_cast<float>(off_px);
     cell.nearer_px += sensed.weight * static_cast<float>(of_inverse / point.z() - of_inverse / kReferenceDistance_m);
@@ -54,7 +54,7 @@ BiasView DeskCells::view() const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.pixels <= 0.0f) continue;
-    const auto column = static_cast<double>(i % kColumns), row = static_cast<double>(i / kColumns);
+    const auto column = static_cast<double>(i % kCellColumns), row = static_cast<double>(i / kCellColumns);
     view.cells.push_back({(column + 0.5) * kBiasCell_px, (row + 0.5) * kBiasCell_px,
                           static_cast<double>(cell.nearer_px / cell.pixels),
                           std::min(static_cast<double>(cell.pixels), kFullCell)});

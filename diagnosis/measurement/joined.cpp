@@ -29,12 +29,13 @@ void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder,
       differs("/liquids/" + name);
 }
 
-/// The sessions of `more` follow those of `all`.
-void append(Measurement more, Measurement& all) {
+/// The sessions of `more`, the folder of that number, follow those of `all`.
+void append(Measurement more, std::size_t folder, Measurement& all) {
   int sessions = 0;
   for (const FrameRecord& frame : all.frames) sessions = std::max(sessions, frame.session + 1);
   for (FrameRecord& frame : more.frames) {
     frame.session += sessions;
+    frame.folder = folder;
     all.frames.push_back(std::move(frame));
   }
   for (Observation& observation : more.observations) {
@@ -68,7 +69,7 @@ Measurement read_measurements(std::span<const std::filesystem::path> folders, bo
   }
   const std::shared_ptr<const UnitBias> unit = learn_unit(desks, surveys.front().rig().unit.map != nullptr);
   Measurement all = std::move(surveys.front()).measure(unit);
-  for (std::size_t i = 1; i < surveys.size(); ++i) append(std::move(surveys[i]).measure(unit), all);
+  for (std::size_t i = 1; i < surveys.size(); ++i) append(std::move(surveys[i]).measure(unit), i, all);
   return all;
 }
 

@@ -73,9 +73,7 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   if (!bias) reading.print = print_of(points, rig.focal_px);
   FrameView view = view_of(frame);
   view.has_rows = cloud.height > 1;
-  points = with_desk_thinned(cloud, std::move(points), rig, view);
-  if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
-  if (bias) take_off(as_bias(*bias), rig, points);
+  points = without_bias(cloud, std::move(points), rig, view, bias);
   const std::optional<FrameEstimates> estimates = estimate_frame(points, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return reading;
   if (!bias) reading.stands_elsewhere = stands_elsewhere(points, rig, frame, estimates);

@@ -49,6 +49,14 @@ std::vector<SensedPoint> with_desk_thinned(const Cloud& cloud, std::vector<Sense
   return kept;
 }
 
+std::vector<SensedPoint> without_bias(const Cloud& cloud, std::vector<SensedPoint> points, const LaboratoryRig& rig,
+                                      const FrameView& view, const BiasField* bias) {
+  points = with_desk_thinned(cloud, std::move(points), rig, view);
+  if (rig.unit.map) take_off(as_bias(*rig.unit.map), rig, points);
+  if (bias) take_off(as_bias(*bias), rig, points);
+  return points;
+}
+
 FrameView view_of(const FrameRecord& frame) {
   if (frame.bare_desk()) return {};
   return {Eigen::Vector2d(frame.lateral_m, frame.distance_m), frame.fill_m};

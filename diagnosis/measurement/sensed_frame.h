@@ -8,6 +8,7 @@
 #include "detector/cloud.h"
 #include "diagnosis/measurement/frame_estimates.h"
 #include "diagnosis/measurement/frames.h"
+#include "diagnosis/measurement/unit_bias.h"
 
 namespace fathom {
 
@@ -18,6 +19,10 @@ std::vector<SensedPoint> sensed_points(const Cloud& cloud, const LaboratoryRig& 
 /// weight of seven.
 std::vector<SensedPoint> with_desk_thinned(const Cloud& cloud, std::vector<SensedPoint> points,
                                            const LaboratoryRig& rig, const FrameView& view);
+
+/// The same without what is known of the unit's bias: `bias` may be null.
+std::vector<SensedPoint> without_bias(const Cloud& cloud, std::vector<SensedPoint> points, const LaboratoryRig& rig,
+                                      const FrameView& view, const BiasField* bias);
 
 /// Where the notes say that the cup stands, and how full.
 FrameView view_of(const FrameRecord& frame);

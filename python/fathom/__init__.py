@@ -175,8 +175,8 @@ def detect(cloud: Union[ArrayLike, PathLike, Capture], intensity: ArrayLike | No
     plane = found["plane"]
     if plane:
         plane["normal"] = np.array(plane["normal"])
-    for cup in found["cups"]:
-        cup["center_camera_m"] = np.array(cup["center_camera_m"])
+    for thing in found["cups"] + found["candidates"]:
+        thing["center_camera_m"] = np.array(thing["center_camera_m"])
     return Detection(
         plane=plane and DeskPlane(**plane), desk_from_camera=found.get("desk_from_camera"), segments=found["segments"],
         cups=[Cup(**cup) for cup in found["cups"]],

@@ -73,6 +73,8 @@ class Cup:
     band_points: int
     icp_iterations: int | None
     radius_sigma_mm: float | None
+    height_mm: float  #: of the rim above the desk
+    lean_deg: float | None  #: by how much its wall leans outwards
     score: float  #: [mm] how far points lie from the template or the fitted wall
     liquid: str  #: "yes", "no", "unknown"
     p_liquid: float | None  #: probability that there is a liquid
@@ -93,6 +95,9 @@ class Candidate:
     """Something that was looked at and is no cup."""
 
     reason: str
+    center_camera_m: Doubles  #: (3,) the middle of the room that it takes, 45 mm above the desk, camera frame
+    width_mm: float
+    height_mm: float  #: of its highest point above the desk
     radius_mm: float | None
     rms_mm: float | None
     band_points: int

@@ -10,6 +10,7 @@
 #include "core/image_file.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "core/view_page.h"
 #include "sim/scene/cup.h"
 #include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
@@ -89,7 +90,7 @@ void remove_capture(const std::filesystem::path& folder) {
   const bool is_ours = std::filesystem::exists(folder / "manifest.jsonl");
   for (const char* name : {"run.json", "manifest.jsonl", "truth.exr"}) std::filesystem::remove(folder / name);
   for (const std::string& name : frame_files(true, true)) std::filesystem::remove(folder / name);
-  remove_if_ours(folder / kViewPage, "<title>Fathom: view of ");
+  remove_view_page(folder);
   if (is_ours) std::filesystem::remove_all(folder / kSceneFiles);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -13,9 +13,6 @@ namespace fathom {
 /// Of one capture.
 inline constexpr int kMostFrames = 100000;
 
-/// The page that `fathom view` makes of it.
-inline constexpr const char* kViewPage = "view.html";
-
 /// Names of a frame's files, in the order in which they are written.
 std::vector<std::string> frame_files(bool infrared, bool device_outputs);
 

@@ -57,7 +57,7 @@ def nulls(value, where):
 
 
 # Documented as null: what was not seen.
-MAY_BE_NULL = re.compile(r"/(plane|why|center_camera_m|radius_mm|radius_sigma_mm|score|rms_mm|surface_mm|sigma_mm|sd_mm|bottom_mm|fill_mm|fill_sigma_mm|p_liquid|"
+MAY_BE_NULL = re.compile(r"/(plane|why|center_camera_m|radius_mm|radius_sigma_mm|lean_deg|score|rms_mm|surface_mm|sigma_mm|sd_mm|bottom_mm|fill_mm|fill_sigma_mm|p_liquid|"
                          r"desk|config|miss|kind|fill_found_mm|icp_iterations|held_out|after_rms_mm|covers|liquid|apparent_height_mm)$")
 
 

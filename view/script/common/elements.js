@@ -32,3 +32,9 @@ function tick(text, on, change) {
   input.checked = on;
   return element("label", {}, input, " ", text);
 }
+
+// Brings a tick into a state, as a click does.
+function setTick(box, on) {
+  const input = box.querySelector("input");
+  if (input.checked !== on) input.click();
+}

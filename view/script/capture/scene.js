@@ -1,24 +1,4 @@
-// The capture's data: every pixel as the rest of the page asks for it.
-
-const ARRAYS = { u8: Uint8Array, u16: Uint16Array, i16: Int16Array, u32: Uint32Array };
-
-async function unpack(block) {
-  const bytes = Uint8Array.from(atob(block.deflate), c => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new ARRAYS[block.type](await new Response(stream).arrayBuffer());
-}
-
-async function unpackAll(value) {
-  if (value === null || typeof value !== "object") return value;
-  if (value.deflate) return unpack(value);
-  const result = Array.isArray(value) ? [] : {};
-  for (const key of Object.keys(value)) result[key] = await unpackAll(value[key]);
-  return result;
-}
-
-const vector = a => new THREE.Vector3(a[0], a[1], a[2]);
-
-// Every pixel as the rest of the page asks for it; places in metres in the world.
+// The capture's data: every pixel as the rest of the page asks for it; places in metres in the world.
 class Scene {
   constructor(data) {
     Object.assign(this, data);
@@ -37,14 +17,13 @@ class Scene {
     });
   }
 
-  place(codes, i) { return new THREE.Vector3(codes[3 * i], codes[3 * i + 1], codes[3 * i + 2]).multiplyScalar(this.step_m); }
   seesSomething(i) { return this.pixels.path[i] > 0; }
-  truth(i) { return this.place(this.pixels.point, i); }
+  truth(i) { return place(this.pixels.point, i, this.step_m); }
   bends(i, ray) {
     const bent = this.bentAt.get(i);
     if (!bent) return [];
     const first = bent.first + (ray === "camera" ? 0 : bent.camera);
-    return Array.from({ length: bent[ray] }, (_, k) => this.place(this.pixels.bends, first + k));
+    return Array.from({ length: bent[ray] }, (_, k) => place(this.pixels.bends, first + k, this.step_m));
   }
   depthOf(place) { return place.clone().sub(this.camera).dot(this.forward); }
   apparentDepth(i) { return this.pixels.apparent[i] * this.pixels.depth_step_m; }

@@ -1,9 +1,10 @@
 // The picture that turns.
 
 class Stage {
-  constructor(scene, box) {
-    this.scene = scene;
+  // `across`: level, away from the sensor. What is cut open is cut across it.
+  constructor(box, across) {
     this.box = box;
+    this.across = across;
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.localClippingEnabled = true;
@@ -21,10 +22,6 @@ class Stage {
     this.controls.minDistance = 0.02;
     this.controls.maxDistance = 12;
     this.controls.addEventListener("change", () => this.draw());
-    // Across the baseline, level, away from the sensor: who looks along it sees the two rays cross.
-    this.across = scene.forward.clone().addScaledVector(scene.right, -scene.forward.dot(scene.right)).setZ(0);
-    if (this.across.length() < 0.05) this.across.set(-scene.right.y, scene.right.x, 0);
-    this.across.normalize();
     this.cut = new THREE.Plane(this.across.clone(), 0);
     this.materials = { points: new THREE.PointsMaterial({ size: 0.0045, vertexColors: THREE.VertexColors }) };
     const disc = element("canvas", { width: 64, height: 64 }), brush = disc.getContext("2d");
@@ -37,11 +34,8 @@ class Stage {
     this.world.add(new THREE.AmbientLight("#ffffff", 0.72));
     this.lamp = new THREE.DirectionalLight("#ffffff", 0.45);
     this.world.add(this.lamp);
-    this.addMeshes();
-    this.addAxes();
-    this.addSensor();
-    this.rays = new THREE.Group();
-    this.world.add(this.rays);
+    this.bodies = new THREE.Group();
+    this.world.add(this.bodies);
     this.listen();
     new ResizeObserver(() => this.resize()).observe(box);
     this.resize();
@@ -67,20 +61,21 @@ class Stage {
     });
   }
 
-  placeLabel({ node, at, dy }) {
+  placeLabel({ node, at, dy, group, width }) {
     const p = at.clone().project(this.eye);
-    const shown = p.z > -1 && p.z < 1 && Math.abs(p.x) < 1.05 && Math.abs(p.y) < 1.05;
+    const shown = (!group || group.visible) && p.z > -1 && p.z < 1 && Math.abs(p.x) < 1.05 && Math.abs(p.y) < 1.05;
     node.style.display = shown ? "" : "none";
     if (!shown) return;
-    const x = (p.x + 1) / 2 * this.box.clientWidth, y = (1 - p.y) / 2 * this.box.clientHeight + (dy || 0);
+    const room = this.box.clientWidth - width - 10;
+    const x = Math.min((p.x + 1) / 2 * this.box.clientWidth, Math.max(room, 0)), y = (1 - p.y) / 2 * this.box.clientHeight + (dy || 0);
     node.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(6px, -50%)`;
   }
 
-  label(text, at, kind = "", colour = "", dy = 0) {
+  label(text, at, kind = "", colour = "", dy = 0, group = null) {
     const node = element("span", { class: `label ${kind}` }, text);
     if (colour) node.style.color = colour;
     this.box.append(node);
-    const label = { node, at: at.clone(), dy };
+    const label = { node, at: at.clone(), dy, group, width: kind ? node.offsetWidth : 0 };
     this.labels.push(label);
     return label;
   }
@@ -115,83 +110,67 @@ class Stage {
     group.add(mark);
   }
 
-  addMeshes() {
-    this.bodies = new THREE.Group();
-    for (const mesh of this.scene.meshes) {
-      const kind = this.scene.object(mesh.object).kind, geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(mesh.vertices, v => v * this.scene.step_m), 3));
-      geometry.setIndex(new THREE.BufferAttribute(mesh.corners, 1));
-      geometry.computeVertexNormals();
-      const material = new THREE.MeshLambertMaterial({
-        color: COLOURS[kind], transparent: true, opacity: kind === "liquid" ? 0.34 : 0.14, depthWrite: false, side: THREE.DoubleSide });
-      const body = new THREE.Mesh(geometry, material);
-      body.renderOrder = kind === "liquid" ? 3 : 2;
-      this.bodies.add(body);
-    }
-    this.world.add(this.bodies);
-  }
-
-  // A grid of 50 mm on the desk around what is looked at, and a scale that stands at its far corner.
-  addAxes() {
-    const aim = this.scene.aim(), step = 0.05, reach = 0.15, tall = 0.15, round = v => Math.round(v / step) * step;
-    const x0 = round(aim.x), y0 = round(aim.y), lines = [];
-    const axes = new THREE.Group();
+  // A grid on the desk around a place, and a scale that stands at its far corner: a line each `step` metres.
+  addAxes(middle, reach = 0.15, tall = 0.15, step = 0.05) {
+    const round = v => Math.round(v / step) * step, x0 = round(middle.x), y0 = round(middle.y), lines = [];
     for (let d = -reach; d < reach + step / 2; d += step) {
       lines.push(new THREE.Vector3(x0 + d, y0 - reach, 0), new THREE.Vector3(x0 + d, y0 + reach, 0));
       lines.push(new THREE.Vector3(x0 - reach, y0 + d, 0), new THREE.Vector3(x0 + reach, y0 + d, 0));
       this.label(`${Math.round((x0 + d) * MM)}`, new THREE.Vector3(x0 + d, y0 - reach, 0), "", "", 10);
       this.label(`${Math.round((y0 + d) * MM)}`, new THREE.Vector3(x0 + reach, y0 + d, 0));
     }
-    this.label("x [mm]", new THREE.Vector3(x0, y0 - reach - 0.03, 0), "", "", 10);
-    this.label("y [mm]", new THREE.Vector3(x0 + reach + 0.03, y0, 0));
+    this.label("x [mm]", new THREE.Vector3(x0, y0 - 1.2 * reach, 0), "", "", 10);
+    this.label("y [mm]", new THREE.Vector3(x0 + 1.2 * reach, y0, 0));
     const corner = new THREE.Vector3(x0 - reach, y0 + reach, 0);
     lines.push(corner, corner.clone().setZ(tall));
     for (let z = 0; z < tall + step / 10; z += step / 5) {
       const long = Math.abs(z / step - Math.round(z / step)) < 1e-6, at = corner.clone().setZ(z);
-      lines.push(at, at.clone().add(new THREE.Vector3(long ? -0.012 : -0.005, 0, 0)));
+      lines.push(at, at.clone().add(new THREE.Vector3((long ? -0.08 : -0.033) * reach, 0, 0)));
       if (long && z > 0) this.label(`${Math.round(z * MM)}`, at);
     }
-    this.label("z [mm]", corner.clone().setZ(tall + 0.015));
+    this.label("z [mm]", corner.clone().setZ(tall + 0.1 * reach));
     const geometry = new THREE.BufferGeometry().setFromPoints(lines);
-    axes.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: "#8d98a4" })));
-    this.world.add(axes);
+    this.world.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: "#8d98a4" })));
   }
 
-  addSensor() {
-    const { camera, projector } = this.scene, group = new THREE.Group();
-    for (const [at, colour, text] of [[camera, COLOURS.camera, "infrared camera"], [projector, COLOURS.projector, "projector"]]) {
-      const box = new THREE.Mesh(new THREE.BoxBufferGeometry(0.02, 0.02, 0.02), new THREE.MeshLambertMaterial({ color: colour }));
-      box.position.copy(at);
-      group.add(box);
-      this.label(text, at, "mark", colour, -16);
-    }
-    this.line([camera, projector], "#555555", 3, group);
-    this.world.add(group);
+  // The sensor, or a part of it.
+  addBox(at, colour, text) {
+    const box = new THREE.Mesh(new THREE.BoxBufferGeometry(0.02, 0.02, 0.02), new THREE.MeshLambertMaterial({ color: colour }));
+    box.position.copy(at);
+    this.world.add(box);
+    this.label(text, at, "mark", colour, -16);
   }
 
-  // Points of a kind, coloured; pixels without one are left out.
-  showPoints(kind, colouring) {
-    const places = [], colours = [], pixels = [];
-    for (let i = 0; i < this.scene.count; ++i) {
-      if (!this.scene.has(i, kind)) continue;
-      const share = colouring.share(i, kind);
-      if (Number.isNaN(share)) continue;
-      const p = this.scene.point(i, kind), c = colourOf(colouring.scale, share);
-      places.push(p.x, p.y, p.z);
-      colours.push(c.r, c.g, c.b);
-      pixels.push(i);
+  // Removes what a group holds, and its labels.
+  empty(group) {
+    for (const child of [...group.children]) {
+      group.remove(child);
+      child.geometry.dispose();
+      this.lines = this.lines.filter(line => line !== child);
     }
+    this.labels = this.labels.filter(label => label.group !== group || (label.node.remove(), false));
+  }
+
+  // Coordinates and colours, three numbers each, and what each point is picked as.
+  setPoints(places, colours, ids) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
     geometry.setAttribute("color", new THREE.Float32BufferAttribute(colours, 3));
-    if (this.points) {
-      this.world.remove(this.points);
-      this.points.geometry.dispose();
-    }
+    const before = this.points;
     this.points = new THREE.Points(geometry, this.materials.points);
+    if (before) {
+      this.points.visible = before.visible;
+      this.world.remove(before);
+      before.geometry.dispose();
+    }
     this.points.frustumCulled = false;
-    this.pixelOf = pixels;
+    this.ids = ids;
     this.world.add(this.points);
+    this.draw();
+  }
+
+  showAllPoints(on) {
+    this.points.visible = on;
     this.draw();
   }
 
@@ -209,36 +188,9 @@ class Stage {
     this.draw();
   }
 
-  showRays(pixel) {
-    for (const child of [...this.rays.children]) {
-      this.rays.remove(child);
-      child.geometry.dispose();
-      this.lines = this.lines.filter(line => line !== child);
-    }
-    this.labels = this.labels.filter(label => !label.ofRays || (label.node.remove(), false));
-    const scene = this.scene;
-    const mark = (place, kind, text) => {
-      this.dot(place, COLOURS[kind], 11, this.rays);
-      this.label(text, place, "mark", COLOURS[kind]).ofRays = true;
-    };
-    if (scene.seesSomething(pixel)) {
-      const truth = scene.truth(pixel), bends = scene.bends(pixel, "camera"), lit = scene.has(pixel, "apparent");
-      this.line([scene.camera, ...bends, truth], COLOURS.camera, 3, this.rays);
-      if (lit) {
-        const others = scene.bends(pixel, "projector"), apparent = scene.apparent(pixel);
-        this.line([scene.projector, ...others, truth], COLOURS.projector, 3, this.rays);
-        if (bends.length) this.line([bends[0], apparent], COLOURS.camera, 1.6, this.rays, 0.0016);
-        if (others.length) {
-          const out = others[0].clone().sub(scene.projector);
-          const end = scene.projector.clone().addScaledVector(out, scene.apparentDepth(pixel) / out.dot(scene.forward));
-          this.line([others[0], end], COLOURS.projector, 1.6, this.rays, 0.0016);
-        }
-        if (bends.length || others.length) mark(apparent, "apparent", "straight rays meet");
-      }
-      mark(truth, "true", "really here");
-    }
-    if (scene.has(pixel, "measured")) this.dot(scene.measured(pixel), COLOURS.measured, 9, this.rays);
-    this.draw();
+  // A direction to look from: up, and to the right of the sensor's side.
+  from(up, right) {
+    return this.across.clone().negate().setZ(up).add(new THREE.Vector3(this.across.y, -this.across.x, 0).multiplyScalar(right));
   }
 
   look(from, at, distance) {
@@ -249,7 +201,7 @@ class Stage {
     this.draw();
   }
 
-  // The pixel whose point is nearest to a place on the canvas, the foremost of those within some pixels.
+  // What the point is picked as that is nearest to a place on the canvas, the foremost of those within some pixels.
   nearest(x, y) {
     const width = this.box.clientWidth, height = this.box.clientHeight, reach = 9, p = new THREE.Vector3();
     const places = this.points.geometry.attributes.position, clipped = this.materials.points.clippingPlanes || [];
@@ -262,7 +214,7 @@ class Stage {
       const off = Math.hypot((p.x + 1) / 2 * width - x, (1 - p.y) / 2 * height - y);
       if (off > reach || Math.abs(p.z) > 1) continue;
       const badness = away + 0.004 * off;
-      if (badness < least) [best, least] = [this.pixelOf[k], badness];
+      if (badness < least) [best, least] = [this.ids[k], badness];
     }
     return best;
   }
@@ -273,8 +225,8 @@ class Stage {
     const end = event => {
       const t = event.changedTouches ? event.changedTouches[0] : event;
       if (!down || Math.hypot(t.clientX - down[0], t.clientY - down[1]) > 4) return;
-      const box = this.canvas.getBoundingClientRect(), pixel = this.nearest(t.clientX - box.left, t.clientY - box.top);
-      if (pixel !== null && this.onPick) this.onPick(pixel);
+      const box = this.canvas.getBoundingClientRect(), id = this.nearest(t.clientX - box.left, t.clientY - box.top);
+      if (id !== null && this.onPick) this.onPick(id);
     };
     this.canvas.addEventListener("mousedown", begin);
     this.canvas.addEventListener("mouseup", end);
