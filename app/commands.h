@@ -32,8 +32,6 @@ inline constexpr std::array kCommands{
             "  fathom capture scenes/paper_milk_tea.json -o out/milk_tea\n"
             "  fathom capture scenes/glass_water.json --light full -o out/glass",
             define_capture, kNeedsOutput},
-    Command{"view", "A capture as a page for a browser: its points turn, and each pixel shows where its rays bend",
-            "  fathom view out/water\n  fathom view out/glass -o out/glass.html", define_view, false, "FILE"},
     Command{"export", "A scene as glTF 2.0 for Blender and others, or one of its cups as a shape for other scenes",
             "  fathom export scenes/glass_water.json -o out/glass.glb\n"
             "  fathom export scenes/glass_water.json --cup 0 -o out/tumbler.glb",
@@ -82,6 +80,10 @@ inline constexpr std::array kCommands{
             "  fathom diagnose out/paper --model out/diagnosis/model.json -o out/rest\n"
             "  fathom diagnose out/paper --fidelity photometric -o out/traced",
             define_diagnose, kNeedsOutput},
+    Command{"view", "A capture, a detection or a diagnosis as a page for a browser, on which it can be turned",
+            "  fathom view out/water\n  fathom view out/glass -o out/glass.html\n"
+            "  fathom view out/detected\n  fathom view out/diagnosis",
+            define_view, false, "FILE"},
     Command{"reproduce", "The paper's figures, simulated beside printed: data, pictures and report.html",
             "  fathom reproduce fig10 fig12 fig13 -o out/theory\n  fathom reproduce fig5 fig14 --trials 10 -o "
             "out/paper_figures",

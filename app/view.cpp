@@ -42,20 +42,20 @@ struct Viewable {
 };
 
 PageContent diagnosis_content(const ViewOptions& options) {
-  if (options.frame > 0) throw Error(options.folder.string(), "holds a diagnosis, which has no frames: leave --frame out");
+  if (options.frame > 0)
+    throw Error(options.folder.string(), "holds a diagnosis, which has no frames: leave --frame out");
   return {diagnosis_scene(options.folder), kDiagnosisScript};
 }
 
-constexpr std::array kViewables{
-    Viewable{"capture", "run.json",
-             [](const ViewOptions& options) -> PageContent {
-               return {capture_scene(options.folder, options.frame), kCaptureScript};
-             }},
-    Viewable{"detection", kDetectionFile,
-             [](const ViewOptions& options) -> PageContent {
-               return {detection_scene(options.folder, options.frame), kDetectionScript};
-             }},
-    Viewable{"diagnosis", "report.json", diagnosis_content}};
+constexpr std::array kViewables{Viewable{"capture", "run.json",
+                                         [](const ViewOptions& options) -> PageContent {
+                                           return {capture_scene(options.folder, options.frame), kCaptureScript};
+                                         }},
+                                Viewable{"detection", kDetectionFile,
+                                         [](const ViewOptions& options) -> PageContent {
+                                           return {detection_scene(options.folder, options.frame), kDetectionScript};
+                                         }},
+                                Viewable{"diagnosis", "report.json", diagnosis_content}};
 
 /// What of the folder is shown. Throws Error where that is not plain.
 const Viewable& viewable_in(const ViewOptions& options) {

@@ -32,7 +32,7 @@ struct CupCandidate {
   int band_points = 0;
   std::optional<Circle> circle;
   std::optional<double> lean{};  ///< change of the wall's radius with the height, where the method knows it
-  std::string rejected;  ///< why this is no cup; empty while it may be one
+  std::string rejected;          ///< why this is no cup; empty while it may be one
 };
 
 /// Measures the segment and rejects it at the first gate it fails.

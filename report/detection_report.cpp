@@ -73,8 +73,7 @@ Json cup_json(const DetectedCup& cup) {
   json.update(circle_json(cup.candidate, cup.match));
   json["radius_sigma_mm"] = optional_mm(cup.radius_sigma_m);
   json["height_mm"] = mm_from_metres(cup.candidate.top_m);
-  json["lean_deg"] =
-      cup.candidate.lean ? Json(deg_from_radians(std::atan(*cup.candidate.lean))) : Json();
+  json["lean_deg"] = cup.candidate.lean ? Json(deg_from_radians(std::atan(*cup.candidate.lean))) : Json();
   json["score"] = mm_from_metres(cup.score_m);
   json["liquid"] = name_of(cup.liquid);
   json["p_liquid"] = cup.p_liquid ? Json(*cup.p_liquid) : Json();

@@ -76,7 +76,8 @@ ReportShots shots_of(const std::vector<Observation>& observations, const Measure
     const auto found = first.find({f.session, f.pour, f.placement, f.liquid});
     if (observations[i].observable != "height_mm" || found == first.end()) continue;
     const auto [number, is_new] = numbers.emplace(found->second, static_cast<int>(result.shots.size()));
-    if (is_new) result.shots.push_back(shot_of(*found->second, measurement.rig, folders[found->second->folder], report, f));
+    if (is_new)
+      result.shots.push_back(shot_of(*found->second, measurement.rig, folders[found->second->folder], report, f));
     result.of[i] = number->second;
   }
   return result;

@@ -27,7 +27,7 @@ LAYERS = {
     "diagnosis/ray_traced": ["core", "sim/*", "diagnosis/statistics", "diagnosis/decision", "diagnosis/measurement", "diagnosis/unit",
                              "diagnosis/predict"],
     "report": ["core", "detector", "sim/effects", "diagnosis/*"],
-    "view": ["core", "theory", "sim/*", "report"],
+    "view": ["core", "theory", "sim/*", "detector", "diagnosis/measurement", "report"],
     "trials": ["core", "detector", "sim/*", "report"],
     "datasets": ["core", "sim/*", "report"],
     "campaign": ["core", "detector", "sim/*", "diagnosis/measurement", "diagnosis/predict"],

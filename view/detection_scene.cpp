@@ -25,12 +25,11 @@ struct Shown {
   Range range;
 };
 constexpr Shown kOfDesk[] = {{"height_mm", kPlaceMm}, {"pitch_deg", {-90.0, 90.0}}, {"rms_mm", kLengthOrNoneMm}};
-constexpr Shown kOfCup[] = {{"radius_mm", kLengthMm},        {"height_mm", kLengthMm},
-                            {"radius_sigma_mm", kNonNegative}, {"lean_deg", {-89.0, 89.0}},
-                            {"p_liquid", {0.0, 1.0}},         {"surface_mm", kPlaceMm},
-                            {"sigma_mm", kNonNegative},       {"sd_mm", kNonNegative},
-                            {"bottom_mm", kPlaceMm},          {"fill_mm", kLengthOrNoneMm},
-                            {"fill_sigma_mm", kNonNegative},  {"rms_mm", kNonNegative}};
+constexpr Shown kOfCup[] = {
+    {"radius_mm", kLengthMm},     {"height_mm", kLengthMm},        {"radius_sigma_mm", kNonNegative},
+    {"lean_deg", {-89.0, 89.0}},  {"p_liquid", {0.0, 1.0}},        {"surface_mm", kPlaceMm},
+    {"sigma_mm", kNonNegative},   {"sd_mm", kNonNegative},         {"bottom_mm", kPlaceMm},
+    {"fill_mm", kLengthOrNoneMm}, {"fill_sigma_mm", kNonNegative}, {"rms_mm", kNonNegative}};
 constexpr Shown kOfCandidate[] = {{"width_mm", kLengthOrNoneMm}, {"height_mm", kPlaceMm}, {"surface_mm", kPlaceMm}};
 
 /// Numbers, or null where nothing was seen.
@@ -131,8 +130,7 @@ class Found {
     cup["kind"] = kKind[json.at("kind").choice(kKind, "kind")];
     cup["why"] = json.text("why");
     const double lean = cup["lean_deg"].is_null() ? 0.0 : std::tan(radians_from_deg(cup["lean_deg"].get<double>()));
-    standing_.push_back(
-        {middle_of(cup["at_m"]), metres_of(cup, "radius_mm"), lean, metres_of(cup, "height_mm")});
+    standing_.push_back({middle_of(cup["at_m"]), metres_of(cup, "radius_mm"), lean, metres_of(cup, "height_mm")});
     cups.push_back(std::move(cup));
   }
 
@@ -142,8 +140,8 @@ class Found {
       if (candidate[needed].is_null()) json.fail_at(needed, "must be a number");
     candidate["at_m"] = place(json);
     candidate["reason"] = json.text("reason");
-    standing_.push_back({middle_of(candidate["at_m"]), 0.5 * metres_of(candidate, "width_mm"), 0.0,
-                         metres_of(candidate, "height_mm")});
+    standing_.push_back(
+        {middle_of(candidate["at_m"]), 0.5 * metres_of(candidate, "width_mm"), 0.0, metres_of(candidate, "height_mm")});
     candidates.push_back(std::move(candidate));
   }
 

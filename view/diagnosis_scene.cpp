@@ -127,22 +127,15 @@ Json condition_json(const Table& table, const Condition& condition, const Shot* 
   const PlacementName shown =
       shot && placements.contains(shot->placement) ? shot->placement : placement_of_row(table, condition.rows.front());
   const Factors& f = condition.factors;
-  Json json = {{"words", condition_words(f)},
-               {"liquid", f.liquid},
-               {"fill_mm", f.fill_mm},
-               {"distance_mm", f.distance_mm},
-               {"lateral_mm", f.lateral_mm},
-               {"before_mm", before},
-               {"after_mm", after},
-               {"placements", placements.size()},
-               {"placement", shown},
-               {"regions", regions_json(table, condition, shown)}};
+  Json json = {{"words", condition_words(f)}, {"liquid", f.liquid},
+               {"fill_mm", f.fill_mm},        {"distance_mm", f.distance_mm},
+               {"lateral_mm", f.lateral_mm},  {"before_mm", before},
+               {"after_mm", after},           {"placements", placements.size()},
+               {"placement", shown},          {"regions", regions_json(table, condition, shown)}};
   if (!shot || shot->placement != shown) return json;
   std::vector<std::int16_t> places;
   for (const Eigen::Vector3d& point : shot->points) code.add(point, places);
-  json["shot"] = {{"frame", shot->frame},
-                  {"camera", json_of(shot->camera)},
-                  {"points", packed(places)}};
+  json["shot"] = {{"frame", shot->frame}, {"camera", json_of(shot->camera)}, {"points", packed(places)}};
   return json;
 }
 
@@ -181,8 +174,7 @@ Json diagnosis_scene(const fs::path& folder) {
   Json conditions = Json::array();
   for (const Condition& condition : conditions_of(table)) {
     const Factors& f = condition.factors;
-    const auto shot =
-        shots.find({f.liquid, in_table(f.fill_mm), in_table(f.distance_mm), in_table(f.lateral_mm)});
+    const auto shot = shots.find({f.liquid, in_table(f.fill_mm), in_table(f.distance_mm), in_table(f.lateral_mm)});
     conditions.push_back(condition_json(table, condition, shot == shots.end() ? nullptr : &shot->second, code));
   }
   return {{"answer", report.text("answer")},

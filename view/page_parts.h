@@ -7,6 +7,7 @@ namespace fathom {
 
 extern const std::string_view kPageStyle;
 extern const std::string_view kCommonScript;
-extern const std::string_view kCaptureScript, kDetectionScript, kDiagnosisScript;  ///< of each page, after the common one
+extern const std::string_view kCaptureScript, kDetectionScript,
+    kDiagnosisScript;  ///< of each page, after the common one
 
 }  // namespace fathom

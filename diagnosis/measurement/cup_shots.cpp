@@ -25,8 +25,7 @@ std::optional<CupShot> cup_shot(const FrameRecord& frame, const Measurement& mea
   const std::optional<FrameEstimates> estimates = estimate_frame(sensed, rig, view);
   if (!estimates || !is_near(estimates->desk, rig)) return std::nullopt;
   const Eigen::Vector2d axis = axis_from_camera(rig, *view.cup);
-  const Eigen::Isometry3d to_cup =
-      Eigen::Translation3d(-axis.x(), -axis.y(), 0.0) * desk_from_camera(estimates->desk);
+  const Eigen::Isometry3d to_cup = Eigen::Translation3d(-axis.x(), -axis.y(), 0.0) * desk_from_camera(estimates->desk);
   constexpr double kDeskAround = 0.03, kBelow = 0.015, kAbove = 0.02;  // [m]
   const double reach = rig.cup.widest() + kDeskAround, top = rig.cup.height() + kAbove;
   CupShot shot{&frame, {}, to_cup.translation()};
@@ -53,8 +52,7 @@ std::vector<CupShot> cup_shots(const Measurement& measurement, std::span<const s
                                std::size_t most) {
   std::map<std::tuple<std::string, double, double, double>, std::vector<const FrameRecord*>> by_condition;
   for (const FrameRecord& f : measurement.frames)
-    if (!f.cloud.empty() && !f.bare_desk())
-      by_condition[{f.liquid, f.fill_m, f.distance_m, f.lateral_m}].push_back(&f);
+    if (!f.cloud.empty() && !f.bare_desk()) by_condition[{f.liquid, f.fill_m, f.distance_m, f.lateral_m}].push_back(&f);
   std::vector<std::vector<const FrameRecord*>> conditions;
   for (auto& [condition, frames] : by_condition) conditions.push_back(std::move(frames));
   std::vector<std::optional<CupShot>> shots(conditions.size());

@@ -15,8 +15,8 @@ struct CupShot {
   Eigen::Vector3d camera;    ///< [m] the same
 };
 
-/// Of each liquid, fill and place the first cloud that shows the desk, the unit's bias taken off. `folders` as they were
-/// read; `most`: points of all shots together, of which all have about as many.
+/// Of each liquid, fill and place the first cloud that shows the desk, the unit's bias taken off. `folders` as they
+/// were read; `most`: points of all shots together, of which all have about as many.
 std::vector<CupShot> cup_shots(const Measurement& measurement, std::span<const std::filesystem::path> folders,
                                std::size_t most);
 

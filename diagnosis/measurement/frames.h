@@ -12,10 +12,10 @@ namespace fathom {
 struct FrameRecord {
   std::string frame;
   int session = 0, pour = 0, placement = 0, trial = 0;
-  double time_s = 0.0;   ///< since the session began
-  double stood_s = 0.0;  ///< since the first frame of its pour; 0 of a bare desk
+  double time_s = 0.0;     ///< since the session began
+  double stood_s = 0.0;    ///< since the first frame of its pour; 0 of a bare desk
   std::size_t folder = 0;  ///< of those that are read together
-  std::string liquid;    ///< "empty", "none" (bare desk), or a liquid of the rig
+  std::string liquid;      ///< "empty", "none" (bare desk), or a liquid of the rig
   double fill_m = 0.0, distance_m = 0.0, lateral_m = 0.0;
   std::filesystem::path cloud;                            ///< empty: the height stands in the table
   std::filesystem::path infrared;                         ///< image beside the cloud; empty: none

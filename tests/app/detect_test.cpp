@@ -83,6 +83,40 @@ TEST_F(DetectCommand, RowsAreNameValueUnit) {
   EXPECT_EQ(read_text(folder / "kept" / "detection.txt"), run.out);
 }
 
+TEST_F(DetectCommand, AFolderKeepsWhatWasFoundAndTheCloudsOfIt) {
+  const fs::path kept = folder / "kept";
+  const auto detect = [&](const std::string& arguments) {
+    const ProgramRun run = run_fathom("detect " + arguments + " --config " + config + " -o " + kept.string());
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  };
+  const std::string rows = detect(empty + " " + filled);
+  EXPECT_EQ(read_text(kept / "detection.txt"), rows);
+  const Json both = read_json(kept / "detection.json");
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[1].at("cloud"), filled);
+  // What was kept is what was searched, also where it is searched in its own folder.
+  EXPECT_EQ(Json::parse(detect((kept / "detection_0001.pcd").string() + " --json")).at("cups"), both[1].at("cups"));
+  EXPECT_TRUE(fs::exists(kept / "detection_0000.pcd"));
+  for (const char* older : {"detection.txt", "detection_0001.pcd"}) EXPECT_FALSE(fs::exists(kept / older)) << older;
+  detect(empty + " " + filled + " --keep-clouds 0");
+  EXPECT_FALSE(fs::exists(kept / "detection_0000.pcd"));
+}
+
+TEST_F(DetectCommand, TellsHowMuchRoomThereIsToWhatItFinds) {
+  const Json found = Json::parse(run_fathom("detect " + filled + " --json --config " + config).out);
+  EXPECT_NEAR(found.at("cups")[0].at("height_mm").get<double>(), 87.0, 1.0);
+  EXPECT_NEAR(found.at("cups")[0].at("lean_deg").get<double>(), 0.0, 1.0);
+  write_text(config, R"({"templates": ["paper_cup.json"], "robust": {"radius_mm": [20, 30]}})");
+  const Json none = Json::parse(run_fathom("detect " + filled + " --json --config " + config).out);
+  const Json& candidate = none.at("candidates").at(0);
+  EXPECT_NEAR(candidate.at("height_mm").get<double>(), 87.0, 1.0);
+  EXPECT_NEAR(candidate.at("width_mm").get<double>(), 83.0, 3.0);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(candidate.at("center_camera_m")[axis].get<double>(),
+                found.at("cups")[0].at("center_camera_m")[axis].get<double>(), 0.003);
+}
+
 TEST_F(DetectCommand, ATemplateOfASimulatedCupThatIsNotEmptyIsRefused) {
   write_text(folder / "run.json", R"({"scene": {"cups": [{"shape": "paper_cup", "liquid": "water", "fill_mm": 30}]}})");
   const ProgramRun run = run_fathom("template " + filled + " --name full -o " + folder.string());

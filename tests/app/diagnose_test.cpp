@@ -83,10 +83,10 @@ TEST_F(DiagnoseCommand, NamesNothingWhereNothingIsHidden) {
   EXPECT_EQ(report["verdict"], "none") << report["answer"];
   EXPECT_TRUE(report["effects"].empty());
   EXPECT_TRUE(read_json(folder / "out" / "model.json")["effects"].empty());
-  for (const char* file : {"report.html", "next.json", "residuals.csv", "heights.png", "map.png"})
+  for (const char* file : {"report.html", "next.json", "residuals.csv", "shots.json", "heights.png", "map.png"})
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
   diagnosis("again", "--threads 1");
-  for (const char* file : {"report.json", "report.html", "model.json", "residuals.csv"})
+  for (const char* file : {"report.json", "report.html", "model.json", "residuals.csv", "shots.json"})
     EXPECT_EQ(read_text(folder / "out" / file), read_text(folder / "again" / file)) << file;
 }
 

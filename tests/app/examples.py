@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 # Words of examples that take longer than some seconds.
-SLOW = ["full", "out/glass", "milk_tea", "evaluate", "campaign", "diagnose", "measure", "calibrate", "check out", "--frames 1000", "reproduce", "verify all", "verify slab",
+SLOW = ["full", "out/glass", "milk_tea", "evaluate", "campaign", "diagnose", "measure", "calibrate", "out/diagnosis", "check out", "--frames 1000", "reproduce", "verify all", "verify slab",
         "--live"]
 
 

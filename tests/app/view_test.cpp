@@ -90,6 +90,28 @@ TEST_F(ViewCommand, SaysWhichFrameThereIsAndWhatThreeJsIsFor) {
   EXPECT_NE(missing.err.find("libjs-three"), std::string::npos) << missing.err;
 }
 
+TEST_F(ViewCommand, ADetectionIsAPageAsWell) {
+  EXPECT_EQ(run("detect {0}/shot/cloud.pcd -o {0}/found --quiet").exit_code, 0);
+  EXPECT_EQ(run("view {0}/found").exit_code, 0);
+  EXPECT_EQ(run("view {0}/found -o {0}/page.html").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "page.html"), read_text(folder_ / "found/view.html"));
+  EXPECT_EQ(run("detect {0}/shot/cloud.pcd -o {0}/found --keep-clouds 0 --quiet").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "found/view.html"));  // it is of an older detection
+  const ProgramRun without = run("view {0}/found");
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_NE(without.err.find("detection_0000.pcd: is missing"), std::string::npos) << without.err;
+}
+
+TEST_F(ViewCommand, WhereAFolderHoldsSeveralResultsOneIsChosen) {
+  EXPECT_EQ(run("detect {0}/shot/cloud.pcd -o {0}/shot --quiet").exit_code, 0);
+  expect_no_page("holds a capture and a detection: choose one with --show");
+  EXPECT_EQ(run("view {0}/shot --show detection").exit_code, 0);
+  EXPECT_NE(read_text(folder_ / "shot/view.html").find("FoundStage"), std::string::npos);
+  EXPECT_EQ(run("view {0}/shot --show capture").exit_code, 0);
+  EXPECT_NE(read_text(folder_ / "shot/view.html").find("CaptureStage"), std::string::npos);
+  EXPECT_EQ(run("view {0}/shot --show cup").exit_code, 2);
+}
+
 TEST_F(ViewCommand, ExportWritesAModelOrSaysWhyNot) {
   EXPECT_EQ(run("export {0}/scene.json -o {0}/scene.glb").exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "scene.glb").substr(0, 4), "glTF");

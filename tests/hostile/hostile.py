@@ -38,7 +38,9 @@ def try_one(program, seed, number, seeds, root, limits):
     here.mkdir(parents=True)
     env = environment(program, root)
     kind, arguments, shell, env["LC_ALL"] = kinds.make(seed, number, seeds, here)
-    full = [program, *arguments, "-o", str(out), "--quiet", "--threads", "1"]
+    if arguments[0] == "view":  # its output is a file
+        out.mkdir()
+    full = [program, *arguments, "-o", str(out / "page.html" if arguments[0] == "view" else out), "--quiet", "--threads", "1"]
     before = judge.snapshot(root, {out})
     alive = (lambda: any((out / "clouds").glob("*.pcd"))) if arguments[0] == "campaign" else None
     run = judge.run(full, cwd, env, limits, shell, alive)

@@ -184,7 +184,7 @@ def strays(before, after, root):
 
 
 MARKERS = {"capture": "run.json", "campaign": "frames.csv", "diagnose": "report.json", "evaluate": "rates.txt",
-           "measure": "heights.csv"}
+           "measure": "heights.csv", "detect": "detection.json"}
 
 
 def leftovers(out, result, command):

@@ -230,6 +230,19 @@ def config(rng, seeds, here):
     return ["detect", "cloud.pcd", "--config", "config.json", *rng.choice([[], ["--method", "paper"], ["--json"]])]
 
 
+def viewed(rng, seeds, here):
+    """A detection and a diagnosis of which pages are made."""
+    what, names = rng.choice([("found", ["detection.json"] * 3 + ["detection_0000.pcd"]), ("diagnosis", ["report.json", "residuals.csv", "shots.json"])])
+    shutil.copytree(seeds.results / what, here / what)
+    file = here / what / rng.choice(names)
+    if file.suffix == ".pcd":
+        file.write_bytes(mutate_bytes.mutate_bytes(rng, file.read_bytes()))
+    else:
+        mutate = mutate_text.mutate_csv if file.suffix == ".csv" else mutate_text.mutate_json
+        file.write_bytes(text_mutant(rng, file.read_text(), here, seeds.rig, mutate))
+    return ["view", what]
+
+
 def resumed(rng, seeds, here):
     """What a second run finds in the folder of the first: `out` is filled beforehand (main)."""
     (here / "spec.json").write_text((seeds.clouds.parent / "spec.json").read_text())
@@ -247,7 +260,7 @@ def resumed(rng, seeds, here):
 
 # Kind: share of the mutants.
 KINDS = {scene: 18, campaign: 9, rig: 11, frames: 11, model: 5, pcd: 11, ply: 9, gltf: 10, exr: 5, record: 2, png: 5, infrared: 2,
-         clutter: 2, dataset: 3, labelled: 3, config: 4, resumed: 2}
+         clutter: 2, dataset: 3, labelled: 3, config: 4, viewed: 4, resumed: 2}
 NAMES = [kind.__name__ for kind in KINDS]
 # How the program is called: what its streams lead to.
 STREAMS = ["2>&-", ">&- 2>&-", "2>/dev/full", ">/dev/full", ">&-", "<&-"]

@@ -137,6 +137,9 @@ class Seeds:
         subprocess.run([program, "generate", "frames.json", "--frames", "1", "-o", "drawn", "--quiet"], cwd=folder, env=env, check=True,
                        stdout=subprocess.DEVNULL)
         self.drawn = folder / "drawn"
+        self.results = folder / "results"
+        for arguments in (["detect", "campaign/clouds/000001.pcd", "-o", "results/found"], ["diagnose", "campaign", "-o", "results/diagnosis"]):
+            subprocess.run([program, *arguments, "--quiet"], cwd=folder, env=env, check=True, stdout=subprocess.DEVNULL)
         self.disparity = (self.recording / "disparity.exr").read_bytes()
         self.record = (self.recording / "run.json").read_text()
         self.require_good(program, folder, env)
@@ -171,7 +174,7 @@ class Seeds:
                                                                                               "config.json"],
             ["detect", "binary.pcd", "binary_compressed.pcd", "--poses", "poses.json"], ["template", "binary.pcd", "--name", "x"],
             ["evaluate", "recognition", "--trials", "1", "--clutter", "clutter.json"], ["generate", "frames.json", "--frames", "1"],
-            ["evaluate", "."], ["evaluate", str(self.drawn)],
+            ["evaluate", "."], ["evaluate", str(self.drawn)], ["view", str(self.results / "found")], ["view", str(self.results / "diagnosis")],
         ["detect", "--live", str(self.recording)]]
         for i, command in enumerate(commands):
             subprocess.run([program, *command, "-o", str(folder / f"out{i}"), "--quiet"], cwd=good, env=env, check=True,

@@ -1,7 +1,6 @@
 // What the page of a capture is given: every pixel as it was traced, and no text that could do more than be read.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cmath>
 
@@ -10,33 +9,14 @@
 #include "sim/render/truth.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/view/unpacked.h"
 #include "view/packed.h"
 #include "view/page.h"
+#include "view/page_parts.h"
 #include "view/pixel_table.h"
 
 namespace fathom {
 namespace {
-
-/// What packed() made, as the page's script reads it.
-template <class T>
-std::vector<T> unpacked(const Json& block) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned bits = 0;
-  int held = 0;
-  for (const char c : block["deflate"].get<std::string>()) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<unsigned>(kDigits.find(c));
-    if ((held += 6) >= 8) bytes += static_cast<char>(bits >> (held -= 8) & 255U);
-  }
-  std::vector<T> values(4'000'000 / sizeof(T));
-  uLongf size = static_cast<uLongf>(values.size() * sizeof(T));
-  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(values.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                       static_cast<uLong>(bytes.size())),
-            Z_OK);
-  values.resize(size / sizeof(T));
-  return values;
-}
 
 TEST(CapturePage, HasEveryPixelAsItWasTraced) {
   const auto setup = setup_from_json(Json::parse(R"({
@@ -98,20 +78,26 @@ TEST(CapturePage, TakesLargerImagesInSteps) {
 }
 
 TEST(CapturePage, TextOfFilesEndsNoElement) {
-  const std::string page = view_page("</title><script>alert(1)</script>",
-                                     {{"name", "</script><script>alert(2)</script><!--"}}, kThreeFolder);
-  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
-  EXPECT_EQ(page.find("<!--"), std::string::npos);
-  std::size_t ends = 0;
-  for (std::size_t at = 0; (at = page.find("</script>", at)) != std::string::npos; ++at) ++ends;
-  EXPECT_EQ(ends, 7U);  // the data, five files of three.js, the page's own
-  for (const char* of_the_net : {"src=\"http", "href=\"http", "@import"})
-    EXPECT_EQ(page.find(of_the_net), std::string::npos) << of_the_net;
+  const Json data = {{"name", "</script><script>alert(2)</script><!--"}};
+  for (const std::string_view script : {kCaptureScript, kDetectionScript, kDiagnosisScript}) {
+    const std::string page = view_page("</title><script>alert(1)</script>", {data, script}, kThreeFolder);
+    EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+    EXPECT_EQ(page.find("<!--"), std::string::npos);
+    std::size_t ends = 0;
+    for (std::size_t at = 0; (at = page.find("</script>", at)) != std::string::npos; ++at) ++ends;
+    EXPECT_EQ(ends, 8U);  // the data, five files of three.js, the pages' common script, the page's own
+    for (const char* of_the_net : {"src=\"http", "href=\"http", "@import"})
+      EXPECT_EQ(page.find(of_the_net), std::string::npos) << of_the_net;
+  }
 }
 
 TEST(CapturePage, SaysWhatIsMissingWithoutThreeJs) {
   const TemporaryFolder folder;
-  expect_error([&] { view_page("page", Json::object(), folder / ""); }, {"three.min.js: is missing", "libjs-three"});
+  expect_error(
+      [&] {
+        view_page("page", {Json::object(), kCaptureScript}, folder / "");
+      },
+      {"three.min.js: is missing", "libjs-three"});
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ function build(data, page) {
     return made;
   };
 
-  const middle = stage.middle.clone().setZ(data.desk ? 0.03 : stage.middle.z), room = Math.max(stage.reach * 2.6, 0.52);
+  const middle = stage.middle.clone().setZ(data.desk ? 0.03 : stage.middle.z), room = Math.max(stage.reach * 3.2, 0.52);
   const views = {
     "all": () => stage.look(stage.from(0.8, 0.5), middle, room),
     "picked": () => state.picked && stage.look(stage.from(0.75, 0.55), state.picked.at.clone().setZ(0.45 * state.picked.height), 5.2 * Math.max(state.picked.height, 2 * state.picked.radius)),
