@@ -15,7 +15,9 @@ def main(program):
     text = PAGE.read_text()
     said = ""
     with tempfile.TemporaryDirectory() as folder:
-        for block in re.findall(r"^```\n(.*?)^```$", text, re.M | re.S):
+        for kind, block in re.findall(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S):
+            if kind:
+                continue
             block = re.sub(r"^fathom ", f"{program} ", block, flags=re.M)
             done = subprocess.run(["bash", "-euc", block], cwd=folder, capture_output=True, text=True)
             if done.returncode:
