@@ -189,6 +189,9 @@ TEST_F(DiagnoseCommand, SaysWhichMeasurementTellsTwinsApartAndThatOneDoes) {
   const Json after = diagnosis("both", path("more"));
   EXPECT_TRUE(is_in_set(after, "cup_bottom_height")) << after["ambiguity_set"];
   EXPECT_FALSE(is_in_set(after, "fill_offset") || is_in_set(after, "foam")) << after["ambiguity_set"];
+  const std::string page = read_text(folder / "both" / "report.html");
+  for (const char* clouds : {"href=\"../campaign/clouds/", "href=\"../more/clouds/"})
+    EXPECT_NE(page.find(clouds), std::string::npos) << clouds;
 }
 
 /// Combs alone are no gap; what they may be, and what would confirm it, stands in a note.

@@ -20,13 +20,14 @@ function build(data, page) {
   const range = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05].find(each => each * MM >= most) || 0.1;
   const state = { model: "before", cut: true, condition: conditions.reduce((worst, each) => (size(each) > size(worst) ? each : worst)) };
 
-  const withEffects = data.effects.length ? `after: with ${data.effects.join(" and ")}` : "after: errors at their best values";
+  const withEffects = data.effects.length ? `after: with ${data.effects.join(" and ")}` : "after: with the measurement's errors at their best values";
   const names = { before: "before: as it was written down", after: withEffects };
   const colouring = { title: "Points: measured minus model", scale: SIGNS_ON_WHITE, ends: [`−${range * MM} mm`, "0", `+${range * MM} mm`] };
   parts.legend.replaceChildren(...legend(colouring));
   const show = () => {
     stage.show(state.condition, state.model, range);
     stage.cutAt(state.cut ? stage.axis : null);
+    parts.legend.hidden = !state.condition.shot;
     document.documentElement.dataset.model = state.model;
   };
   const cards = new Map();
@@ -51,7 +52,7 @@ function build(data, page) {
     sensor: () => look(false, state.condition.shot ? vector(state.condition.shot.camera) : stage.from(1, 0), room) };
   parts.buttons.append(button("Cup", views.cup), button("From the side", views.side), button("From above", views.above), button("From the sensor", views.sensor));
 
-  const lists = [];
+  const list = element("div", { class: "cards scrolled" }), lists = [];
   for (const condition of conditions) {
     if (!lists.length || lists[lists.length - 1].liquid !== condition.liquid) lists.push({ liquid: condition.liquid, made: [] });
     const card = conditionCard(condition, most, () => pick(condition));
@@ -65,12 +66,14 @@ function build(data, page) {
             tick("The cup's walls", true, on => stage.showBodies(on)),
             tick("The model's levels", true, on => { stage.plates.visible = on; stage.draw(); })),
     element("p", { class: "small" }, "Fill and place of the cup; then measured minus model in mm: ", word("before", "● before"), ", ", word("after", "● after"), ". Choose a condition to see it."),
-    element("div", { class: "cards scrolled" }, ...lists.flatMap(({ liquid, made }) => [element("h3", {}, liquid), ...made])));
+    list);
+  list.append(...lists.flatMap(({ liquid, made }) => [element("h3", {}, liquid), ...made]));
 
   // "#view=side&model=after&condition=3", each of them if wanted.
   const wish = wishes();
   grantChoices(parts.panel, state, ["model"]);
   pick(conditions[Number(wish.get("condition") ?? NaN)] || state.condition);
+  list.scrollTop = cards.get(state.condition).offsetTop - list.offsetTop - list.clientHeight / 2;
   views[granted(wish.get("view"), views, "cup")]();
 }
 

@@ -1,6 +1,11 @@
 // What is said of a condition: the heights by part of the cup, and a slice along the line of sight.
 
-const signed = (number, digits = 1) => `${number < 0 ? "−" : "+"}${Math.abs(number).toFixed(digits)}`;
+// "+1.2"; what is rounded to nothing has no sign.
+function signed(number) {
+  const size = Math.abs(number).toFixed(1);
+  return `${size === "0.0" ? "" : number < 0 ? "−" : "+"}${size}`;
+}
+
 
 function heightsTable(condition) {
   const head = ["part of the cup", "measured [mm]", "model before [mm]", "model after [mm]", "measured − model before", "after, ± 1 σ"];
