@@ -70,7 +70,7 @@ void measure_alone(const std::string& name, double count, Work work) {
 }  // namespace
 
 void register_generate() {
-  constexpr int kGeometric = 120, kPhotometric = 4;  // the first 24 of a data set have previews
+  constexpr int kGeometric = 100, kPhotometric = 4;  // a whole scene, of which 24 frames have previews
   measure_frames("generate/geometric", "geometric", kGeometric);
   measure_frames("generate/photometric", "photometric", kPhotometric);
   const auto alone = std::make_shared<Generated>("geometric", kGeometric);

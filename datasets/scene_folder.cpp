@@ -27,14 +27,9 @@ constexpr std::uint64_t kCameraStream = 0x63616d657261ULL;
 std::string frame_name(int image) { return fmt::format("{:06}", image); }
 
 /// Tenths of a millimetre; 0 where there is nothing, or more than 16 bits hold.
-template <class Depth>
-Image<std::uint16_t> depth_counts(const Image<TruePixel>& truth, Depth depth) {
-  Image<std::uint16_t> counts(truth.width(), truth.height());
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double count = depth(i) * (1e3 / kDepthUnitMm) + 0.5;  // a cast cuts off
-    counts.pixels()[i] = count >= 1.0 && count < 65536.0 ? static_cast<std::uint16_t>(count) : 0;
-  }
-  return counts;
+std::uint16_t depth_count(double depth) {
+  const double count = depth * (1e3 / kDepthUnitMm) + 0.5;  // a cast cuts off
+  return count >= 1.0 && count < 65536.0 ? static_cast<std::uint16_t>(count) : std::uint16_t{0};
 }
 
 /// Errors of a drawn scene name the specification and the frame.
@@ -85,15 +80,19 @@ void write_depths(const Camera& camera, const Frame& frame, FrameWriter& writer)
   const Image<TruePixel>& truth = camera.truth();
   const Rig& rig = camera.setup().rig;
   const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2), eye = rig.camera_in_world();
-  writer.image("depth",
-               depth_counts(truth, [&](std::size_t i) { return static_cast<double>(frame.depth.pixels()[i]); }));
-  const auto write_exact = [&](const char* kind, const auto& depth) {
-    writer.image(kind, depth_counts(truth, [&](std::size_t i) { return depth(truth.pixels()[i]); }), Packing::repeats);
-  };
-  write_exact("depth_true",
-              [&](const TruePixel& pixel) { return pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0; });
-  write_exact("depth_apparent", [](const TruePixel& pixel) { return pixel.apparent_depth.value_or(0.0); });
-  write_exact("depth_first", [](const TruePixel& pixel) { return pixel.first ? pixel.first->depth : 0.0; });
+  const Image<std::uint16_t> nothing(truth.width(), truth.height());
+  Image<std::uint16_t> measured = nothing, seen = nothing, apparent = nothing, first = nothing;
+  for (std::size_t i = 0; i < truth.size(); ++i) {  // once: the true pixels of a frame fill 25 MB
+    const TruePixel& pixel = truth.pixels()[i];
+    measured.pixels()[i] = depth_count(frame.depth.pixels()[i]);
+    seen.pixels()[i] = depth_count(pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0);
+    apparent.pixels()[i] = depth_count(pixel.apparent_depth.value_or(0.0));
+    first.pixels()[i] = depth_count(pixel.first ? pixel.first->depth : 0.0);
+  }
+  writer.image("depth", measured);
+  writer.image("depth_true", seen, Packing::repeats);
+  writer.image("depth_apparent", apparent, Packing::repeats);
+  writer.image("depth_first", first, Packing::repeats);
   if (frame.ir.empty()) return;
   writer.image("ir", whole_dn(at_depth_scale(camera.setup().rig.sensor, frame.ir)));
 }
