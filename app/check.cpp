@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/measurement_folder.h"
+#include "app/print.h"
 #include "app/results.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -136,6 +137,8 @@ void write_example(const fs::path& folder) {
     if (fs::exists(folder / name)) throw Error((folder / name).string(), "is there already; choose another folder");
   for (const char* name : kOfLaboratory)
     write_text(folder / name, read_text(data_directory() / "measurements" / "beaker" / name));
+  print_text(fmt::format("{0}/rig.json and {0}/frames.csv are a laboratory to change into yours; fathom check {0}\n",
+                         on_one_line(folder.string())));
 }
 
 }  // namespace

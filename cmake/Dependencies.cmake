@@ -6,6 +6,7 @@ find_package(TBB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(OpenSSL 3 REQUIRED)
+find_path(NANOFLANN_INCLUDE_DIR nanoflann.hpp REQUIRED)  # headers in Debian's usual place; there is no target
 if(FATHOM_SIMULATOR)
   find_package(embree 3.13 REQUIRED)
   find_package(CLI11 REQUIRED)

@@ -37,7 +37,7 @@ std::optional<CupShot> cup_shot(const FrameRecord& frame, const Measurement& mea
   return shot;
 }
 
-/// Every so manieth, so that at most so many are left.
+/// Keeps one point of so many that at most `most` are left.
 void thin(Points& points, std::size_t most) {
   const std::size_t every = (points.size() + most - 1) / most;
   if (every <= 1) return;

@@ -77,7 +77,8 @@ TEST(Commands, OnesThatDoNotExistAreNamedBesideThoseThatDo) {
   const Outcome result = run_program("theroy --fill-mm 30");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(
-      result.text.rfind("error: unknown command 'theroy', choose from capture, view, export, theory, detect, ", 0), 0u)
+      result.text.rfind("error: unknown command 'theroy', choose from capture, export, theory, detect, evaluate, ", 0),
+      0u)
       << result.text;
   EXPECT_NE(result.text.find(", manual; did you mean 'theory'?\n"), std::string::npos) << result.text;
   EXPECT_EQ(run_program("").text.rfind("error: a command is missing, choose from capture, ", 0), 0u);
