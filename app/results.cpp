@@ -7,13 +7,6 @@
 
 namespace fathom {
 
-void keep_results(const CommonOptions& common, const std::string& name, const std::string& extension,
-                  const std::string& text) {
-  if (common.output.empty()) return;
-  const FolderOwner owner(common.output);
-  write_results(common, name, extension, text);
-}
-
 void write_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                    const std::string& text) {
   if (common.output.empty()) return;
@@ -33,7 +26,9 @@ void require_report(const CommonOptions& common) {
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                    const std::string& text) {
   print_text(text);
-  keep_results(common, name, extension, text);
+  if (common.output.empty()) return;
+  const FolderOwner owner(common.output);
+  write_results(common, name, extension, text);
 }
 
 }  // namespace fathom

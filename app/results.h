@@ -9,12 +9,8 @@
 
 namespace fathom {
 
-/// DIR/NAME.json with --json, else DIR/NAME and `extension`. Does nothing without -o. Throws Error where another
-/// process owns the folder.
-void keep_results(const CommonOptions& common, const std::string& name, const std::string& extension,
-                  const std::string& text);
-
-/// The same for the folder's owner (core/folder_owner.h).
+/// DIR/NAME.json with --json, else DIR/NAME and `extension`. Does nothing without -o. For the folder's owner
+/// (core/folder_owner.h).
 void write_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                    const std::string& text);
 
@@ -25,7 +21,7 @@ void remove_results(const CommonOptions& common, const std::string& name, const 
 /// Error when gnuplot is.
 void require_report(const CommonOptions& common);
 
-/// Prints the text, and keeps it.
+/// Prints the text, and keeps it as write_results() does. Throws Error where another process owns the folder.
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                    const std::string& text);
 

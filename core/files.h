@@ -9,10 +9,10 @@
 namespace fathom {
 
 /// When a file reaches the disk: before it gets its name, so that a power cut leaves the old file or the new one; or
-/// later, with flush_file_system() for all of them, which takes a sixth less of the time that many small files take.
+/// later, with flush_file_system() for all of them, which is quicker for many small files.
 enum class Flush { at_once, later };
 
-/// Calls `write` with a temporary path in the same folder, flushes it to disk and renames it to `path`.
+/// Calls `write` with a temporary path in the same folder, flushes it to disk, unless later, and renames it to `path`.
 /// When `write` throws, the temporary file is removed and `path` is untouched. Throws Error if `path` cannot be
 /// written.
 void write_atomically(const std::filesystem::path& path,
