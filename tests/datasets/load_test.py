@@ -72,6 +72,12 @@ def check(data_set, loader):
     return boxes, clouds
 
 
+def check_reckoning(said, frames):
+    reckoned = 1e6 * float(re.search(r"20 frames are up to ([\d.]+) MB", said)[1])
+    written = sum(512 * file.stat().st_blocks for file in frames.rglob("*") if file.is_file())
+    assert 0.75 * reckoned < written < reckoned, (reckoned, written)
+
+
 def main(program):
     commands = re.findall(r"^```\n(.*?)^```", PAGE, re.M | re.S)
     loader = {"__name__": "loader"}
@@ -81,10 +87,10 @@ def main(program):
         (folder / "build/release/app").mkdir(parents=True)
         (folder / "build/release/app/fathom").symlink_to(Path(program).resolve())
         (folder / "out").mkdir()
-        for block in commands[:2]:
-            subprocess.run(block, shell=True, check=True, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        for name in ["frames", "mine"]:
+        for block, name in zip(commands, ["frames", "mine"]):
+            made = subprocess.run(block, shell=True, check=True, cwd=folder, capture_output=True, text=True)
             assert (folder / "out" / name / "index.html").exists()
+            check_reckoning(made.stderr, folder / "out" / name / "train")
         exec(compile(text, "docs/datasets.md", "exec"), loader)
         boxes, clouds = check(folder / "out/frames", loader)
         assert boxes > 40 and clouds > 20, (boxes, clouds)
