@@ -25,11 +25,11 @@ std::string last_error() {
   return line.empty() ? "OpenNI2 does not say why" : line;
 }
 
-void require(openni::Status status, const std::string& device) {
+void require(openni::Status status, const std::string& device, const std::string& hint = "") {
   if (status == openni::STATUS_OK) return;
   const std::string why = last_error();
-  // The driver's own error names the file already.
-  throw why.starts_with(device) ? Error(why) : Error(device, why);
+  // Our driver's own error names the file already.
+  throw why.starts_with(device) ? Error(why) : Error(device, why + hint);
 }
 
 double metres_per_unit(openni::PixelFormat format, const std::string& device) {
@@ -107,7 +107,9 @@ LiveCamera::LiveCamera(const std::string& uri) : uri_(uri) {
       throw Error("OpenNI2", "there is no device; connect one, or name a URI that one of its drivers knows");
     uri_ = devices[0].getUri();
   }
-  require(session_->device.open(uri_.c_str()), uri_);
+  require(session_->device.open(uri_.c_str()), uri_,
+          "; scenes and captures need Fathom's driver where OpenNI2 looks: package libfathom-openni2, or "
+          "docs/virtual_xtion.md");
   require(session_->stream.create(session_->device, openni::SENSOR_DEPTH), uri_);
   unmirror(session_->stream, uri_);
   start_infrared();

@@ -140,7 +140,10 @@ TEST(DetectLive, SaysThatThereIsNoDevice) {
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_EQ(none.err, "error: OpenNI2: there is no device; connect one, or name a URI that one of its drivers knows\n");
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_EQ(unknown.err, "error: x.oni: DeviceOpen: Couldn't open device 'x.oni'\n");
+  EXPECT_EQ(
+      unknown.err,
+      "error: x.oni: DeviceOpen: Couldn't open device 'x.oni'; scenes and captures need Fathom's driver where OpenNI2 "
+      "looks: package libfathom-openni2, or docs/virtual_xtion.md\n");
   const ProgramRun scene = run_fathom("detect --live no.json");
   EXPECT_EQ(scene.exit_code, 1);
   EXPECT_EQ(scene.err, "error: no.json: no such file\n");
