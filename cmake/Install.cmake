@@ -1,5 +1,5 @@
 # `cmake --install`, find_package(Fathom) and pkg-config: the program, the libraries with their public headers, the scenes.
-# Each component is a Debian package (Packages.cmake): data, program, development, openni2.
+# Each component is a Debian package (Packages.cmake): data, program, development, openni2, python.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Fathom)

@@ -41,7 +41,7 @@ fathom_deb(program fathom "Simulator of a depth camera that looks at cups with l
 Simulates a structured-light depth camera (ASUS Xtion PRO LIVE, Kinect v1) that looks
 at cups with liquids in them, finds cups and liquids in simulated or measured clouds,
 and says where a measurement disagrees with its model."
-  DEPENDS ${this_data} RECOMMENDS "gnuplot-nox | gnuplot" SUGGESTS libfathom-openni2)
+  DEPENDS ${this_data} RECOMMENDS "gnuplot-nox | gnuplot" libjs-three SUGGESTS libfathom-openni2)
 fathom_deb(development libfathom-dev "Libraries and headers of Fathom
 Static libraries of the simulator, the detector and the diagnosis, for C++ programs
 that find them by find_package(Fathom) or pkg-config."
@@ -51,5 +51,14 @@ fathom_deb(openni2 libfathom-openni2 "Virtual Xtion for programs that use OpenNI
 A driver by which programs that read an Xtion read Fathom's scenes and captures: the
 path of a scene file or of a captured folder is the URI of a device."
   DEPENDS ${this_data} libopenni2-0)
+
+if(TARGET _fathom)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  fathom_deb(python python3-fathom "Fathom in Python and NumPy
+The simulator of a depth camera that looks at cups with liquids, the detector and the
+diagnosis, as functions that take and return arrays: import fathom."
+    DEPENDS ${this_data} "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})"
+            "python3 (<< ${Python_VERSION_MAJOR}.${next_minor})" python3-numpy)
+endif()
 
 include(CPack)
