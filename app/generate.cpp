@@ -30,11 +30,11 @@ std::string example_text() {
   return text;
 }
 
-/// Of a frame's files in whole blocks of a disk, a tenth more than was measured: what a bare desk takes, what each thing
-/// on it adds by its masks, edges and labels, and the infrared image.
+/// Of a frame's files in whole blocks of a disk, a tenth more than was measured: what a bare desk takes, what each
+/// thing on it adds by its masks, edges and labels, and the infrared image.
 double labelled_frame_bytes(const DatasetSpec& spec) {
   constexpr double kBareDesk = 190e3, kThing = 27e3, kInfrared = 430e3;
-  const ClutterSpec &desk = spec.clutter;
+  const ClutterSpec& desk = spec.clutter;
   const double things = 0.5 * (desk.cups.low + desk.cups.high + desk.objects.low + desk.objects.high);
   return kBareDesk + kThing * things + (spec.mode == CaptureMode::photometric ? kInfrared : 0.0);
 }
