@@ -220,11 +220,13 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
 
 std::string agreement(const Diagnosis& diagnosis) {
   constexpr double kLikely = 0.5;
-  const std::string agree = diagnosis.probability_of_none < kLikely
-                                ? "Model and measurement differ a little more than their errors let expect, but "
-                                  "nothing is sure enough to be named"
-                                : fmt::format("Model and measurement agree within their errors ({:.0f} % sure)",
-                                              100 * diagnosis.probability_of_none);
+  const double sure_percent = 100 * diagnosis.probability_of_none;
+  const std::string agree =
+      diagnosis.probability_of_none < kLikely
+          ? fmt::format(
+                "Nothing is sure enough to be named, but that model and measurement agree is only {:.0f} % sure",
+                sure_percent)
+          : fmt::format("Model and measurement agree within their errors ({:.0f} % sure)", sure_percent);
   return fmt::format("{}: the {} differ by {:.2f} mm, {:.2f} mm are to be expected.", agree, heights_words(diagnosis),
                      diagnosis.gap.train.after_rms_mm, diagnosis.gap.train.noise_floor_mm);
 }

@@ -21,7 +21,8 @@ Diagnosis agreement(double probability) {
 TEST(DiagnosisWords, AgreementThatHardlyHoldsIsSaidLessRoundly) {
   EXPECT_TRUE(says(agreement(0.9), "agree within their errors"));
   EXPECT_FALSE(says(agreement(0.2), "agree within their errors"));
-  EXPECT_TRUE(says(agreement(0.2), "nothing is sure enough to be named"));
+  EXPECT_TRUE(says(agreement(0.2),
+                   "Nothing is sure enough to be named, but that model and measurement agree is only 20 % sure"));
 }
 
 TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {
