@@ -59,6 +59,9 @@ The simulator of a depth camera that looks at cups with liquids, the detector an
 diagnosis, as functions that take and return arrays: import fathom."
     DEPENDS ${this_data} "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})"
             "python3 (<< ${Python_VERSION_MAJOR}.${next_minor})" python3-numpy)
+  # They make and remove what Python compiles.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 endif()
 
 include(CPack)
