@@ -178,7 +178,8 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
       if (landing.miss.norm() > 0.7 * reach_there) continue;
       step.setZero(), steps = kMostSteps;
     }
-    candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, determinant < 0.0});
+    candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, landing.miss.norm(),
+                          determinant < 0.0});
   }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::pair(a.steps, a.seed) < std::pair(b.steps, b.seed);

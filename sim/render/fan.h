@@ -33,6 +33,7 @@ class Fan {
     const Seed* seed;
     Eigen::Vector3d direction;  ///< that would land on the target if the landing were linear; not of unit length
     double steps;               ///< from the seed to there, in spacings
+    double miss;                ///< [m] of the seed itself
     bool turned_over;           ///< as in Connection
   };
   /// The seeds near whose pencils `target` lies in the medium `around`, the nearest first.

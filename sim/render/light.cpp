@@ -153,8 +153,9 @@ void PointLight::connect_from(const Fan& fan, const Receiver& receiver, std::vec
     if (covered || from_behind(receiver, candidate.seed->differential.direction)) continue;
     if (tried.size() == kMostShots) break;
     const Seed& seed = *candidate.seed;
+    const Guess guess{candidate.direction.normalized(), candidate.miss};
     const auto way = shoot(world_, source_, receiver.point, receiver.around, seed.direction, seed.crossings,
-                           seed.mirror, receiver.loss);
+                           seed.mirror, receiver.loss, &guess);
     if (way)
       tried.push_back({seed.crossings, seed.mirror, way->turned_over, way->direction, 2.0 * seed.spacing});
     else

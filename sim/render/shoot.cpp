@@ -51,11 +51,12 @@ struct Aim {
 
   /// Newton's method on the two angles, each step shortened until it brings the landing nearer. On its way to a target
   /// close behind an interface it may land before it.
-  std::optional<Trial> solve(const Eigen::Vector3d& start) const {
+  std::optional<Trial> solve(const Eigen::Vector3d& start, const Guess* guess) const {
     constexpr double kExact = 1e-13, kGood = 1e-10;  // [m] roundings of about 1 m; what is accepted when stuck above
     constexpr double kLongestStep = 0.05;            // [rad]
     constexpr int kMostHalvings = 5;
-    std::optional<Trial> best = trial(start);
+    std::optional<Trial> best = guess ? trial(guess->direction) : std::nullopt;
+    if (!best || best->miss() >= guess->miss) best = trial(start);
     for (int iteration = 0; best && iteration < 30 && best->miss() > kExact; ++iteration) {
       const Eigen::Vector3d direction = direction_of(*best);
       const Matrix32d basis = perpendicular_to(direction);
@@ -118,9 +119,9 @@ double pass(const Intersector& world, const Crossing& crossing, Event event, Fli
 
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
                                 const Body* around, const Eigen::Vector3d& direction, int crossings, int mirror,
-                                Loss loss) {
+                                Loss loss, const Guess* guess) {
   const Aim aim{world, source, target, around, crossings, mirror, loss};
-  const std::optional<Trial> found = aim.solve(direction);
+  const std::optional<Trial> found = aim.solve(direction, guess);
   if (!found || !aim.open(*found)) return std::nullopt;
   const Flight& flight = found->flight;
   const double area = found->landing.jacobian.determinant();

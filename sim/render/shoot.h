@@ -51,12 +51,18 @@ inline constexpr int kNoMirror = -1;
 /// Returns the reflectance there.
 double pass(const Intersector& world, const Crossing& crossing, Event event, Flight& flight);
 
+/// Another direction to start from, and by how much [m] the first one misses.
+struct Guess {
+  Eigen::Vector3d direction;
+  double miss;
+};
+
 /// Aims at `target`, which lies in the medium `around` (nullptr: air), by way of exactly `crossings` interfaces,
-/// starting from `direction`; number `mirror` of them reflects. Nothing when Newton's method finds no such way or
-/// something opaque stands in it.
+/// starting from `direction`, or from `guess` if that leads nearer; number `mirror` of them reflects. Nothing when
+/// Newton's method finds no such way or something opaque stands in it.
 std::optional<Connection> shoot(const Intersector& world, const Source& source, const Eigen::Vector3d& target,
                                 const Body* around, const Eigen::Vector3d& direction, int crossings,
-                                int mirror = kNoMirror, Loss loss = Loss::all);
+                                int mirror = kNoMirror, Loss loss = Loss::all, const Guess* guess = nullptr);
 
 /// Adds a way, if there is one, that has not been found before.
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way);
