@@ -2,10 +2,12 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <regex>
 #include <string>
 
 #include "bench/bench_scene.h"
@@ -16,6 +18,7 @@
 #include "core/files.h"
 #include "core/json.h"
 #include "sim/sensor/ir_camera.h"
+#include "sim/sensor/match.h"
 
 namespace fathom {
 namespace {
@@ -39,11 +42,27 @@ struct Case {
   }
 };
 
-/// Root mean squares [DN] over the pixels that see a cup or a liquid.
+/// Over the pixels that see a cup or a liquid: of the images root mean squares [DN], of the disparities that are
+/// matched in them median deviations [px], as those of a Gaussian.
 struct Noise {
   double of_walks;   ///< what another seed of the walks changes, as the deviation of one image
   double of_sensor;  ///< the same for another speckle, and shot noise, read noise and rounding from the sensor's model
+  double of_walks_px;  ///< of disparity
+  double of_sensor_px;
 };
+
+/// Median deviation of what two images of disparities differ by, where both have one, as the deviation of one image.
+double median_deviation(const Image<float>& a, const Image<float>& b, const std::vector<Eigen::Vector2i>& pixels) {
+  std::vector<double> apart;
+  for (const Eigen::Vector2i& at : pixels) {
+    const float one = a(at.x(), at.y()), other = b(at.x(), at.y());
+    if (one > 0.0f && other > 0.0f) apart.push_back(std::abs(one - other));
+  }
+  if (apart.empty()) return 0.0;
+  std::nth_element(apart.begin(), apart.begin() + apart.size() / 2, apart.end());
+  constexpr double kDeviation = 1.4826;
+  return kDeviation * apart[apart.size() / 2] / std::sqrt(2.0);
+}
 
 Noise noise_of(const Case& measured) {
   const Rig& rig = measured.scene.setup.rig;
@@ -58,8 +77,22 @@ Noise noise_of(const Case& measured) {
     sensor += 0.5 * std::pow(value - other_speckle(at.x(), at.y()), 2) + value / model.electrons_per_dn +
               model.read_dn * model.read_dn + 1.0 / 12.0;
   }
+  const auto reference =
+      reference_image(rig.sensor, Pattern(rig.sensor.pattern, rig.sensor.ir_scale()), kSamplesAcross);
+  const auto disparity = [&](const Image<float>& light, std::uint64_t frame) {
+    return match(rig.sensor, expose(light, model, 1, frame), *reference).disparity_px;
+  };
+  std::vector<Eigen::Vector2i> depth_pixels;
+  for (const Eigen::Vector2i& at : pixels) {
+    const Eigen::Vector2i depth_pixel(at.x() / 2, (at.y() - rig.sensor.ir_first_row()) / 2);
+    if (at.x() % 2 == 0 && at.y() % 2 == 0 && depth_pixel.y() >= 0 && depth_pixel.y() < rig.sensor.height)
+      depth_pixels.push_back(depth_pixel);
+  }
+  const Image<float> matched = disparity(image, 0);
   const double count = static_cast<double>(pixels.size());
-  return {std::sqrt(walks / count), std::sqrt(sensor / count)};
+  return {std::sqrt(walks / count), std::sqrt(sensor / count),
+          median_deviation(matched, disparity(other_walks, 0), depth_pixels),
+          median_deviation(matched, disparity(other_speckle, 1), depth_pixels)};
 }
 
 }  // namespace
@@ -78,15 +111,22 @@ void register_light() {
                                  Subject{"tomato_juice", "paper_milk_tea.json", "tomato_juice"},
                                  Subject{"whole_milk", "paper_milk_tea.json", "whole_milk"},
                                  Subject{"glass_water", "glass_water.json", nullptr}};
+  const std::regex asked(benchmark::GetBenchmarkFilter());
   for (const auto& [name, file, liquid] : kSubjects) {
+    const std::string ours = fmt::format("light/{}/fathom", name), beside = fmt::format("light/{}/embree", name);
+    if (!std::regex_search(ours, asked) && !std::regex_search(beside, asked)) continue;
     const std::filesystem::path path = data_directory() / file;
     Json json = read_json(path);
     if (liquid) json.at("cups").at(0)["liquid"] = liquid;
     const auto measured = std::make_shared<const Case>(setup_from_json(json, path.string()));
     const Noise noise = noise_of(*measured);
-    measure(fmt::format("light/{}/fathom", name), {{"walks_dn", noise.of_walks}, {"sensor_dn", noise.of_sensor}},
+    measure(ours,
+            {{"walks_dn", noise.of_walks},
+             {"sensor_dn", noise.of_sensor},
+             {"walks_px", noise.of_walks_px},
+             {"sensor_px", noise.of_sensor_px}},
             [measured] { benchmark::DoNotOptimize(measured->image(measured->pattern, 1)); });
-    measure_embree(fmt::format("light/{}/embree", name), {measured, &measured->embree},
+    measure_embree(beside, {measured, &measured->embree},
                    record_camera_rays(measured->scene.world, measured->scene.setup.rig, kSamplesAcross));
   }
 }

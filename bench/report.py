@@ -77,6 +77,9 @@ def report_light(table):
         walks, sensor = table.runs.value(ours, "walks_dn"), table.runs.value(ours, "sensor_dn")
         table.add("  noise of walks / of the sensor [DN]", f"{walks:.1f}", f"{sensor:.1f}", walks / sensor, None, 0.25,
                   below=True)
+        walks, sensor = table.runs.value(ours, "walks_px"), table.runs.value(ours, "sensor_px")
+        table.add("  the same of matched disparities [px]", f"{walks:.4f}", f"{sensor:.4f}", walks / sensor, None, 0.25,
+                  below=True)
 
 
 def report_generate(table):

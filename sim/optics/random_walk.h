@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -50,6 +51,22 @@ inline bool survives(Walker& walker, double least_weight, Rng& rng) {
   return true;
 }
 
+/// A least weight that grows with the square of the distance from a walk's start, up to kMost times: where far walks
+/// tell little, fewer of them go on, and each stands for more.
+struct NearStart {
+  double least_weight;
+  Eigen::Vector3d start;  ///< [m]
+  double near;            ///< [m] where it begins to grow
+
+  double operator()(const Walker& walker) const {
+    constexpr double kMost = 8.0;
+    const double square = (walker.position - start).squaredNorm() / (near * near);
+    return least_weight * std::clamp(square, 1.0, kMost);
+  }
+};
+inline double least_weight_of(double least_weight, const Walker&) { return least_weight; }
+inline double least_weight_of(const NearStart& near, const Walker& walker) { return near(walker); }
+
 /// Moves along the direction; absorption takes its share by Beer–Lambert. `path` may be infinite.
 inline void advance(Walker& walker, const Turbid& medium, double path) {
   walker.position += path * walker.direction;
@@ -59,11 +76,12 @@ inline void advance(Walker& walker, const Turbid& medium, double path) {
 /// Walks until the light has left, is absorbed or has lost at Russian roulette. Free flights have the length of the
 /// scattering alone, p(s) = μs exp(−μs s), and absorption lowers the weight along them: media that do not scatter are
 /// no case of their own. `visitor.at_scattering(walker)` is called at every scattering, before the new direction is
-/// drawn: with the weight that arrives there and the direction it comes from. `least_weight` > 0: for Russian roulette.
-template <class Space, class Visitor>
+/// drawn: with the weight that arrives there and the direction it comes from. `least_weight`, for Russian roulette, is
+/// a number above 0 or NearStart.
+template <class Space, class LeastWeight, class Visitor>
 requires WalkSpace<Space, Visitor>
-void random_walk(const Space& space, Walker walker, double least_weight, Rng& rng, Visitor& visitor) {
-  while (survives(walker, least_weight, rng)) {
+void random_walk(const Space& space, Walker walker, const LeastWeight& least_weight, Rng& rng, Visitor& visitor) {
+  while (survives(walker, least_weight_of(least_weight, walker), rng)) {
     const Turbid& medium = space.medium(walker);
     // Where nothing scatters the flight is infinite, or no number once in 2^53 times: not shorter either way.
     const double flight = -std::log(1.0 - rng.uniform()) / medium.scattering;
@@ -100,11 +118,12 @@ inline FirstStep even_step(int i, const FirstStep& shift) {
 
 /// The same expectation, for light that starts as a beam: its first flight is split into what reaches the boundary
 /// unscattered and what scatters on the way, each walked with its share of the weight. In a nearly clear medium neither
-/// is then left to chance. `first`: of what scatters; drawn if it is not given.
+/// is then left to chance. `first`: of what scatters; drawn if it is not given. `near` [m]: as in NearStart, about the
+/// walker.
 template <class Space, class Visitor>
 requires WalkSpace<Space, Visitor>
 void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Visitor& visitor,
-                         const FirstStep* first = nullptr) {
+                         const FirstStep* first = nullptr, double near = std::numeric_limits<double>::infinity()) {
   const Turbid& medium = space.medium(walker);
   const auto boundary = space.next_boundary(walker, std::numeric_limits<double>::infinity());
   const double scattered = medium.scattering > 0.0 ? -std::expm1(-medium.scattering * boundary.distance) : 0.0;
@@ -113,7 +132,7 @@ void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Vis
     straight.weight *= 1.0 - scattered;
     advance(straight, medium, boundary.distance);
     if (space.meet(boundary, straight, rng, visitor))
-      random_walk(space, straight, kRouletteShare * walker.weight, rng, visitor);
+      random_walk(space, straight, NearStart{kRouletteShare * walker.weight, walker.position, near}, rng, visitor);
   }
   if (scattered > 0.0) {
     Walker turned = walker;
@@ -123,7 +142,7 @@ void random_walk_of_beam(const Space& space, const Walker& walker, Rng& rng, Vis
     turned.direction = first ? scatter(turned.direction, medium, first->cosine, first->azimuth)
                              : scatter(turned.direction, medium, rng);
     ++turned.scatterings;
-    random_walk(space, turned, kRouletteShare * turned.weight, rng, visitor);
+    random_walk(space, turned, NearStart{kRouletteShare * turned.weight, walker.position, near}, rng, visitor);
   }
 }
 

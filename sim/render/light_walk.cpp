@@ -102,7 +102,7 @@ class Connector {
 }  // namespace
 
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
-                const std::function<void(const ReturnedLight&)>& visit, const FirstStep* first) {
+                const std::function<void(const ReturnedLight&)>& visit, const FirstStep* first, double near) {
   const double n = index_of(seen.around);
   Walker walker{seen.point, seen.arriving, seen.transmittance * n * n, seen.inside};
   const WorldSpace space(projector.world());
@@ -114,7 +114,7 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
     walker.direction = *refract(seen.arriving, seen.normal, n, n_entered);
     walker.region = seen.beyond;
     Connector connector(projector, seen.point, walker.direction, rng, visit);
-    random_walk_of_beam(space, walker, rng, connector, first);
+    random_walk_of_beam(space, walker, rng, connector, first, near);
   } else if (seen.glaze) {
     if (!bounce_off_glaze(walker, seen.normal, *seen.glaze, rng)) return;
     Connector connector(projector, seen.point, walker.direction, rng, visit);  // its lobe may be narrow

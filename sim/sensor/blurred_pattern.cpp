@@ -61,11 +61,14 @@ double BlurredPattern::intensity(const Eigen::Vector2d& on_grid, double sigma_st
          down * ((1.0 - across) * at(values, x, y + 1) + across * at(values, x + 1, y + 1));
 }
 
-double intensity_around(const BlurredPattern& pattern, const Rig& rig, const ReturnedLight& light) {
+double blur_steps(const Rig& rig, const ReturnedLight& light) {
   constexpr double kPart = 0.25;
+  return kPart * light.spread * rig.sensor.focal_px / rig.sensor.pattern.step_px;
+}
+
+double intensity_around(const BlurredPattern& pattern, const Rig& rig, const ReturnedLight& light) {
   const std::optional<Eigen::Vector2d> at = on_grid(pattern.sharp(), rig, light.direction);
-  const double steps_per_rad = rig.sensor.focal_px / rig.sensor.pattern.step_px;
-  return at ? pattern.intensity(*at, kPart * light.spread * steps_per_rad) : 0.0;
+  return at ? pattern.intensity(*at, blur_steps(rig, light)) : 0.0;
 }
 
 }  // namespace fathom

@@ -30,8 +30,11 @@ class BlurredPattern {
   std::vector<Level> levels_;
 };
 
-/// Mean relative radiant intensity around the direction in which light that walked left the projector, over a part of
-/// its spread: most of what chance makes of the dots is gone, and the light is blurred by that part of the width that
+/// Blur [grid steps, standard deviation] that light which walked is given: a part of its spread.
+double blur_steps(const Rig& rig, const ReturnedLight& light);
+
+/// Mean relative radiant intensity around the direction in which light that walked left the projector, over
+/// blur_steps(): most of what chance makes of the dots is gone, and the light is blurred by that part of the width that
 /// it has anyway.
 double intensity_around(const BlurredPattern& pattern, const Rig& rig, const ReturnedLight& light);
 

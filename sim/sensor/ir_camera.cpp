@@ -14,6 +14,7 @@
 #include "sim/sensor/blurred_pattern.h"
 #include "sim/sensor/glints.h"
 #include "sim/sensor/reference.h"
+#include "sim/sensor/shared_walks.h"
 
 namespace fathom {
 namespace {
@@ -21,10 +22,12 @@ namespace {
 constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
 constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
-constexpr std::uint64_t kFirstStepStream = 0x6669727374ULL;
 
-/// Walks per camera ray that enters a scattering body; other surfaces get one.
+/// Walks of its own of a camera ray that enters a scattering body; of other surfaces one.
 constexpr int kWalksIntoBody = 4;
+
+/// Transmittance below which mirror images are left to chance.
+constexpr double kFaintImage = 0.12;
 
 /// The middles of the cells of a grid in the unit square, row by row.
 std::vector<Eigen::Vector2d> sample_places(int across) {
@@ -43,6 +46,7 @@ struct Renderer {
   std::vector<Eigen::Vector2d> places;  ///< of a pixel's samples in it
   LightModel light;
   std::uint64_t seed;
+  const SharedWalks* shared = nullptr;  ///< with all light
   double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
   std::optional<Defocus> defocus = rig.sensor.optics.defocuses() ? std::optional(Defocus(rig.sensor)) : std::nullopt;
 
@@ -64,21 +68,6 @@ struct Renderer {
     return {rig.camera_in_world(), rig.direction_in_world(x_ir_px * px_per_ir_px, y_ir_px * px_per_ir_px)};
   }
 
-  /// How the walks of a sample begin: evenly, together with those of all samples of its pixel.
-  struct Beginnings {
-    std::optional<FirstStep> shift = {};  ///< the pixel's; drawn without it
-    int sample = 0;                       ///< in the pixel
-    std::optional<FirstStep> operator()(int walk, int walks) const {
-      if (!shift) return std::nullopt;
-      return even_step(sample * walks + walk, *shift);
-    }
-  };
-  Beginnings first_steps(int y, int sample) const {
-    const std::uint64_t bits = Rng(seed, kFirstStepStream, y, sample / samples_per_pixel()).bits();
-    const auto number = [bits](int i) { return static_cast<double>(bits >> (21 * i) & 0x1fffff) * 0x1p-21 + 0x1p-22; };
-    return {FirstStep{number(0), number(1), number(2)}, sample % samples_per_pixel()};
-  }
-
   /// Of at most kPacket samples.
   struct Radiances {
     std::array<double, kPacket> projected{};  ///< [DN]
@@ -97,10 +86,17 @@ struct Renderer {
       for (int i = 0; i < count; ++i) {
         Rng rng(seed, kWalkStream, y, first + i);
         const SeenPoint* at = seen.find(i);
-        if (at) sums[i] = indirect_radiance(*at, rng, first_steps(y, first + i));
+        if (at) {
+          const int per_pixel = samples_per_pixel(), x = (first + i) / per_pixel;
+          const std::optional<double> walked = shared->radiance(x, y, (first + i) % per_pixel, per_pixel, *at);
+          sums[i] = ghost_radiance(*at, rng) + (walked ? *walked : walked_radiance(*at, rng));
+        }
         if (at && !at->refracted && !at->entered) continue;
         see_mirrored(projector.world(), rays[i], rng, [&](const SeenPoint& image) {
-          sums[i] += direct_radiance(image) + indirect_radiance(image, rng, {});
+          // A surface mirrors some hundredths: one such image in three is looked at.
+          const double chance = std::min(image.transmittance / kFaintImage, 1.0);
+          if (chance < 1.0 && rng.uniform() >= chance) return;
+          sums[i] += (direct_radiance(image) + ghost_radiance(image, rng) + walked_radiance(image, rng)) / chance;
         });
         if (at && at->entered) seen.reset(i);
       }
@@ -122,25 +118,26 @@ struct Renderer {
     return sum;
   }
 
-  /// Radiance [DN] by reflections in liquids and by walks.
-  double indirect_radiance(const SeenPoint& seen, Rng& rng, const Beginnings& beginnings) const {
-    double ghosts = 0.0, sum = 0.0;
+  /// Radiance [DN] by reflections in liquids.
+  double ghost_radiance(const SeenPoint& seen, Rng& rng) const {
+    double sum = 0.0;
     if (!seen.entered)
       projector.connect_mirrored(
           {seen.point, seen.around, &seen.normal}, seen.transmittance, rng, [&](const Connection& way) {
-            ghosts += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
+            sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
           });
+    return sum;
+  }
+
+  /// Radiance [DN] by walks of its own.
+  double walked_radiance(const SeenPoint& seen, Rng& rng) const {
+    double sum = 0.0;
     const int walks = seen.entered ? kWalksIntoBody : 1;
-    for (int walk = 0; walk < walks; ++walk) {
-      const std::optional<FirstStep> step = beginnings(walk, walks);
-      walk_light(
-          projector, seen, rng,
-          [&](const ReturnedLight& returned) {
-            sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
-          },
-          step ? &*step : nullptr);
-    }
-    return ghosts + sum / walks;
+    for (int walk = 0; walk < walks; ++walk)
+      walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
+        sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
+      });
+    return sum / walks;
   }
 };
 
@@ -149,12 +146,15 @@ struct Renderer {
 IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                   LightModel light, std::uint64_t seed) {
   const BlurredPattern blurred(pattern);
-  const Renderer renderer{projector, rig, pattern, blurred, sample_places(samples_across), light, seed};
+  std::optional<SharedWalks> shared;
+  if (light == LightModel::full) shared.emplace(projector, rig, blurred, seed);
+  const Renderer renderer{
+      projector, rig, pattern, blurred, sample_places(samples_across), light, seed, shared ? &*shared : nullptr};
   const int width = rig.sensor.ir_width, height = rig.sensor.ir_height;
   const double ambient_dn = rig.sensor.noise.ambient_dn;
   IrLight image{Image<float>(width, height), ambient_dn > 0.0 ? Image<float>(width, height) : Image<float>()};
   const int per_pixel = renderer.samples_per_pixel(), per_row = renderer.samples_per_row();
-  parallel_ranges(height, [&](int begin, int end) {
+  const auto render_rows = [&](int begin, int end) {
     std::vector<double> projected(width), ambient(width);
     for (int y = begin; y < end; ++y) {
       std::fill(projected.begin(), projected.end(), 0.0);
@@ -172,7 +172,13 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
         if (ambient_dn > 0.0) image.ambient(x, y) = static_cast<float>(ambient_dn * ambient[x] / per_pixel);
       }
     }
-  });
+  };
+  constexpr int kBandRows = 64;  // walks are kept for as many rows, and what they share with others
+  for (int top = 0; top < height; top += kBandRows) {
+    const int rows = std::min(kBandRows, height - top);
+    if (shared) shared->prepare(top, top + rows);
+    parallel_ranges(rows, [&](int begin, int end) { render_rows(top + begin, top + end); });
+  }
   if (light == LightModel::full) add_glints(projector, rig, pattern, image.projected);
   return image;
 }

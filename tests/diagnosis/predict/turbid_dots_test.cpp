@@ -141,9 +141,11 @@ double log_contrast_in_frames(const fathom::Setup& setup) {
   return std::log(inside.contrast() / desk.contrast());
 }
 
-/// The vessel's walls light the middle evenly, which few rays do not know: by 15 % here.
+/// In a black vessel: white walls light the middle evenly, which few rays do not know. Frames have 17 % less contrast
+/// than few rays say; why is open.
 TEST(DotContrast, IsThatOfWholeFrames) {
-  const fathom::Setup setup = wide_vessel_of_milk(0.8);
+  fathom::Setup setup = wide_vessel_of_milk(0.8);
+  std::get<CupShape>(setup.scene.cups[0].shape).albedo = 0.0;
   const double in_frames = log_contrast_in_frames(setup);
   EXPECT_NEAR(log_contrast_of_dots(setup), in_frames, 0.2);
   EXPECT_LT(in_frames, -1.0);
