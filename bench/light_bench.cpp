@@ -2,13 +2,13 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <regex>
 #include <string>
+#include <utility>
 
 #include "bench/bench_scene.h"
 #include "bench/benchmark_groups.h"
@@ -17,6 +17,7 @@
 #include "bench/ray_recorder.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/median.h"
 #include "sim/sensor/ir_camera.h"
 #include "sim/sensor/match.h"
 
@@ -59,9 +60,8 @@ double median_deviation(const Image<float>& a, const Image<float>& b, const std:
     if (one > 0.0f && other > 0.0f) apart.push_back(std::abs(one - other));
   }
   if (apart.empty()) return 0.0;
-  std::nth_element(apart.begin(), apart.begin() + apart.size() / 2, apart.end());
-  constexpr double kDeviation = 1.4826;
-  return kDeviation * apart[apart.size() / 2] / std::sqrt(2.0);
+  constexpr double kSigmaPerMedian = 1.4826;
+  return kSigmaPerMedian * median(std::move(apart)) / std::sqrt(2.0);
 }
 
 Noise noise_of(const Case& measured) {

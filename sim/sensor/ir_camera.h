@@ -23,7 +23,7 @@ struct IrLight {
 };
 
 /// Each pixel is sampled on a grid of `samples_across`² points; the dots are smooth, so a grid converges faster than
-/// random points and adds no noise. Only light that is not direct walks at random, keyed by (seed, row, sample).
+/// random points and adds no noise. Only other light is left to chance, keyed by (seed, row, pixel or sample).
 IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
                   LightModel light, std::uint64_t seed);
 
