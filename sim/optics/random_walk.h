@@ -51,21 +51,19 @@ inline bool survives(Walker& walker, double least_weight, Rng& rng) {
   return true;
 }
 
-/// A least weight that grows with the square of the distance from a walk's start, up to kMost times: where far walks
+/// A least weight that grows with the square of the distance from a walk's start, up to eight times: where far walks
 /// tell little, fewer of them go on, and each stands for more.
 struct NearStart {
   double least_weight;
   Eigen::Vector3d start;  ///< [m]
   double near;            ///< [m] where it begins to grow
-
-  double operator()(const Walker& walker) const {
-    constexpr double kMost = 8.0;
-    const double square = (walker.position - start).squaredNorm() / (near * near);
-    return least_weight * std::clamp(square, 1.0, kMost);
-  }
 };
 inline double least_weight_of(double least_weight, const Walker&) { return least_weight; }
-inline double least_weight_of(const NearStart& near, const Walker& walker) { return near(walker); }
+inline double least_weight_of(const NearStart& from, const Walker& walker) {
+  constexpr double kMost = 8.0;
+  const double square = (walker.position - from.start).squaredNorm() / (from.near * from.near);
+  return from.least_weight * std::clamp(square, 1.0, kMost);
+}
 
 /// Moves along the direction; absorption takes its share by Beer–Lambert. `path` may be infinite.
 inline void advance(Walker& walker, const Turbid& medium, double path) {
