@@ -167,7 +167,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   Json record = run_record(camera, resolved);
   record["fathom"] = FATHOM_VERSION;
   record["mode"] = options.mode;
-  record["light"] = camera.light() == LightModel::full ? "full" : "direct";
+  record["light"] = name_of(camera.light());
   if (!options.model.empty()) record["model"] = read_json(options.model);
   record["spp"] = camera.samples_per_pixel();
   record["frames"] = options.frames;
@@ -195,9 +195,9 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
       ->capture_default_str();
   app.add_option(
          "--light", options->light,
-         "In images; direct: from the projector to what the camera sees, liquids that scatter are opaque; full: "
-         "interreflected, mirrored and scattered as well; auto: full where light enters a liquid and is scattered "
-         "there by more than 0.05 mm, else direct")
+         "Direct: from the projector to what the camera sees, liquids that scatter are opaque; full: interreflected, "
+         "mirrored and scattered as well; auto: full where light enters a liquid and is scattered there by more than "
+         "0.05 mm, else direct. To direct light geometric captures add only what liquids scatter")
       ->check(one_of("light", light_names()))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")

@@ -11,5 +11,6 @@ void compare_ranges(CaptureMode mode);  ///< axial noise over distance, border, 
 void compare_edges(CaptureMode mode);   ///< shadows, noise of an edge
 void compare_times();                   ///< temporal noise, warming up, units
 void compare_materials();               ///< milky plastic, a black glossy mug
+void compare_turbid();                  ///< liquids that scatter, in geometric and photometric frames
 
 }  // namespace fathom

@@ -25,12 +25,13 @@ struct SensorPart {
   void (*compare)();
 };
 
-constexpr std::array<SensorPart, 7> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
+constexpr std::array<SensorPart, 8> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
                                             {"pots", [] { compare_pots(CaptureMode::photometric); }},
                                             {"ranges", [] { compare_ranges(CaptureMode::photometric); }},
                                             {"edges", [] { compare_edges(CaptureMode::photometric); }},
                                             {"times", compare_times},
                                             {"materials", compare_materials},
+                                            {"turbid", compare_turbid},
                                             {"statistics", compare_statistics}}};
 
 }  // namespace

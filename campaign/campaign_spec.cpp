@@ -131,7 +131,8 @@ std::span<const Field<CampaignSpec>> spec_fields() {
        enum_choice<&Spec::mode, Spec>({"geometric", "photometric"}),
        {},
        "photometric: infrared images, in all light where a liquid lets it in by more than 0.05 mm before it scatters "
-       "it back or an effect of light is on, else in direct light; geometric: exact refraction alone"},
+       "it back or an effect of light is on, else in direct light; geometric: exact refraction, images only of liquids "
+       "that scatter"},
       {"fill_sigma_mm",
        Part<Spec>{[](const JsonReader& json, Spec& spec) {
                     spec.nominal.fill_sigma_m = metres_from_mm(json.number({0.0, mm_from_metres(spec.deepest_fill())}));

@@ -105,8 +105,9 @@ std::span<const Field<DatasetSpec>> spec_fields() {
                     },
                     [](Spec& spec, std::size_t choice) { spec.light = light_named(light_names()[choice]); }},
        {},
-       "of photometric frames; full: also what is scattered in liquids, mirrored and interreflected; auto: full where "
-       "a liquid scatters, else direct"}};
+       "direct: liquids that scatter are opaque; full: also what is scattered in liquids, mirrored and interreflected, "
+       "of photometric frames; auto: full where a liquid scatters, else direct; geometric frames add only what is "
+       "scattered"}};
   return fields;
 }
 
@@ -198,7 +199,8 @@ DatasetSpec dataset_spec_from_json(const Json& given, const std::string& file, s
   if (spec.liquids.empty() && spec.empty < 1.0) json.fail_at("liquids", "must hold at least one, unless empty is 1");
   if (spec.mode == CaptureMode::photometric && !json.has("light")) spec.source["light"] = "auto";
   if (spec.light == LightModel::full && spec.mode == CaptureMode::geometric)
-    json.fail_at("light", "full needs \"mode\": \"photometric\": geometric frames know direct light only");
+    json.fail_at("light",
+                 "full needs \"mode\": \"photometric\": geometric frames know direct light and what liquids scatter");
 
   Json desk = json.has("desk") ? json.at("desk").value() : Json::object();
   if (desk.contains("albedo")) desk["albedo"] = spec.desk_albedo.low;

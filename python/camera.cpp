@@ -78,7 +78,7 @@ void define_camera(py::module_& module) {
       .def("shoot", &shoot_frame, py::arg("frame"), py::arg("progress"))
       .def("truth", &truth_arrays)
       .def("record", &record_of)
-      .def("light", [](const Camera& camera) { return camera.light() == LightModel::full ? "full" : "direct"; });
+      .def("light", [](const Camera& camera) { return name_of(camera.light()); });
   module.def("whole_sensor", &whole_sensor, py::arg("sensor"));
 }
 

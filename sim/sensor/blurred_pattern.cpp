@@ -11,8 +11,7 @@ constexpr int kLevels = 5;
 
 /// Binomial, which is all but a Gaussian.
 constexpr std::array kKernel{1.0f / 16.0f, 4.0f / 16.0f, 6.0f / 16.0f, 4.0f / 16.0f, 1.0f / 16.0f};
-constexpr double kKernelVariance = 1.0;               ///< [samples²]
-constexpr double kInterpolationVariance = 1.0 / 6.0;  ///< [samples²] of linear interpolation, on average
+constexpr double kKernelVariance = 1.0;  ///< [samples²]
 
 /// All is dark outside.
 float at(const Image<float>& image, int x, int y) {
@@ -43,7 +42,7 @@ BlurredPattern::BlurredPattern(const Pattern& pattern) : pattern_(pattern) {
     variance += kKernelVariance * spacing * spacing;
     if (level > 0) spacing *= 2.0;
     values = smoothed(values, level > 0 ? 2 : 1);
-    levels_.push_back({variance + kInterpolationVariance * spacing * spacing - dot_variance, spacing, values});
+    levels_.push_back({variance + kLinearVariance * spacing * spacing - dot_variance, spacing, values});
   }
 }
 

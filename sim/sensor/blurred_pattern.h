@@ -1,6 +1,7 @@
 // The pattern as it lights what is not seen sharply: blurred by a Gaussian of any width.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/render/light_walk.h"
@@ -8,24 +9,30 @@
 
 namespace fathom {
 
+/// [samples²] by which linear interpolation blurs, on average.
+inline constexpr double kLinearVariance = 1.0 / 6.0;
+
 /// A pyramid of the pattern: each level is wider blurred than the one before, and sampled half as finely.
 class BlurredPattern {
  public:
   /// Keeps a reference to `pattern`, which must outlive it; its brightness is read now.
   explicit BlurredPattern(const Pattern& pattern);
 
+  struct Level {
+    double variance;      ///< [steps²] of its blur, beside a dot's own
+    double spacing;       ///< [steps] between its samples
+    Image<float> values;  ///< the first is at grid position (0, 0)
+  };
+
   const Pattern& sharp() const { return pattern_; }
+  /// The finest first.
+  std::span<const Level> levels() const { return levels_; }
 
   /// Pattern::intensity() blurred by a Gaussian of at most `sigma_steps`: by the widest level's that is not wider, or,
   /// below the first level's, not at all. The mean over the grid stays the same.
   double intensity(const Eigen::Vector2d& on_grid, double sigma_steps) const;
 
  private:
-  struct Level {
-    double variance;      ///< [steps²] of its blur, beside a dot's own
-    double spacing;       ///< [steps] between its samples
-    Image<float> values;  ///< the first is at grid position (0, 0)
-  };
   const Pattern& pattern_;
   std::vector<Level> levels_;
 };

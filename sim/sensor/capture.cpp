@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -11,9 +12,7 @@
 #include "sim/render/intersect.h"
 #include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/match.h"
 #include "sim/sensor/reading.h"
-#include "sim/sensor/speckle.h"
 
 namespace fathom {
 namespace {
@@ -107,6 +106,10 @@ std::optional<LightModel> light_named(const std::string& name) {
   throw Error(unknown_name("light", name, light_names()));
 }
 
+const char* name_of(LightModel light) {
+  return light == LightModel::full ? "full" : light == LightModel::scattered ? "scattered" : "direct";
+}
+
 Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
                std::optional<LightModel> light)
     : setup_(with_effects(setup)), mode_(mode), seed_(seed) {
@@ -117,23 +120,27 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
       statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, setup_.rig.projector_in_world()); });
   truth_ = timed(statistics_.truth_s, [&] { return trace_truth(*projector, setup_.rig); });
   statistics_.camera_rays = truth_.size();
+  const LightModel measured = measured_light(setup_);
+  light_ = setup_.light.any() && measured == LightModel::full ? measured : light.value_or(measured);
+  samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   if (mode == CaptureMode::geometric) {
+    if (light_ == LightModel::full)
+      turbid_ = turbid_parts(*projector, setup_.rig, truth_, samples_across_, seed, statistics_);
+    light_ = turbid_.empty() ? LightModel::direct : LightModel::scattered;
     if (sensor.noise.disparity.present()) still_chance_ = block_chance(sensor, seed, kStill);
     const int margin = reference_margin(sensor.matcher);
     residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);
     return;
   }
-  const LightModel measured = measured_light(setup_);
-  light_ = setup_.light.any() && measured == LightModel::full ? measured : light.value_or(measured);
-
-  samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   Pattern pattern(sensor.pattern, sensor.ir_scale(), sensor.optics.projector_k1);
-  reference_ = timed(statistics_.reference_s, [&] { return reference_image(sensor, pattern, samples_across_); });
+  auto reference = timed(statistics_.reference_s, [&] { return reference_image(sensor, pattern, samples_across_); });
   pattern.set_dot_gains(speckle_gains(sensor.noise, pattern, seed));
-  light_of_scene_ = timed(statistics_.render_s,
-                          [&] { return render_ir(*projector, setup_.rig, pattern, samples_across_, light_, seed); });
-  statistics_.camera_rays += light_of_scene_.projected.size() * samples_across_ * samples_across_;
-  speckle_ = speckle_field(sensor, sensor.noise.pixel_speckle, sensor.ir_width, sensor.ir_height, seed);
+  view_.emplace(*projector, setup_.rig, pattern, std::move(reference), samples_across_, light_, seed, statistics_);
+}
+
+const Image<float>& Camera::radiance() const {
+  static const Image<float> none;
+  return view_ ? view_->radiance() : none;
 }
 
 Frame Camera::shoot(std::uint64_t frame) {
@@ -156,6 +163,7 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
   if (sensor.noise.disparity.present())
     shot.disparity_px =
         disparity_with_noise(sensor, shot.disparity_px, intensity, still_chance_, block_chance(sensor, seed_, frame));
+  for (const TurbidPart& part : turbid_) part.shoot(frame, truth_, shot.disparity_px, statistics_);
   add_residue(sensor, residue_, shot.disparity_px);
   add_unit_error(sensor, frame, shot.disparity_px);
   shot.depth = depth_image(sensor, shot.disparity_px, sensor.law.cut);
@@ -166,13 +174,9 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
 
 Frame Camera::shoot_photometric(std::uint64_t frame) {
   const SensorModel& sensor = setup_.rig.sensor;
+  ImagedFrame imaged = view_->shoot(frame, statistics_);
   Frame shot;
-  Image<float> light = light_of_scene_.projected;
-  const Image<float>& ambient = light_of_scene_.ambient;
-  add_speckle(renewed_speckle(sensor, speckle_, seed_, frame), light);
-  for (std::size_t i = 0; i < ambient.size(); ++i) light.pixels()[i] += ambient.pixels()[i];
-  shot.ir = expose(light, sensor.noise, seed_, frame);
-  shot.disparity_px = timed(statistics_.match_s, [&] { return match(sensor, shot.ir, *reference_).disparity_px; });
+  shot.ir = std::move(imaged.ir), shot.disparity_px = std::move(imaged.disparity_px);
   add_unit_error(sensor, frame, shot.disparity_px);
   shot.depth = timed(statistics_.depth_s, [&] { return depth_image(sensor, shot.disparity_px, sensor.law.cut); });
   shot.cloud = cloud_of_depth(sensor, shot.depth, at_depth_scale(sensor, shot.ir));

@@ -12,16 +12,16 @@
 #include "sim/render/truth.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/disparity_noise.h"
-#include "sim/sensor/ir_camera.h"
-#include "sim/sensor/reference.h"
+#include "sim/sensor/imaged_view.h"
+#include "sim/sensor/turbid_part.h"
 
 namespace fathom {
 
 inline constexpr int kDefaultSamplesPerPixel = 4;  ///< of the infrared image, on a square grid
 
 enum class CaptureMode {
-  geometric,   ///< every pixel's exact refracted triangulation, no images; noise by statistics, where the sensor has
-               ///< them
+  geometric,   ///< every pixel's exact refracted triangulation, noise by statistics, where the sensor has them; liquids
+               ///< that scatter are imaged and matched (sim/sensor/turbid_part.h)
   photometric  ///< infrared image → matching → depth
 };
 
@@ -34,6 +34,8 @@ LightModel measured_light(const Setup& setup);
 /// What files and options call the light, and what they mean: measured_light() by "auto". Throws Error on other names.
 const std::vector<std::string>& light_names();
 std::optional<LightModel> light_named(const std::string& name);
+/// What run.json calls it.
+const char* name_of(LightModel light);
 
 struct Frame {
   Image<float> ir;            ///< [DN] ir_width × ir_height; empty in geometric mode
@@ -42,17 +44,11 @@ struct Frame {
   Image<CloudPoint> cloud;    ///< camera frame [m]
 };
 
-/// Wall-clock times [s] and counts of what a capture did, for run.json.
-struct CaptureStatistics {
-  double build_s = 0, truth_s = 0, reference_s = 0, render_s = 0, match_s = 0, depth_s = 0;
-  std::uint64_t camera_rays = 0;  ///< traced from the camera, truth included
-};
-
 /// A scene that is ready to be shot several times: traced, rendered and memorised once.
 class Camera {
  public:
-  /// `light`: of images, measured_light() if it is not given. Where an effect of light is on, direct light is not
-  /// enough, and measured_light() decides.
+  /// `light`: of images, measured_light() if it is not given; in geometric mode direct light takes liquids that scatter
+  /// for opaque. Where an effect of light is on, direct light is not enough, and measured_light() decides.
   Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
          std::optional<LightModel> light = std::nullopt);
 
@@ -62,14 +58,14 @@ class Camera {
   /// The frame of that number; only the noise differs from frame to frame.
   Frame shoot(std::uint64_t frame);
 
-  /// What its images are made of; direct in geometric mode.
+  /// What its images are made of.
   LightModel light() const { return light_; }
   const Geometry& geometry() const { return geometry_; }
   const Image<TruePixel>& truth() const { return truth_; }
   /// What every infrared pixel receives from the projector before noise and speckle on pixels [DN], ir_width ×
   /// ir_height; empty in geometric mode.
-  const Image<float>& radiance() const { return light_of_scene_.projected; }
-  /// Samples per infrared pixel after rounding up to a square grid; 0 in geometric mode.
+  const Image<float>& radiance() const;
+  /// Samples per infrared pixel after rounding up to a square grid.
   int samples_per_pixel() const { return samples_across_ * samples_across_; }
   const CaptureStatistics& statistics() const { return statistics_; }
 
@@ -84,13 +80,12 @@ class Camera {
   int samples_across_ = 0;
   Geometry geometry_;
   Image<TruePixel> truth_;
-  IrLight light_of_scene_;
-  Image<float> speckle_;                        ///< of the static scene; empty: none
-  std::shared_ptr<const Reference> reference_;  ///< none in geometric mode
-  // Of geometric mode only, empty where the sensor has none.
+  CaptureStatistics statistics_;
+  std::optional<ImagedView> view_;  ///< of photometric mode only
+  // Of geometric mode only, empty where there is none.
+  std::vector<TurbidPart> turbid_;
   BlockChance still_chance_;
   Image<float> residue_;  ///< of the reference [px]
-  CaptureStatistics statistics_;
 };
 
 }  // namespace fathom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "core/parallel.h"
@@ -22,12 +23,19 @@ namespace {
 constexpr std::uint64_t kSpeckleStream = 0x737065636bULL;
 constexpr std::uint64_t kDetectorStream = 0x6465746563ULL;
 constexpr std::uint64_t kWalkStream = 0x77616c6bULL;
+constexpr std::uint64_t kImageStream = 0x696d616765ULL;
 
 /// Walks of its own of a camera ray that enters a scattering body; of other surfaces one.
 constexpr int kWalksIntoBody = 4;
 
 /// Transmittance below which mirror images are left to chance.
 constexpr double kFaintImage = 0.12;
+
+/// Rows for which walks are kept at a time, and what they share with others.
+constexpr int kBandRows = 64;
+
+/// Sums numbers that are even between 0 and 1 with steps that keep them even; without 1.
+double wrapped(double sum) { return sum - std::floor(sum); }
 
 /// The middles of the cells of a grid in the unit square, row by row.
 std::vector<Eigen::Vector2d> sample_places(int across) {
@@ -46,7 +54,7 @@ struct Renderer {
   std::vector<Eigen::Vector2d> places;  ///< of a pixel's samples in it
   LightModel light;
   std::uint64_t seed;
-  const SharedWalks* shared = nullptr;  ///< with all light
+  const SharedWalks* shared = nullptr;  ///< of all but direct light
   double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
   std::optional<Defocus> defocus = rig.sensor.optics.defocuses() ? std::optional(Defocus(rig.sensor)) : std::nullopt;
 
@@ -82,22 +90,10 @@ struct Renderer {
     for (int i = 0; i < count; ++i)
       if (const SeenPoint* at = seen.find(i)) result.ambient[i] = at->transmittance * at->albedo;
     std::array<double, kPacket>& sums = result.projected;
-    if (light == LightModel::full)
+    if (light != LightModel::direct)
       for (int i = 0; i < count; ++i) {
-        Rng rng(seed, kWalkStream, y, first + i);
         const SeenPoint* at = seen.find(i);
-        if (at) {
-          const int per_pixel = samples_per_pixel(), x = (first + i) / per_pixel;
-          const std::optional<double> walked = shared->radiance(x, y, (first + i) % per_pixel, per_pixel, *at);
-          sums[i] = ghost_radiance(*at, rng) + (walked ? *walked : walked_radiance(*at, rng));
-        }
-        if (at && !at->refracted && !at->entered) continue;
-        see_mirrored(projector.world(), rays[i], rng, [&](const SeenPoint& image) {
-          // A surface mirrors some hundredths: one such image in three is looked at.
-          const double chance = std::min(image.transmittance / kFaintImage, 1.0);
-          if (chance < 1.0 && rng.uniform() >= chance) return;
-          sums[i] += (direct_radiance(image) + ghost_radiance(image, rng) + walked_radiance(image, rng)) / chance;
-        });
+        if (light == LightModel::full || (at && at->entered)) sums[i] += more_than_direct(y, first + i, rays[i], at);
         if (at && at->entered) seen.reset(i);
       }
     for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
@@ -106,6 +102,30 @@ struct Renderer {
       sums[i] += radiance_dn(rig.sensor, at, from_projector) * intensity(from_projector.direction, at.point);
     });
     return result;
+  }
+
+  /// Radiance [DN] of a sample's light that for_each_illumination() leaves out. `at`: what it sees, if anything.
+  double more_than_direct(int y, int number, const Ray& ray, const SeenPoint* at) const {
+    const bool is_full = light == LightModel::full;
+    const int per_pixel = samples_per_pixel(), x = number / per_pixel, sample = number % per_pixel;
+    Rng rng(seed, kWalkStream, y, number);
+    const auto walked = [&](SharedWalks::Look look, const SeenPoint& seen) {
+      const std::optional<double> of_all = shared->radiance(look, x, y, sample, per_pixel, seen);
+      return of_all ? *of_all : walked_radiance(seen, rng);
+    };
+    double sum = 0.0;
+    if (at) sum += (is_full ? ghost_radiance(*at, rng) : 0.0) + walked(SharedWalks::straight, *at);
+    if (at && !at->refracted && !at->entered) return sum;
+    // A surface mirrors some hundredths: such an image is looked at by at least one of a pixel's samples.
+    double drawn = wrapped(Rng(seed, kImageStream, y, x).uniform() + static_cast<double>(sample) / per_pixel);
+    see_mirrored(projector.world(), ray, rng, [&](const SeenPoint& image) {
+      const double chance = std::clamp(image.transmittance / kFaintImage, 1.0 / per_pixel, 1.0);
+      drawn = wrapped(drawn + std::numbers::phi);
+      if (drawn >= chance) return;
+      sum += direct_radiance(image) / chance;
+      if (is_full) sum += (ghost_radiance(image, rng) + walked(SharedWalks::mirrored, image)) / chance;
+    });
+    return sum;
   }
 
   /// Radiance [DN] by light straight or refracted from the projector; of bodies that scatter the walks see all.
@@ -132,7 +152,7 @@ struct Renderer {
   /// Radiance [DN] by walks of its own.
   double walked_radiance(const SeenPoint& seen, Rng& rng) const {
     double sum = 0.0;
-    const int walks = seen.entered ? kWalksIntoBody : 1;
+    const int walks = seen.entered && light == LightModel::full ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
       walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
         sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
@@ -147,7 +167,8 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
                   LightModel light, std::uint64_t seed) {
   const BlurredPattern blurred(pattern);
   std::optional<SharedWalks> shared;
-  if (light == LightModel::full) shared.emplace(projector, rig, blurred, seed);
+  if (light != LightModel::direct)
+    shared.emplace(projector, rig, blurred, light == LightModel::full ? kFineSharing : kCoarseSharing, seed, kBandRows);
   const Renderer renderer{
       projector, rig, pattern, blurred, sample_places(samples_across), light, seed, shared ? &*shared : nullptr};
   const int width = rig.sensor.ir_width, height = rig.sensor.ir_height;
@@ -173,7 +194,6 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
       }
     }
   };
-  constexpr int kBandRows = 64;  // walks are kept for as many rows, and what they share with others
   for (int top = 0; top < height; top += kBandRows) {
     const int rows = std::min(kBandRows, height - top);
     if (shared) shared->prepare(top, top + rows);

@@ -12,8 +12,9 @@ namespace fathom {
 
 /// Which light an image is made of.
 enum class LightModel {
-  direct,  ///< from the projector to what the camera sees, refracted or not; bodies that scatter are opaque
-  full     ///< all: thrown from wall to wall, mirrored by liquids, scattered within bodies
+  direct,     ///< from the projector to what the camera sees, refracted or not; bodies that scatter are opaque
+  scattered,  ///< direct light, what bodies scatter, by few walks, and what these mirror of direct light
+  full        ///< all: thrown from wall to wall, mirrored by liquids, scattered within bodies
 };
 
 /// Mean radiance of every infrared pixel [DN], ir_width × ir_height, without noise.

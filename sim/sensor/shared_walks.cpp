@@ -1,10 +1,12 @@
 #include "sim/sensor/shared_walks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "core/parallel.h"
@@ -16,12 +18,11 @@ namespace fathom {
 namespace {
 
 constexpr std::uint64_t kSharedWalkStream = 0x736861726564ULL;
+constexpr std::uint64_t kMirrorStream = 0x6d6972726fULL;
 constexpr std::uint64_t kShiftStream = 0x7368696674ULL;
 
-// Pixels to each side that share, but no farther than kFarthest_m. More of them take out more chance; but the light of
-// places farther apart is less alike.
-constexpr int kAsideInBody = 9, kAsideOnSurface = 5;
-constexpr double kFarthest_m = 0.0055;
+/// Of diffuse surfaces: pixels to each side that share.
+constexpr int kAsideOnSurface = 5;
 
 int parity_of(int x, int y) { return (x & 1) + 2 * (y & 1); }
 
@@ -30,8 +31,8 @@ constexpr double kNear = 1.5;
 
 /// The farther apart light enters and leaves, the less of it still shows dots, and the more walks bring out as much.
 int walks_into(const Turbid& medium, double dots_apart) {
-  constexpr double kOfEachStep = 2.0;
-  constexpr int kLeast = 2, kMost = 8;
+  constexpr double kOfEachStep = 8.0;
+  constexpr int kLeast = 4, kMost = 16;
   const double path = 1.0 / (medium.scattering * (1.0 - medium.anisotropy));
   return static_cast<int>(std::clamp(std::round(kOfEachStep * path / dots_apart), 1.0 * kLeast, 1.0 * kMost));
 }
@@ -46,65 +47,145 @@ bool has_glaze(const Geometry& geometry) {
 
 }  // namespace
 
-SharedWalks::SharedWalks(const PointLight& projector, const Rig& rig, const BlurredPattern& pattern, std::uint64_t seed)
+SharedWalks::SharedWalks(const PointLight& projector, const Rig& rig, const BlurredPattern& pattern,
+                         const WalkSharing& sharing, std::uint64_t seed, int rows_at_once)
     : projector_(projector),
       rig_(rig),
       pattern_(pattern),
+      sharing_(sharing),
+      room_(sharing.aside + sharing.knot_distance),
       seed_(seed),
       has_glaze_(has_glaze(projector.world().geometry())),
-      entries_(rig.sensor.ir_width, rig.sensor.ir_height),
-      rows_(rig.sensor.ir_height) {}
+      width_(rig.sensor.ir_width),
+      height_(rig.sensor.ir_height),
+      rows_(rig.sensor.ir_height) {
+  entries_.fill(Image<Entry>(width_, std::min(rows_at_once + 2 * room_, height_)));
+}
 
 void SharedWalks::prepare(int begin, int end) {
-  for (; forgotten_ < begin - kAsideInBody; ++forgotten_) rows_[forgotten_] = std::vector<Returned>();
+  if (begin != prepared_) walked_ = std::max(begin - room_, 0);
+  prepared_ = end;
+  for (; forgotten_ < begin - room_; ++forgotten_) rows_[forgotten_] = std::vector<SpreadLight>();
   const int walked = walked_;
-  walked_ = std::min(end + kAsideInBody, entries_.height());
+  walked_ = std::min(end + room_, height_);
   parallel_ranges(walked_ - walked, [&](int first, int last) {
     for (int y = walked + first; y < walked + last; ++y) walk_row(y);
   });
   parallel_ranges(end - begin, [&](int first, int last) {
-    for (int y = begin + first; y < begin + last; ++y) share_row(y);
+    for (int y = begin + first; y < begin + last; ++y)
+      for (const Look look : {straight, mirrored}) share_row(look, y);
+  });
+  tie_knots(begin, end);
+}
+
+void SharedWalks::tie_knots(int begin, int end) {
+  first_knot_row_ = begin / sharing_.knot_distance;
+  const int rows = (end - 1) / sharing_.knot_distance + 2 - first_knot_row_;
+  knots_ = Image<std::optional<SpreadDots>>((width_ - 1) / sharing_.knot_distance + 2, rows);
+  parallel_ranges(rows, [&](int first, int last) {
+    for (int row = first; row < last; ++row)
+      for (int column = 0; column < knots_.width(); ++column)
+        knots_(column, row) = knot(sharing_.knot_distance * column, sharing_.knot_distance * (first_knot_row_ + row));
   });
 }
 
-void SharedWalks::share_row(int y) {
+std::optional<SpreadDots> SharedWalks::knot(int x, int y) const {
+  if (x >= width_ || y >= height_) return std::nullopt;
+  const Entry& own = entry(straight, x, y);
+  if (own.object == kNothing || !own.entered) return std::nullopt;
+  std::vector<SpreadLight> lights;
+  int count = 0;
+  for_each_pair(straight, x, y, own, 0, 1, [&](const Entry& entry, int row) {
+    lights.insert(lights.end(), rows_[row].begin() + entry.first, rows_[row].begin() + entry.last);
+    ++count;
+  });
+  if (count == 0) return std::nullopt;
+  for (SpreadLight& light : lights) light.dn /= static_cast<float>(count);
+  Eigen::AlignedBox2d ways;
+  const int reach = (sharing_.is_exact ? 1 : 2) * sharing_.knot_distance;
+  for (int down = -reach; down <= reach; down += sharing_.stride)
+    for (int across = -reach; across <= reach; across += sharing_.stride)
+      if (const Entry* near = alike(straight, x + across, y + down, own))
+        if (const auto way = straight_way(near->point.cast<double>())) ways.extend(*way);
+  const Eigen::Vector2d room = Eigen::Vector2d::Constant(0.5 * sharing_.stride);  // for samples between the pixels
+  return SpreadDots(pattern_, lights, ways.min() - room, ways.max() + room);
+}
+
+std::optional<double> SharedWalks::between_knots(int x, int y, const Entry& to, const Eigen::Vector2d& way) const {
+  const int apart = sharing_.knot_distance, column = x / apart, row = y / apart;
+  const double across = static_cast<double>(x % apart) / apart, down = static_cast<double>(y % apart) / apart;
+  double sum = 0.0, weights = 0.0;
+  const auto add = [&](int i, int j, double weight) {
+    if (weight == 0.0) return true;
+    const int x_knot = column + i, y_knot = row + j - first_knot_row_;
+    if (x_knot < 0 || y_knot < 0 || x_knot >= knots_.width() || y_knot >= knots_.height()) return false;
+    const std::optional<SpreadDots>& dots = knots_(x_knot, y_knot);
+    if (!dots || !alike(straight, apart * (column + i), apart * (row + j), to)) return false;
+    sum += weight * (*dots)(way), weights += weight;
+    return true;
+  };
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i)
+      if (!add(i, j, (i == 0 ? 1.0 - across : across) * (j == 0 ? 1.0 - down : down)) && sharing_.is_exact)
+        return std::nullopt;
+  if (weights == 0.0)  // beside an edge, only where that is enough
+    for (int j = -1; j < 3; ++j)
+      for (int i = -1; i < 3; ++i) add(i, j, 1.0);
+  if (weights == 0.0) return std::nullopt;
+  return sum / weights;
+}
+
+void SharedWalks::share_row(Look look, int y) {
   const auto walked = [](const Entry& entry, int) { return entry.walked; };
-  for (int x = 0; x < entries_.width(); ++x)
-    if (Entry& entry = entries_(x, y); entry.object != kNothing && !entry.entered)
-      if (const auto mean = mean_around(x, y, entry, parity_of(x, y), 4, walked))
-        entry.shared = static_cast<float>(*mean);
+  for (int x = 0; x < width_; ++x)
+    if (Entry& own = entry(look, x, y); own.object != kNothing && !own.entered)
+      if (const auto mean = mean_around(look, x, y, own, parity_of(x, y), 4, walked))
+        own.shared = static_cast<float>(*mean);
 }
 
 void SharedWalks::walk_row(int y) {
+  rows_[y].clear();
+  for (Image<Entry>& kept : entries_) std::fill_n(kept.row(y % kept.height()), width_, Entry());
+  if (y % sharing_.stride != 0 && !sharing_.on_surfaces) return;
   const double px_per_ir_px = 1.0 / rig_.sensor.ir_scale();
-  for (int left = 0; left < entries_.width(); left += kPacket) {
-    const int count = std::min<int>(kPacket, entries_.width() - left);
+  for (int left = 0; left < width_; left += kPacket) {
+    const int count = std::min<int>(kPacket, width_ - left);
     std::array<Ray, kPacket> rays;
     for (int i = 0; i < count; ++i)
       rays[i] = {rig_.camera_in_world(),
                  rig_.direction_in_world((left + i + 0.5) * px_per_ir_px,
                                          (y - rig_.sensor.ir_first_row() + 0.5) * px_per_ir_px)};
     const Packet<SeenPoint> seen = see(projector_.world(), std::span(rays.data(), count));
-    for (int i = 0; i < count; ++i)
-      if (const SeenPoint* at = seen.find(i)) walk(left + i, y, *at);
+    for (int i = 0; i < count; ++i) {
+      const SeenPoint* at = seen.find(i);
+      if (at && (sharing_.on_surfaces || at->entered)) walk(straight, left + i, y, *at);
+      if (!sharing_.on_surfaces || (at && !at->refracted && !at->entered)) continue;
+      Rng rng(seed_, kMirrorStream, y, left + i);
+      bool is_first = true;
+      see_mirrored(projector_.world(), rays[i], rng, [&](const SeenPoint& image) {
+        if (std::exchange(is_first, false) && !image.entered) walk(mirrored, left + i, y, image);
+      });
+    }
   }
 }
 
-void SharedWalks::walk(int x, int y, const SeenPoint& seen) {
+void SharedWalks::walk(Look look, int x, int y, const SeenPoint& seen) {
   const std::optional<Eigen::Vector2d> way = straight_way(seen.point);
   const double gain = gain_of(seen);
+  if (seen.entered && (x % sharing_.stride != 0 || y % sharing_.stride != 0)) return;
   if (!way || gain <= 0.0 || seen.glaze || (seen.entered ? is_thin(seen) : has_glaze_)) return;
-  Entry& entry = entries_(x, y) = entry_of(seen);
+  Entry& own = entry(look, x, y) = entry_of(seen);
   if (!seen.entered && parity_of(x, y) != 0) return;
-  Rng shifts(seed_, kShiftStream), rng(seed_, kSharedWalkStream, y, x);
+  Rng shifts(seed_, kShiftStream + look), rng(seed_, kSharedWalkStream + look, y, x);
   const FirstStep shift{shifts.uniform(), shifts.uniform(), shifts.uniform()};
   // Those of a square of pixels begin with numbers in a row.
-  const int place = seen.entered ? x + (2 * kAsideInBody + 1) * y : x / 2 + (kAsideOnSurface + 1) * (y / 2);
+  const int stride = seen.entered ? sharing_.stride : 2, aside = seen.entered ? sharing_.aside : kAsideOnSurface;
+  const int place = x / stride + (2 * aside / stride + 1) * (y / stride);
   const double dots_apart =
       rig_.sensor.pattern.step_px / rig_.sensor.focal_px * (seen.point - projector_.position()).norm();
   const int walks = seen.entered ? walks_into(seen.entered->medium, dots_apart) : 1;
-  std::vector<Returned>& row = rows_[y];
-  entry.first = static_cast<std::uint32_t>(row.size());
+  std::vector<SpreadLight>& row = rows_[y];
+  own.first = static_cast<std::uint32_t>(row.size());
   double sum = 0.0;
   for (int walk = 0; walk < walks; ++walk) {
     const FirstStep first = even_step(place * walks + walk, shift);
@@ -122,8 +203,8 @@ void SharedWalks::walk(int x, int y, const SeenPoint& seen) {
         },
         &first, kNear * dots_apart);
   }
-  entry.last = static_cast<std::uint32_t>(row.size());
-  entry.walked = static_cast<float>(sum);
+  own.last = static_cast<std::uint32_t>(row.size());
+  own.walked = static_cast<float>(sum);
 }
 
 SharedWalks::Entry SharedWalks::entry_of(const SeenPoint& seen) const {
@@ -151,42 +232,51 @@ std::optional<Eigen::Vector2d> SharedWalks::straight_way(const Eigen::Vector3d& 
   return on_grid(pattern_.sharp(), rig_, (point - projector_.position()).normalized());
 }
 
-const SharedWalks::Entry* SharedWalks::alike(int x, int y, const Entry& to) const {
+const SharedWalks::Entry* SharedWalks::alike(Look look, int x, int y, const Entry& to) const {
   constexpr float kSameNormal = 0.99f;  // 8 degrees
   constexpr float kSamePlane = 0.15f;   // of the distance
-  if (x < 0 || y < 0 || x >= entries_.width() || y >= entries_.height()) return nullptr;
-  const Entry& entry = entries_(x, y);
+  if (x < 0 || y < 0 || x >= width_ || y >= height_) return nullptr;
+  const Entry& entry = this->entry(look, x, y);
   if (entry.object != to.object || entry.entered != to.entered || entry.around != to.around ||
       entry.is_lit != to.is_lit || entry.normal.dot(to.normal) < kSameNormal)
     return nullptr;
   const Eigen::Vector3f apart = entry.point - to.point;
+  // Neighbouring pixels of a curved mirror see places far from one another.
+  const float farthest_m = 2.0f * sharing_.farthest_m;
+  if (look == mirrored && apart.squaredNorm() > farthest_m * farthest_m) return nullptr;
   const float off = apart.dot(to.normal);
   return off * off <= kSamePlane * kSamePlane * apart.squaredNorm() ? &entry : nullptr;
 }
 
 double SharedWalks::from_body(const Entry& entry, int y, const Eigen::Vector2d& way) const {
   double sum = 0.0;
-  const std::vector<Returned>& row = rows_[y];
+  const std::vector<SpreadLight>& row = rows_[y];
   for (std::uint32_t i = entry.first; i < entry.last; ++i) {
-    const Returned& light = row[i];
+    const SpreadLight& light = row[i];
     sum += light.dn * pattern_.intensity(way + Eigen::Vector2d(light.dx_steps, light.dy_steps), light.blur_steps);
   }
   return sum;
 }
 
+template <class Visit>
+void SharedWalks::for_each_pair(Look look, int x, int y, const Entry& to, int part, int parts, Visit visit) const {
+  const int stride = to.entered ? sharing_.stride : 1, aside = aside_of(to) / stride * stride;
+  for (int down = 0; down <= aside; down += stride)  // half of the square, each place with the one opposite it
+    for (int across = -aside; across <= aside; across += stride) {
+      if ((down == 0 && across < 0) || parity_of(across, down) % parts != part) continue;
+      const Entry *one = alike(look, x + across, y + down, to), *other = alike(look, x - across, y - down, to);
+      if (sharing_.is_exact && (!one || !other)) continue;
+      if (one) visit(*one, y + down);
+      if (other) visit(*other, y - down);
+    }
+}
+
 template <class Value>
-std::optional<double> SharedWalks::mean_around(int x, int y, const Entry& to, int part, int parts, Value value) const {
+std::optional<double> SharedWalks::mean_around(Look look, int x, int y, const Entry& to, int part, int parts,
+                                               Value value) const {
   double sum = 0.0;
   int count = 0;
-  const int aside = aside_of(to);
-  for (int down = 0; down <= aside; ++down)  // half of the square, each place with the one opposite it
-    for (int across = -aside; across <= aside; ++across) {
-      if ((down == 0 && across < 0) || parity_of(across, down) % parts != part) continue;
-      const Entry *one = alike(x + across, y + down, to), *other = alike(x - across, y - down, to);
-      if (!one || !other) continue;
-      sum += value(*one, y + down) + value(*other, y - down);
-      count += 2;
-    }
+  for_each_pair(look, x, y, to, part, parts, [&](const Entry& entry, int row) { sum += value(entry, row), ++count; });
   if (count == 0) return std::nullopt;
   return sum / count;
 }
@@ -194,21 +284,34 @@ std::optional<double> SharedWalks::mean_around(int x, int y, const Entry& to, in
 int SharedWalks::aside_of(const Entry& entry) const {
   const double pixel_m =
       (entry.point.cast<double>() - rig_.camera_in_world()).norm() / rig_.sensor.focal_px / rig_.sensor.ir_scale();
-  return std::clamp(static_cast<int>(kFarthest_m / pixel_m), 1, entry.entered ? kAsideInBody : kAsideOnSurface);
+  return std::clamp(static_cast<int>(sharing_.farthest_m / pixel_m), 1,
+                    entry.entered ? sharing_.aside : kAsideOnSurface);
 }
 
-std::optional<double> SharedWalks::radiance(int x, int y, int sample, int samples, const SeenPoint& seen) const {
-  if (entries_(x, y).object == kNothing) return std::nullopt;
+std::optional<double> SharedWalks::radiance(Look look, int x, int y, int sample, int samples,
+                                            const SeenPoint& seen) const {
   const Entry to = entry_of(seen);
-  std::optional<double> mean;
-  if (!seen.entered) {
-    if (const Entry* own = alike(x, y, to); own && own->shared != kUnknown) mean = own->shared;
-  } else if (const std::optional<Eigen::Vector2d> way = straight_way(seen.point)) {
-    const int parts = std::min(samples, 4);
-    mean = mean_around(x, y, to, sample % parts, parts,
-                       [&](const Entry& entry, int row) { return from_body(entry, row, *way); });
-  }
+  std::optional<double> mean = mean_at(look, x, y, sample, samples, to);
+  // At an edge a pixel's middle may see another surface than its sample, or stand alone: a neighbour's light is
+  // nearest.
+  for (int down = -1; down <= 1 && !mean; ++down)
+    for (int across = -1; across <= 1 && !mean; ++across)
+      if (alike(look, x + across, y + down, to)) mean = mean_at(look, x + across, y + down, sample, samples, to);
   return mean ? std::optional(*mean * gain_of(seen)) : std::nullopt;
+}
+
+std::optional<double> SharedWalks::mean_at(Look look, int x, int y, int sample, int samples, const Entry& to) const {
+  if (!to.entered) {
+    const Entry* own = alike(look, x, y, to);
+    return own && own->shared != kUnknown ? std::optional<double>(own->shared) : std::nullopt;
+  }
+  const std::optional<Eigen::Vector2d> way = straight_way(to.point.cast<double>());
+  if (!way) return std::nullopt;
+  if (const auto mean = between_knots(x, y, to, *way)) return mean;
+  if (!sharing_.is_exact) return std::nullopt;
+  const int parts = std::min(samples, 4);
+  return mean_around(look, x, y, to, sample % parts, parts,
+                     [&](const Entry& entry, int row) { return from_body(entry, row, *way); });
 }
 
 }  // namespace fathom

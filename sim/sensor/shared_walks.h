@@ -2,11 +2,12 @@
 // the same ways, so each walk stands for all pixels around the one that it starts from.
 //   Out of a body that scatters the ways of a pixel are its neighbour's, a little to the side. They meet other dots,
 //   which make most of a walk's noise.
-//   On a diffuse surface light arrives from the same places, and is as bright.
+//   On a diffuse surface light arrives from the same places, and is as bright. So it is on one that is seen mirrored.
 // Not shared: light out of liquids so thin that dots are seen through them, and that of scenes with glazes, which throw
 // sharp dots.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -15,16 +16,36 @@
 #include "sim/render/connection.h"
 #include "sim/scene/rig.h"
 #include "sim/sensor/blurred_pattern.h"
+#include "sim/sensor/spread_dots.h"
 
 namespace fathom {
 
+/// Who walks, and for whom.
+struct WalkSharing {
+  int stride;         ///< of the pixels that walk into bodies, along rows and columns [px]
+  int aside;          ///< pixels to each side for which such a walk counts …
+  float farthest_m;   ///< … but no farther
+  int knot_distance;  ///< pixels between the knots at which the dots that all walks around show are worked out
+  bool is_exact;      ///< Only pairs on opposite sides count, and at edges pixels walk for themselves.
+  bool on_surfaces;   ///< Diffuse surfaces share as well; otherwise they are left out.
+};
+/// More pixels that share take out more chance; but the light of places farther apart is less alike.
+inline constexpr WalkSharing kFineSharing{1, 9, 0.0055f, 4, true, true};
+/// Some hundred walks for a cup, each of which counts for much of its surface.
+inline constexpr WalkSharing kCoarseSharing{6, 48, 0.024f, 12, false, false};
+
 class SharedWalks {
  public:
-  /// Keeps references to its arguments, which must outlive it. Same seed, same walks, for any number of threads.
-  SharedWalks(const PointLight& projector, const Rig& rig, const BlurredPattern& pattern, std::uint64_t seed);
+  /// How a pixel sees a point: along its ray, or mirrored in what the ray meets.
+  enum Look { straight, mirrored };
 
-  /// Prepares the rows begin … end − 1 of the infrared image, which follow those of the call before; what
-  /// only they needed is forgotten. Walks from the middles of pixels: two to eight from each that sees a body that
+  /// Keeps references to its arguments, which must outlive it. Same seed, same walks, for any number of threads.
+  /// `rows_at_once`: at most as many are prepared in one call.
+  SharedWalks(const PointLight& projector, const Rig& rig, const BlurredPattern& pattern, const WalkSharing& sharing,
+              std::uint64_t seed, int rows_at_once);
+
+  /// Prepares the rows begin … end − 1 of the infrared image; those of the call before are forgotten, but for what both
+  /// need where one follows the other. Walks from the middles of pixels: two to eight from each that sees a body that
   /// scatters, one from every second one in both directions of those that see a diffuse surface.
   void prepare(int begin, int end);
 
@@ -32,15 +53,9 @@ class SharedWalks {
   /// pixel sees. It is a mean over the pixels around it that see the same surface, as level and as lit, in pairs on
   /// opposite sides, so that what changes steadily over the surface cancels. The samples of a pixel share them out.
   /// Nothing where there is no such pixel or nothing is shared.
-  std::optional<double> radiance(int x, int y, int sample, int samples, const SeenPoint& seen) const;
+  std::optional<double> radiance(Look look, int x, int y, int sample, int samples, const SeenPoint& seen) const;
 
  private:
-  /// Light that returned out of a body, as it would to any pixel.
-  struct Returned {
-    float dx_steps, dy_steps;  ///< on the pattern's grid, from where the projector's straight way to the pixel lies
-    float dn;                  ///< radiance over the transmittance to the camera, for dots of intensity 1
-    float blur_steps;
-  };
   static constexpr int kNothing = -1;
   /// What a pixel's middle sees.
   struct Entry {
@@ -59,25 +74,43 @@ class SharedWalks {
   /// On the pattern's grid, of the straight way from the projector to a point.
   std::optional<Eigen::Vector2d> straight_way(const Eigen::Vector3d& point) const;
   void walk_row(int y);
-  void walk(int x, int y, const SeenPoint& seen);
-  void share_row(int y);
+  void walk(Look look, int x, int y, const SeenPoint& seen);
+  void share_row(Look look, int y);
+  void tie_knots(int begin, int end);
+  std::optional<SpreadDots> knot(int x, int y) const;
+  /// Radiance over gain from the four knots around a pixel, if all of them are like it, or any where that is enough.
+  std::optional<double> between_knots(int x, int y, const Entry& to, const Eigen::Vector2d& way) const;
   double from_body(const Entry& entry, int y, const Eigen::Vector2d& way) const;
-  const Entry* alike(int x, int y, const Entry& to) const;
-  /// Mean over the pixels around (x, y) that are like `to`, of those that lie at distances of this part: 0 … parts − 1,
-  /// by their parities. `value(entry, row)`.
+  /// The entry of a pixel, if the row is there.
+  Entry& entry(Look look, int x, int y) { return entries_[look](x, y % entries_[look].height()); }
+  const Entry& entry(Look look, int x, int y) const { return entries_[look](x, y % entries_[look].height()); }
+  const Entry* alike(Look look, int x, int y, const Entry& to) const;
+  /// The pixels around (x, y) that are like `to`, of those that lie at distances of this part: 0 … parts − 1, by their
+  /// parities. `visit(entry, row)`.
+  template <class Visit>
+  void for_each_pair(Look look, int x, int y, const Entry& to, int part, int parts, Visit visit) const;
+  /// Mean over them of `value(entry, row)`.
   template <class Value>
-  std::optional<double> mean_around(int x, int y, const Entry& to, int part, int parts, Value value) const;
+  std::optional<double> mean_around(Look look, int x, int y, const Entry& to, int part, int parts, Value value) const;
 
   int aside_of(const Entry& entry) const;
+  /// Radiance over gain of what is like `to`, as the pixel (x, y) has it.
+  std::optional<double> mean_at(Look look, int x, int y, int sample, int samples, const Entry& to) const;
 
   const PointLight& projector_;
   const Rig& rig_;
   const BlurredPattern& pattern_;
+  WalkSharing sharing_;
+  int room_;  ///< rows above and below those that are asked for, of which they make use
   std::uint64_t seed_;
   bool has_glaze_;
-  int walked_ = 0, forgotten_ = 0;  ///< rows so far
-  Image<Entry> entries_;
-  std::vector<std::vector<Returned>> rows_;
+  int prepared_ = 0;                ///< rows up to this one
+  int walked_ = 0, forgotten_ = 0;  ///< the same
+  int width_, height_;
+  std::array<Image<Entry>, 2> entries_;  ///< by Look, of the rows that are there: row y lies at y modulo their number
+  std::vector<std::vector<SpreadLight>> rows_;  ///< over the transmittance to the camera
+  int first_knot_row_ = 0;                      ///< of the rows that are prepared
+  Image<std::optional<SpreadDots>> knots_;
 };
 
 }  // namespace fathom

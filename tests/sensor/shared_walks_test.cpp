@@ -53,9 +53,11 @@ class Cup {
 
   bool is_lit(const Eigen::Vector3d& point) const { return !scene_.world.occluded(point, scene_.projector.position()); }
 
-  SharedWalks shared(std::uint64_t seed) const {
-    SharedWalks walks(scene_.projector, scene_.rig, blurred_, seed);
-    walks.prepare(0, scene_.rig.sensor.ir_height);
+  /// Of the rows of some pixels, which are in order.
+  SharedWalks shared(const std::vector<Pixel>& pixels, std::uint64_t seed) const {
+    const int first = pixels.front().y, end = pixels.back().y + 1;
+    SharedWalks walks(scene_.projector, scene_.rig, blurred_, kFineSharing, seed, end - first);
+    walks.prepare(first, end);
     return walks;
   }
 
@@ -106,10 +108,11 @@ Compared compared(const Cup& cup, int stride, int walks, const Part& part, int s
   const std::vector<Cup::Pixel> pixels = cup.pixels(stride, part);
   Compared light;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const SharedWalks shared = cup.shared(seed);
+    const SharedWalks shared = cup.shared(pixels, seed);
     int missing = 0;
     light.shared += cup.light(pixels, [&](const Cup::Pixel& pixel, int sample) {
-      if (const auto radiance = shared.radiance(pixel.x, pixel.y, sample, kSamples, pixel.seen[sample]))
+      if (const auto radiance =
+              shared.radiance(SharedWalks::straight, pixel.x, pixel.y, sample, kSamples, pixel.seen[sample]))
         return *radiance;
       ++missing;
       Rng rng(1 + seed, pixel.y, pixel.x * kSamples + sample);
@@ -182,8 +185,9 @@ TEST(SharedWalks, AreNotSharedWhereDotsAreSeenThroughALiquid) {
                      "fill_mm": 20)");
   const std::vector<Cup::Pixel> pixels = cup.pixels(20, [](const SeenPoint& seen) { return seen.entered != nullptr; });
   ASSERT_FALSE(pixels.empty());
-  const SharedWalks shared = cup.shared(1);
-  for (const Cup::Pixel& pixel : pixels) EXPECT_FALSE(shared.radiance(pixel.x, pixel.y, 0, kSamples, pixel.seen[0]));
+  const SharedWalks shared = cup.shared(pixels, 1);
+  for (const Cup::Pixel& pixel : pixels)
+    EXPECT_FALSE(shared.radiance(SharedWalks::straight, pixel.x, pixel.y, 0, kSamples, pixel.seen[0]));
 }
 
 }  // namespace
