@@ -187,7 +187,9 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option("scene", options->scene, "Scene file (*.json)")->required();
   app.add_option("--model", options->model, "Model of a diagnosis, whose effects are there as well")
       ->type_name("M.json");
-  app.add_option("--mode", options->mode, "geometric: exact triangulation; photometric: infrared image and matching")
+  app.add_option("--mode", options->mode,
+                 "geometric: exact triangulation, images only of liquids that scatter; photometric: infrared image and "
+                 "matching")
       ->check(one_of("mode", {"geometric", "photometric"}))
       ->capture_default_str();
   app.add_option("--spp", options->spp, "Samples per infrared pixel, on a square grid")

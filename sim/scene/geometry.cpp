@@ -138,7 +138,7 @@ class Builder {
     if (medium.scatters()) {
       bodies_.back().body.surface_albedo = diffuse_reflectance(medium, at_wavelength.n);
       geometry_.approximations.push_back(fmt::format(
-          "{}: scatters; light enters it in images of full light, elsewhere it is an opaque diffuse surface of "
+          "{}: scatters; light enters it but in captures of direct light, where it is an opaque diffuse surface of "
           "albedo {:.3f}",
           medium.name, bodies_.back().body.surface_albedo));
     }

@@ -126,7 +126,8 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   if (mode == CaptureMode::geometric) {
     if (light_ == LightModel::full)
       turbid_ = turbid_parts(*projector, setup_.rig, truth_, samples_across_, seed, statistics_);
-    light_ = turbid_.empty() ? LightModel::direct : LightModel::scattered;
+    if (turbid_.empty()) light_ = LightModel::direct, samples_across_ = 0;
+    if (!turbid_.empty()) light_ = LightModel::scattered;
     if (sensor.noise.disparity.present()) still_chance_ = block_chance(sensor, seed, kStill);
     const int margin = reference_margin(sensor.matcher);
     residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);
@@ -163,7 +164,11 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
   if (sensor.noise.disparity.present())
     shot.disparity_px =
         disparity_with_noise(sensor, shot.disparity_px, intensity, still_chance_, block_chance(sensor, seed_, frame));
-  for (const TurbidPart& part : turbid_) part.shoot(frame, truth_, shot.disparity_px, statistics_);
+  for (const TurbidPart& part : turbid_) {
+    Image<float> matched = part.match(frame, statistics_);
+    average(setup_.processing.window_px, matched);
+    part.put(matched, truth_, shot.disparity_px);
+  }
   add_residue(sensor, residue_, shot.disparity_px);
   add_unit_error(sensor, frame, shot.disparity_px);
   shot.depth = depth_image(sensor, shot.disparity_px, sensor.law.cut);

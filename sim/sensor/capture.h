@@ -65,7 +65,7 @@ class Camera {
   /// What every infrared pixel receives from the projector before noise and speckle on pixels [DN], ir_width ×
   /// ir_height; empty in geometric mode.
   const Image<float>& radiance() const;
-  /// Samples per infrared pixel after rounding up to a square grid.
+  /// Samples per infrared pixel after rounding up to a square grid; 0 where there are no images.
   int samples_per_pixel() const { return samples_across_ * samples_across_; }
   const CaptureStatistics& statistics() const { return statistics_; }
 

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "core/simd.h"
+#include "sim/sensor/add_scaled.h"
 #include "sim/sensor/pattern.h"
 #include "sim/sensor/white_noise.h"
 
@@ -25,11 +26,6 @@ void sum_along(const float* __restrict noise, int count, float* __restrict sum, 
     const auto off = static_cast<float>(i - count / 2);
     for (int x = 0; x < width; ++x) sum[x] += noise[x + i], moment[x] += off * noise[x + i];
   }
-}
-
-FATHOM_SIMD_CLONES
-void add_scaled(const float* __restrict row, float scale, float* __restrict sum, int width) {
-  for (int x = 0; x < width; ++x) sum[x] += scale * row[x];
 }
 
 /// Σ i² over a window of `count` places about its middle.

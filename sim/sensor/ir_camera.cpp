@@ -154,9 +154,12 @@ struct Renderer {
     double sum = 0.0;
     const int walks = seen.entered && light == LightModel::full ? kWalksIntoBody : 1;
     for (int walk = 0; walk < walks; ++walk)
-      walk_light(projector, seen, rng, [&](const ReturnedLight& returned) {
-        sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
-      });
+      walk_light(
+          projector, seen, rng,
+          [&](const ReturnedLight& returned) {
+            sum += radiance_dn(rig.sensor, returned.reflected) * intensity_around(blurred, rig, returned);
+          },
+          nullptr, shared->near_start(seen));
     return sum / walks;
   }
 };

@@ -26,9 +26,6 @@ constexpr int kAsideOnSurface = 5;
 
 int parity_of(int x, int y) { return (x & 1) + 2 * (y & 1); }
 
-/// Grid steps from where light enters a body, beyond which what returns shows dots too wide to be told apart.
-constexpr double kNear = 1.5;
-
 /// The farther apart light enters and leaves, the less of it still shows dots, and the more walks bring out as much.
 int walks_into(const Turbid& medium, double dots_apart) {
   constexpr double kOfEachStep = 8.0;
@@ -59,7 +56,9 @@ SharedWalks::SharedWalks(const PointLight& projector, const Rig& rig, const Blur
       width_(rig.sensor.ir_width),
       height_(rig.sensor.ir_height),
       rows_(rig.sensor.ir_height) {
-  entries_.fill(Image<Entry>(width_, std::min(rows_at_once + 2 * room_, height_)));
+  const int rows = std::min(rows_at_once + 2 * room_, height_);
+  entries_[straight] = Image<Entry>(width_, rows);
+  if (sharing.is_exact) entries_[mirrored] = Image<Entry>(width_, rows);
 }
 
 void SharedWalks::prepare(int begin, int end) {
@@ -71,10 +70,11 @@ void SharedWalks::prepare(int begin, int end) {
   parallel_ranges(walked_ - walked, [&](int first, int last) {
     for (int y = walked + first; y < walked + last; ++y) walk_row(y);
   });
-  parallel_ranges(end - begin, [&](int first, int last) {
-    for (int y = begin + first; y < begin + last; ++y)
-      for (const Look look : {straight, mirrored}) share_row(look, y);
-  });
+  if (sharing_.is_exact)
+    parallel_ranges(end - begin, [&](int first, int last) {
+      for (int y = begin + first; y < begin + last; ++y)
+        for (const Look look : {straight, mirrored}) share_row(look, y);
+    });
   tie_knots(begin, end);
 }
 
@@ -107,8 +107,14 @@ std::optional<SpreadDots> SharedWalks::knot(int x, int y) const {
     for (int across = -reach; across <= reach; across += sharing_.stride)
       if (const Entry* near = alike(straight, x + across, y + down, own))
         if (const auto way = straight_way(near->point.cast<double>())) ways.extend(*way);
-  const Eigen::Vector2d room = Eigen::Vector2d::Constant(0.5 * sharing_.stride);  // for samples between the pixels
-  return SpreadDots(pattern_, lights, ways.min() - room, ways.max() + room);
+  // Samples lie between the pixels that walk; far outside of the grid all is dark.
+  const double px = 1.0 / rig_.sensor.ir_scale(), aside_steps = sharing_.stride * px / rig_.sensor.pattern.step_px;
+  const Eigen::Vector2d room = Eigen::Vector2d::Constant(aside_steps);
+  const Eigen::Vector2d grid(pattern_.sharp().columns(), pattern_.sharp().rows());
+  const Eigen::AlignedBox2d shown =
+      Eigen::AlignedBox2d(ways.min() - room, ways.max() + room).intersection(Eigen::AlignedBox2d(-grid, 2.0 * grid));
+  if (shown.isEmpty()) return std::nullopt;
+  return SpreadDots(pattern_, lights, shown.min(), shown.max());
 }
 
 std::optional<double> SharedWalks::between_knots(int x, int y, const Entry& to, const Eigen::Vector2d& way) const {
@@ -145,25 +151,28 @@ void SharedWalks::share_row(Look look, int y) {
 
 void SharedWalks::walk_row(int y) {
   rows_[y].clear();
-  for (Image<Entry>& kept : entries_) std::fill_n(kept.row(y % kept.height()), width_, Entry());
-  if (y % sharing_.stride != 0 && !sharing_.on_surfaces) return;
+  for (Image<Entry>& kept : entries_)
+    if (!kept.empty()) std::fill_n(kept.row(y % kept.height()), width_, Entry());
+  if (y % sharing_.stride != 0) return;
   const double px_per_ir_px = 1.0 / rig_.sensor.ir_scale();
-  for (int left = 0; left < width_; left += kPacket) {
-    const int count = std::min<int>(kPacket, width_ - left);
+  const int stride = sharing_.stride;
+  for (int left = 0; left < width_; left += static_cast<int>(kPacket) * stride) {
+    const int count = std::min<int>(kPacket, (width_ - left - 1) / stride + 1);
     std::array<Ray, kPacket> rays;
     for (int i = 0; i < count; ++i)
       rays[i] = {rig_.camera_in_world(),
-                 rig_.direction_in_world((left + i + 0.5) * px_per_ir_px,
+                 rig_.direction_in_world((left + stride * i + 0.5) * px_per_ir_px,
                                          (y - rig_.sensor.ir_first_row() + 0.5) * px_per_ir_px)};
     const Packet<SeenPoint> seen = see(projector_.world(), std::span(rays.data(), count));
     for (int i = 0; i < count; ++i) {
       const SeenPoint* at = seen.find(i);
-      if (at && (sharing_.on_surfaces || at->entered)) walk(straight, left + i, y, *at);
-      if (!sharing_.on_surfaces || (at && !at->refracted && !at->entered)) continue;
-      Rng rng(seed_, kMirrorStream, y, left + i);
+      const int x = left + stride * i;
+      if (at && (sharing_.is_exact || at->entered)) walk(straight, x, y, *at);
+      if (!sharing_.is_exact || (at && !at->refracted && !at->entered)) continue;
+      Rng rng(seed_, kMirrorStream, y, x);
       bool is_first = true;
       see_mirrored(projector_.world(), rays[i], rng, [&](const SeenPoint& image) {
-        if (std::exchange(is_first, false) && !image.entered) walk(mirrored, left + i, y, image);
+        if (std::exchange(is_first, false) && !image.entered) walk(mirrored, x, y, image);
       });
     }
   }
@@ -172,7 +181,6 @@ void SharedWalks::walk_row(int y) {
 void SharedWalks::walk(Look look, int x, int y, const SeenPoint& seen) {
   const std::optional<Eigen::Vector2d> way = straight_way(seen.point);
   const double gain = gain_of(seen);
-  if (seen.entered && (x % sharing_.stride != 0 || y % sharing_.stride != 0)) return;
   if (!way || gain <= 0.0 || seen.glaze || (seen.entered ? is_thin(seen) : has_glaze_)) return;
   Entry& own = entry(look, x, y) = entry_of(seen);
   if (!seen.entered && parity_of(x, y) != 0) return;
@@ -181,30 +189,37 @@ void SharedWalks::walk(Look look, int x, int y, const SeenPoint& seen) {
   // Those of a square of pixels begin with numbers in a row.
   const int stride = seen.entered ? sharing_.stride : 2, aside = seen.entered ? sharing_.aside : kAsideOnSurface;
   const int place = x / stride + (2 * aside / stride + 1) * (y / stride);
-  const double dots_apart =
-      rig_.sensor.pattern.step_px / rig_.sensor.focal_px * (seen.point - projector_.position()).norm();
-  const int walks = seen.entered ? walks_into(seen.entered->medium, dots_apart) : 1;
+  const int walks = seen.entered ? walks_into(seen.entered->medium, dots_apart(seen)) : 1;
+  // A walk from a faint image would end at once: what it is in proportion to is left out.
+  SeenPoint bright = seen;
+  if (!seen.entered) bright.transmittance = 1.0;
+  const double of_bright = gain_of(bright);
   std::vector<SpreadLight>& row = rows_[y];
   own.first = static_cast<std::uint32_t>(row.size());
   double sum = 0.0;
   for (int walk = 0; walk < walks; ++walk) {
     const FirstStep first = even_step(place * walks + walk, shift);
     walk_light(
-        projector_, seen, rng,
+        projector_, bright, rng,
         [&](const ReturnedLight& light) {
           const std::optional<Eigen::Vector2d> on = on_grid(pattern_.sharp(), rig_, light.direction);
           if (!on) return;
-          const double dn = radiance_dn(rig_.sensor, light.reflected) / (walks * gain), blur = blur_steps(rig_, light);
+          const double dn = radiance_dn(rig_.sensor, light.reflected) / (walks * of_bright),
+                       blur = blur_steps(rig_, light);
           if (seen.entered)
             row.push_back({static_cast<float>(on->x() - way->x()), static_cast<float>(on->y() - way->y()),
                            static_cast<float>(dn), static_cast<float>(blur)});
           else
             sum += dn * pattern_.intensity(*on, blur);
         },
-        &first, kNear * dots_apart);
+        &first, near_start(seen));
   }
   own.last = static_cast<std::uint32_t>(row.size());
   own.walked = static_cast<float>(sum);
+}
+
+double SharedWalks::dots_apart(const SeenPoint& seen) const {
+  return rig_.sensor.pattern.step_px / rig_.sensor.focal_px * (seen.point - projector_.position()).norm();
 }
 
 SharedWalks::Entry SharedWalks::entry_of(const SeenPoint& seen) const {
@@ -290,13 +305,15 @@ int SharedWalks::aside_of(const Entry& entry) const {
 
 std::optional<double> SharedWalks::radiance(Look look, int x, int y, int sample, int samples,
                                             const SeenPoint& seen) const {
+  if (seen.entered ? is_thin(seen) : has_glaze_) return std::nullopt;
   const Entry to = entry_of(seen);
   std::optional<double> mean = mean_at(look, x, y, sample, samples, to);
   // At an edge a pixel's middle may see another surface than its sample, or stand alone: a neighbour's light is
   // nearest.
   for (int down = -1; down <= 1 && !mean; ++down)
     for (int across = -1; across <= 1 && !mean; ++across)
-      if (alike(look, x + across, y + down, to)) mean = mean_at(look, x + across, y + down, sample, samples, to);
+      if ((across != 0 || down != 0) && alike(look, x + across, y + down, to))
+        mean = mean_at(look, x + across, y + down, sample, samples, to);
   return mean ? std::optional(*mean * gain_of(seen)) : std::nullopt;
 }
 

@@ -26,13 +26,14 @@ struct WalkSharing {
   int aside;          ///< pixels to each side for which such a walk counts …
   float farthest_m;   ///< … but no farther
   int knot_distance;  ///< pixels between the knots at which the dots that all walks around show are worked out
-  bool is_exact;      ///< Only pairs on opposite sides count, and at edges pixels walk for themselves.
-  bool on_surfaces;   ///< Diffuse surfaces share as well; otherwise they are left out.
+  /// Only pairs on opposite sides count, pixels at edges walk for themselves, and diffuse surfaces share as well;
+  /// otherwise these are left out.
+  bool is_exact;
 };
 /// More pixels that share take out more chance; but the light of places farther apart is less alike.
-inline constexpr WalkSharing kFineSharing{1, 9, 0.0055f, 4, true, true};
-/// Some hundred walks for a cup, each of which counts for much of its surface.
-inline constexpr WalkSharing kCoarseSharing{6, 48, 0.024f, 12, false, false};
+inline constexpr WalkSharing kFineSharing{1, 9, 0.0055f, 4, true};
+/// Some thousand walks for a cup, each of which counts for much of its surface.
+inline constexpr WalkSharing kCoarseSharing{6, 48, 0.024f, 24, false};
 
 class SharedWalks {
  public:
@@ -45,8 +46,8 @@ class SharedWalks {
               std::uint64_t seed, int rows_at_once);
 
   /// Prepares the rows begin … end − 1 of the infrared image; those of the call before are forgotten, but for what both
-  /// need where one follows the other. Walks from the middles of pixels: two to eight from each that sees a body that
-  /// scatters, one from every second one in both directions of those that see a diffuse surface.
+  /// need where one follows the other. Walks from the middles of pixels: four to sixteen from each that sees a body
+  /// that scatters, one from every second one in both directions of those that see a diffuse surface.
   void prepare(int begin, int end);
 
   /// What walk_light() estimates: radiance [DN] of `seen`, which sample number `sample` of `samples` of an infrared
@@ -54,6 +55,9 @@ class SharedWalks {
   /// opposite sides, so that what changes steadily over the surface cancels. The samples of a pixel share them out.
   /// Nothing where there is no such pixel or nothing is shared.
   std::optional<double> radiance(Look look, int x, int y, int sample, int samples, const SeenPoint& seen) const;
+
+  /// [m] For walk_light(): of a walk into a body.
+  double near_start(const SeenPoint& seen) const { return kNear * dots_apart(seen); }
 
  private:
   static constexpr int kNothing = -1;
@@ -69,6 +73,10 @@ class SharedWalks {
   };
   static constexpr float kUnknown = -1.0f;
 
+  /// Grid steps from where light enters a body, beyond which what returns shows dots too wide to be told apart.
+  static constexpr double kNear = 1.5;
+
+  double dots_apart(const SeenPoint& seen) const;  ///< [m]
   Entry entry_of(const SeenPoint& seen) const;
   bool is_thin(const SeenPoint& seen) const;
   /// On the pattern's grid, of the straight way from the projector to a point.
@@ -81,7 +89,7 @@ class SharedWalks {
   /// Radiance over gain from the four knots around a pixel, if all of them are like it, or any where that is enough.
   std::optional<double> between_knots(int x, int y, const Entry& to, const Eigen::Vector2d& way) const;
   double from_body(const Entry& entry, int y, const Eigen::Vector2d& way) const;
-  /// The entry of a pixel, if the row is there.
+  /// Of a pixel in a row that is there.
   Entry& entry(Look look, int x, int y) { return entries_[look](x, y % entries_[look].height()); }
   const Entry& entry(Look look, int x, int y) const { return entries_[look](x, y % entries_[look].height()); }
   const Entry* alike(Look look, int x, int y, const Entry& to) const;

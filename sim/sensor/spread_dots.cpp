@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/simd.h"
+#include "sim/sensor/add_scaled.h"
 
 namespace fathom {
 namespace {
@@ -16,11 +16,6 @@ constexpr int kSamplesPerStep = 4;
 
 /// Light that left its straight way by more than this many steps of its layer's pattern goes to a wider one.
 constexpr double kFarSteps = 12.0;
-
-FATHOM_SIMD_CLONES
-void add_weighted(const float* __restrict row, float weight, float* __restrict sum, int count) {
-  for (int i = 0; i < count; ++i) sum[i] += weight * row[i];
-}
 
 /// A function of the place [samples], on the integers of a rectangle.
 struct Spot {
@@ -48,11 +43,11 @@ void blur(std::span<const float> weights, Spot& spot) {
   for (int y = 0; y < height; ++y)
     for (int k = -reach; k <= reach; ++k) {
       const int skipped = std::max(k, 0), count = width - std::abs(k);
-      add_weighted(spot.values.row(y) + std::max(-k, 0), weights[std::abs(k)], across.row(y) + skipped, count);
+      add_scaled(spot.values.row(y) + std::max(-k, 0), weights[std::abs(k)], across.row(y) + skipped, count);
     }
   for (int y = 0; y < height; ++y)
     for (int k = -reach; k <= reach; ++k)
-      if (y + k >= 0 && y + k < height) add_weighted(across.row(y + k), weights[std::abs(k)], both.row(y), width);
+      if (y + k >= 0 && y + k < height) add_scaled(across.row(y + k), weights[std::abs(k)], both.row(y), width);
   spot.values = std::move(both);
 }
 
@@ -85,8 +80,8 @@ void add_spots(const Image<float>& dots, int per_dot, const Spot& spot, int left
       const int begin = std::max(left, x + spot.left), end = std::min(right, x + spot.right());
       if (begin >= end) continue;
       for (int j = std::max(top, y + spot.top); j < std::min(bottom, y + spot.bottom()); ++j)
-        add_weighted(spot.values.row(j - y - spot.top) + begin - x - spot.left, brightness,
-                     values.row(j - top) + begin - left, end - begin);
+        add_scaled(spot.values.row(j - y - spot.top) + begin - x - spot.left, brightness,
+                   values.row(j - top) + begin - left, end - begin);
     }
 }
 

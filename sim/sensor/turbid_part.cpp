@@ -14,9 +14,12 @@ namespace {
 
 constexpr std::uint64_t kPartStream = 0x74757262ULL;
 
-/// What a match may read to each side of its pixel: its own window, and those of the neighbours that tell edges from
-/// slopes.
-int reach_of_match(const MatcherModel& matcher) { return 2 * std::max(matcher.window_columns, matcher.window_rows); }
+/// [px] What a match may read to each side of its pixel: windows, the slopes of their neighbours and what tells edges
+/// from slopes, and the hole that it is filled over.
+int reach_of_match(const MatcherModel& matcher) {
+  constexpr int kOfRefinement = 24;  // its windows, slopes and neighbours have sizes of their own
+  return std::max(2 * std::max(matcher.window_columns, matcher.window_rows), kOfRefinement) + matcher.hole_max_px;
+}
 
 /// Bounds of what is seen of one liquid.
 struct Bounds {
@@ -27,15 +30,6 @@ struct Bounds {
     top = std::min(top, y), bottom = std::max(bottom, y);
   }
 };
-
-std::map<int, Bounds> seen_liquids(const Image<TruePixel>& truth) {
-  std::map<int, Bounds> liquids;
-  for (int y = 0; y < truth.height(); ++y)
-    for (int x = 0; x < truth.width(); ++x)
-      if (truth(x, y).path == PathKind::scattered)
-        liquids.try_emplace(truth(x, y).object, Bounds{x, y, x, y}).first->second.add(x, y);
-  return liquids;
-}
 
 /// With room to match all of it. It starts where a tile of the matcher starts, so that each pixel is matched as in the
 /// whole image.
@@ -54,28 +48,39 @@ SensorModel sensor_of_part(const SensorModel& sensor, const ImagePart& part) {
   const int scale = static_cast<int>(sensor.ir_scale());
   of_part.width = part.width, of_part.height = part.height;
   of_part.ir_width = part.width * scale, of_part.ir_height = part.height * scale;
+  // At the image's upper and lower side windows reach into infrared rows beyond the depth image.
+  if (part.top == 0 || part.top + part.height == sensor.height)
+    of_part.ir_height += sensor.ir_height - sensor.height * scale;
   of_part.principal_px -= Eigen::Vector2d(part.left, part.top);
   of_part.unit = {};
+  of_part.unit.serial = Rng(sensor.unit.serial, kPartStream, part.left, part.top).bits();  // its reference's speckle
   return of_part;
 }
 
 std::map<int, ImagePart> parts_with_liquids(const Image<TruePixel>& truth, const SensorModel& sensor) {
+  std::map<int, Bounds> liquids;
+  for (int y = 0; y < truth.height(); ++y)
+    for (int x = 0; x < truth.width(); ++x)
+      if (truth(x, y).path == PathKind::scattered)
+        liquids.try_emplace(truth(x, y).object, Bounds{x, y, x, y}).first->second.add(x, y);
   std::map<int, ImagePart> parts;
-  for (const auto& [object, bounds] : seen_liquids(truth)) parts.emplace(object, part_around(bounds, sensor));
+  for (const auto& [object, bounds] : liquids) parts.emplace(object, part_around(bounds, sensor));
   return parts;
 }
 
 TurbidPart::TurbidPart(const ImagePart& part, ImagedView view, int object)
     : part_(part), view_(std::move(view)), object_(object) {}
 
-void TurbidPart::shoot(std::uint64_t frame, const Image<TruePixel>& truth, Image<float>& disparity_px,
-                       CaptureStatistics& statistics) const {
-  const Image<float> matched = view_.shoot(frame, statistics).disparity_px;
+Image<float> TurbidPart::match(std::uint64_t frame, CaptureStatistics& statistics) const {
+  return view_.shoot(frame, statistics).disparity_px;
+}
+
+void TurbidPart::put(const Image<float>& matched_px, const Image<TruePixel>& truth, Image<float>& disparity_px) const {
   for (int y = 0; y < part_.height; ++y)
     for (int x = 0; x < part_.width; ++x) {
       const TruePixel& pixel = truth(part_.left + x, part_.top + y);
       if (pixel.path == PathKind::scattered && pixel.object == object_)
-        disparity_px(part_.left + x, part_.top + y) = matched(x, y);
+        disparity_px(part_.left + x, part_.top + y) = matched_px(x, y);
     }
 }
 
@@ -93,7 +98,7 @@ std::vector<TurbidPart> turbid_parts(const PointLight& projector, const Rig& rig
     const auto reference = timed(statistics.reference_s, [&] {
       return std::make_shared<const Reference>(remember(of_part.sensor, pattern, samples_across));
     });
-    const std::uint64_t own_seed = mix_bits(seed ^ (kPartStream + static_cast<std::uint64_t>(object)));
+    const std::uint64_t own_seed = Rng(seed, kPartStream, static_cast<std::uint64_t>(object)).bits();
     ImagedView view(projector, of_part, lit, reference, samples_across, LightModel::scattered, own_seed, statistics);
     parts.emplace_back(part, std::move(view), object);
   }

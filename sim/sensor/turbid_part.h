@@ -18,8 +18,8 @@ struct ImagePart {
   int left, top, width, height;
 };
 
-/// The sensor that sees this part and nothing else. Its unit has no errors, because those belong to places in the whole
-/// image.
+/// The sensor that sees this part and nothing else, with a reference of its own. Its unit has no errors, because those
+/// belong to places in the whole image.
 SensorModel sensor_of_part(const SensorModel& sensor, const ImagePart& part);
 
 /// By the number of each liquid in sight that scatters, what a match of its pixels reads.
@@ -29,9 +29,10 @@ class TurbidPart {
  public:
   TurbidPart(const ImagePart& part, ImagedView view, int object);
 
-  /// Puts the disparities of a frame, 0 = invalid, where `truth` sees light that this part's liquid has scattered.
-  void shoot(std::uint64_t frame, const Image<TruePixel>& truth, Image<float>& disparity_px,
-             CaptureStatistics& statistics) const;
+  /// Disparities of the part in the frame of that number [px], 0 = invalid.
+  Image<float> match(std::uint64_t frame, CaptureStatistics& statistics) const;
+  /// Puts them into the whole image where `truth` sees light that this part's liquid has scattered.
+  void put(const Image<float>& matched_px, const Image<TruePixel>& truth, Image<float>& disparity_px) const;
 
  private:
   ImagePart part_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -56,9 +57,13 @@ class Cup {
   /// Of the rows of some pixels, which are in order.
   SharedWalks shared(const std::vector<Pixel>& pixels, std::uint64_t seed) const {
     const int first = pixels.front().y, end = pixels.back().y + 1;
-    SharedWalks walks(scene_.projector, scene_.rig, blurred_, kFineSharing, seed, end - first);
+    SharedWalks walks = unprepared(seed, end - first);
     walks.prepare(first, end);
     return walks;
+  }
+
+  SharedWalks unprepared(std::uint64_t seed, int rows_at_once) const {
+    return {scene_.projector, scene_.rig, blurred_, kFineSharing, seed, rows_at_once};
   }
 
   /// `radiance(pixel, sample)`.
@@ -177,6 +182,27 @@ TEST(SharedWalks, LeaveLightThrownFromWallToWallWhereItIs) {
   };
   const Compared light = compared(cup, 4, 60, is_wall, 12);
   EXPECT_NEAR(light.shared[0], light.unshared[0], kLight * light.unshared[0]);
+}
+
+TEST(SharedWalks, AreTheSameInBandsOfAnyHeight) {
+  const Cup cup(kMilkTea);
+  const std::vector<Cup::Pixel> pixels =
+      cup.pixels(3, [](const SeenPoint& seen) { return seen.entered && from_axis(seen) < 0.02; });
+  const SharedWalks whole = cup.shared(pixels, 1);
+  const int first = pixels.front().y, end = pixels.back().y + 1;
+  constexpr int kRows = 7;
+  SharedWalks bands = cup.unprepared(1, kRows);
+  std::size_t next = 0;
+  for (int top = first; top < end; top += kRows) {
+    bands.prepare(top, std::min(top + kRows, end));
+    for (; next < pixels.size() && pixels[next].y < top + kRows; ++next) {
+      const Cup::Pixel& at = pixels[next];
+      const auto of_band = bands.radiance(SharedWalks::straight, at.x, at.y, 0, kSamples, at.seen[0]);
+      ASSERT_TRUE(of_band);
+      EXPECT_EQ(of_band, whole.radiance(SharedWalks::straight, at.x, at.y, 0, kSamples, at.seen[0]));
+    }
+  }
+  EXPECT_EQ(next, pixels.size());
 }
 
 TEST(SharedWalks, AreNotSharedWhereDotsAreSeenThroughALiquid) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/estimate.h"
@@ -23,7 +24,7 @@ TEST(SpreadDots, AreTheSumOfTheirLights) {
   Rng draw(1, 2);
   std::vector<SpreadLight> lights;
   for (int i = 0; i < 400; ++i) {
-    const double far = 0.2 * std::exp(4.0 * draw.uniform()), around = 6.283 * draw.uniform();
+    const double far = 0.2 * std::exp(6.0 * draw.uniform()), around = 6.283 * draw.uniform();
     lights.push_back({static_cast<float>(far * std::cos(around)), static_cast<float>(far * std::sin(around)),
                       static_cast<float>(1.0 / (1.0 + far)), static_cast<float>(0.25 * far)});
   }
@@ -44,17 +45,19 @@ TEST(SpreadDots, AreTheSumOfTheirLights) {
   EXPECT_LT(std::sqrt(apart), 0.04 * std::sqrt(squares));  // of the dots' deviation
 }
 
-Setup filled_cup(const char* liquid, const std::string& sensor, double off_mm = 0.0) {
+Setup filled_cup(const char* liquid, const std::string& sensor, double off_mm = 0.0, double aim_mm = 300.0) {
   return setup_from_json(Json::parse(fmt::format(
-                             R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 300, 0]{}}},
+                             R"({{"sensor": {{"height_mm": 650, "aim_mm": [0, {}, 0]{}}},
         "cups": [{{"shape": "paper_cup", "position_mm": [{}, {}], "liquid": "{}", "fill_mm": 40}}]}})",
-                             sensor, off_mm, 300.0 + 0.6 * off_mm, liquid)),
+                             aim_mm, sensor, off_mm, 300.0 + 0.6 * off_mm, liquid)),
                          "test");
 }
 
-TEST(TurbidPart, MatchesAsTheWholeImageDoes) {
-  const auto setup = filled_cup("milk_tea", R"(, "noise": "off")");
-  const LitScene scene(setup);
+class PartOfAnImage : public testing::TestWithParam<std::pair<const char*, double>> {};
+
+TEST_P(PartOfAnImage, IsMatchedAsTheWholeImageIs) {
+  const auto& [model, aim_mm] = GetParam();
+  const LitScene scene(filled_cup("milk_tea", fmt::format(R"(, "model": "{}", "noise": "off")", model), 0.0, aim_mm));
   const SensorModel& sensor = scene.rig.sensor;
   const Pattern pattern(sensor.pattern, sensor.ir_scale());
   CaptureStatistics statistics;
@@ -66,7 +69,9 @@ TEST(TurbidPart, MatchesAsTheWholeImageDoes) {
   };
   const Image<TruePixel> truth = trace_truth(scene.projector, scene.rig);
   const ImagePart part = parts_with_liquids(truth, sensor).begin()->second;
-  const Image<float> whole = matched(scene.rig);
+  Rig without_errors = scene.rig;
+  without_errors.sensor.unit = {};
+  const Image<float> whole = matched(without_errors);
   const Image<float> alone = matched({sensor_of_part(sensor, part), scene.rig.world_from_camera});
   int compared = 0;
   for (int y = 0; y < part.height; ++y)
@@ -75,7 +80,20 @@ TEST(TurbidPart, MatchesAsTheWholeImageDoes) {
       ASSERT_NEAR(alone(x, y), whole(part.left + x, part.top + y), 1e-3) << x << ' ' << y;
       ++compared;
     }
-  EXPECT_GT(compared, 1000);
+  EXPECT_GT(compared, 500);
+}
+
+// In the middle, and cut by the image's upper side.
+INSTANTIATE_TEST_SUITE_P(TurbidPart, PartOfAnImage,
+                         testing::Values(std::pair("xtion_pro_live", 300.0), std::pair("xtion_pro_live", 40.0),
+                                         std::pair("xtion_pro_live_device", 300.0),
+                                         std::pair("xtion_pro_live_device", 40.0)));
+
+TEST(TurbidPart, HasSpeckleOfItsOwn) {
+  const SensorModel sensor;
+  const auto serial = [&](const ImagePart& part) { return sensor_of_part(sensor, part).unit.serial; };
+  EXPECT_EQ(serial({160, 90, 80, 60}), serial({160, 90, 80, 60}));
+  EXPECT_NE(serial({160, 90, 80, 60}), serial({320, 90, 80, 60}));
 }
 
 struct SeenLiquid {
@@ -106,33 +124,31 @@ SeenLiquid seen_liquid(const Setup& setup, CaptureMode mode, std::uint64_t seed,
 
 // The sensor looks at the cup and little else: what is compared is the cup, and this takes a fifth of the time.
 constexpr const char* kAroundTheCup =
-    R"(, "ir_size_px": [320, 240], "depth_size_px": [160, 120], "principal_px": [80, 60])";
+    R"(, "model": "xtion_pro_live", "ir_size_px": [320, 240], "depth_size_px": [160, 120], "principal_px": [80, 60])";
 
 TEST(TurbidPart, IsMatchedAndLowAsInPhotometricFrames) {
   constexpr int kPlaces = 4;
   for (const char* liquid : {"milk_tea", "orange_juice"}) {
-    std::array<Mean, 2> matched, nearer;
-    for (int place = 0; place < kPlaces; ++place)
-      for (int mode = 0; mode < 2; ++mode) {
-        const SeenLiquid seen = seen_liquid(filled_cup(liquid, kAroundTheCup, 1.7 * place),
-                                            mode == 0 ? CaptureMode::geometric : CaptureMode::photometric, place + 1);
-        matched[mode].add(seen.matched), nearer[mode].add(seen.nearer_px);
-      }
-    const Estimate geometric = matched[0].estimate(), photometric = matched[1].estimate();
-    const double error = std::hypot(geometric.standard_error, photometric.standard_error);
-    EXPECT_NEAR(geometric.value, photometric.value, 0.02 + 3.0 * error) << liquid;
-    EXPECT_LT(error, 0.05) << liquid;
-    const Estimate own = nearer[0].estimate(), whole = nearer[1].estimate();
-    EXPECT_NEAR(own.value, whole.value, 0.01 + 3.0 * std::hypot(own.standard_error, whole.standard_error)) << liquid;
+    Mean more, nearer;
+    for (int place = 0; place < kPlaces; ++place) {
+      const auto setup = filled_cup(liquid, kAroundTheCup, 1.7 * place);
+      const SeenLiquid geometric = seen_liquid(setup, CaptureMode::geometric, place + 1);
+      const SeenLiquid photometric = seen_liquid(setup, CaptureMode::photometric, place + 1);
+      more.add(geometric.matched - photometric.matched), nearer.add(geometric.nearer_px - photometric.nearer_px);
+    }
+    // The seeds are fixed. Another place of the cup changes the share by about 0.04, the disparity by 0.05 px.
+    EXPECT_NEAR(more.estimate().value, 0.0, 0.08) << liquid;
+    EXPECT_NEAR(nearer.estimate().value, 0.0, 0.08) << liquid;
   }
 }
 
 TEST(TurbidPart, IsAnOpaqueSurfaceInDirectLight) {
-  const SeenLiquid opaque =
-      seen_liquid(filled_cup("milk_tea", R"(, "noise": "off")"), CaptureMode::geometric, 1, LightModel::direct);
+  const SeenLiquid opaque = seen_liquid(filled_cup("milk_tea", R"(, "model": "xtion_pro_live", "noise": "off")"),
+                                        CaptureMode::geometric, 1, LightModel::direct);
   EXPECT_EQ(opaque.matched, 1.0);
   EXPECT_NEAR(opaque.nearer_px, 0.0, 1e-4);
-  Camera camera(filled_cup("milk_tea", ""), CaptureMode::geometric, 1, 1, LightModel::direct);
+  Camera camera(filled_cup("milk_tea", R"(, "model": "xtion_pro_live")"), CaptureMode::geometric, 1, 1,
+                LightModel::direct);
   EXPECT_EQ(camera.light(), LightModel::direct);
 }
 
