@@ -28,8 +28,8 @@ int parity_of(int x, int y) { return (x & 1) + 2 * (y & 1); }
 
 /// The farther apart light enters and leaves, the less of it still shows dots, and the more walks bring out as much.
 int walks_into(const Turbid& medium, double dots_apart) {
-  constexpr double kOfEachStep = 8.0;
-  constexpr int kLeast = 4, kMost = 16;
+  constexpr double kOfEachStep = 6.0;
+  constexpr int kLeast = 3, kMost = 12;
   const double path = 1.0 / (medium.scattering * (1.0 - medium.anisotropy));
   return static_cast<int>(std::clamp(std::round(kOfEachStep * path / dots_apart), 1.0 * kLeast, 1.0 * kMost));
 }
@@ -70,11 +70,17 @@ void SharedWalks::prepare(int begin, int end) {
   parallel_ranges(walked_ - walked, [&](int first, int last) {
     for (int y = walked + first; y < walked + last; ++y) walk_row(y);
   });
-  if (sharing_.is_exact)
-    parallel_ranges(end - begin, [&](int first, int last) {
+  if (sharing_.is_exact) {
+    const int known = std::min(end + 1, height_);  // the row below the last one lends its light, too
+    parallel_ranges(known - begin, [&](int first, int last) {
       for (int y = begin + first; y < begin + last; ++y)
         for (const Look look : {straight, mirrored}) share_row(look, y);
     });
+    parallel_ranges(end - begin, [&](int first, int last) {
+      for (int y = begin + first; y < begin + last; ++y)
+        for (const Look look : {straight, mirrored}) fill_row(look, y);
+    });
+  }
   tie_knots(begin, end);
 }
 
@@ -142,11 +148,31 @@ std::optional<double> SharedWalks::between_knots(int x, int y, const Entry& to, 
 }
 
 void SharedWalks::share_row(Look look, int y) {
-  const auto walked = [](const Entry& entry, int) { return entry.walked; };
-  for (int x = 0; x < width_; ++x)
-    if (Entry& own = entry(look, x, y); own.object != kNothing && !own.entered)
-      if (const auto mean = mean_around(look, x, y, own, parity_of(x, y), 4, walked))
-        own.shared = static_cast<float>(*mean);
+  for (int x = 0; y % 2 == 0 && x < width_; x += 2)
+    if (Entry& own = entry(look, x, y); own.object != kNothing && !own.entered) own.shared = walked_around(look, x, y);
+}
+
+void SharedWalks::fill_row(Look look, int y) {
+  for (int x = y % 2 == 0; x < width_; x += y % 2 == 0 ? 2 : 1) {
+    Entry& own = entry(look, x, y);
+    if (own.object == kNothing || own.entered) continue;
+    float sum = 0.0f;
+    int count = 0;
+    const auto add = [&](int across, int down) {
+      const Entry *one = alike(look, x + across, y + down, own), *other = alike(look, x - across, y - down, own);
+      if (!one || !other || one->shared == kUnknown || other->shared == kUnknown) return;
+      sum += one->shared + other->shared, count += 2;
+    };
+    add(x % 2, y % 2);
+    if (x % 2 == 1 && y % 2 == 1) add(1, -1);
+    own.shared = count > 0 ? sum / static_cast<float>(count) : walked_around(look, x, y);
+  }
+}
+
+float SharedWalks::walked_around(Look look, int x, int y) const {
+  const auto mean = mean_around(look, x, y, entry(look, x, y), parity_of(x, y), 4,
+                                [](const Entry& entry, int) { return entry.walked; });
+  return mean ? static_cast<float>(*mean) : kUnknown;
 }
 
 void SharedWalks::walk_row(int y) {

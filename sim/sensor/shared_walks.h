@@ -46,7 +46,7 @@ class SharedWalks {
               std::uint64_t seed, int rows_at_once);
 
   /// Prepares the rows begin … end − 1 of the infrared image; those of the call before are forgotten, but for what both
-  /// need where one follows the other. Walks from the middles of pixels: four to sixteen from each that sees a body
+  /// need where one follows the other. Walks from the middles of pixels: three to twelve from each that sees a body
   /// that scatters, one from every second one in both directions of those that see a diffuse surface.
   void prepare(int begin, int end);
 
@@ -83,7 +83,11 @@ class SharedWalks {
   std::optional<Eigen::Vector2d> straight_way(const Eigen::Vector3d& point) const;
   void walk_row(int y);
   void walk(Look look, int x, int y, const SeenPoint& seen);
+  /// Diffuse surfaces: every second pixel of every second row by the walks around it, then the others by these.
   void share_row(Look look, int y);
+  void fill_row(Look look, int y);
+  /// Mean over gain of the walks around a pixel on a diffuse surface; kUnknown where there are none.
+  float walked_around(Look look, int x, int y) const;
   void tie_knots(int begin, int end);
   std::optional<SpreadDots> knot(int x, int y) const;
   /// Radiance over gain from the four knots around a pixel, if all of them are like it, or any where that is enough.

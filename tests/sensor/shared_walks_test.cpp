@@ -168,7 +168,10 @@ TEST(SharedWalks, LeaveTheEdgeOfAShadowSharp) {
     return seen.entered && from_axis(seen) < 0.036 && cup.is_lit(seen.point) == lit &&
            (cup.is_lit(seen.point + aside) != lit || cup.is_lit(seen.point - aside) != lit);
   };
-  const Compared lit = compared(cup, 1, 24, [&](const SeenPoint& seen) { return beside_edge(seen, true); });
+  // A strip this narrow has few walks, which all its pixels share: a seed changes its light by 6 %.
+  constexpr int kSeeds = 12;
+  const Compared lit = compared(
+      cup, 1, 24, [&](const SeenPoint& seen) { return beside_edge(seen, true); }, kSeeds);
   const Compared dark = compared(cup, 1, 24, [&](const SeenPoint& seen) { return beside_edge(seen, false); });
   EXPECT_LT(dark.unshared[1], 0.5 * lit.unshared[1]);
   expect_as_bright(lit, lit.unshared);
