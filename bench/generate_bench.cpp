@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 /// A data set of the shipped specification in a folder of its own.
 class Generated {
  public:
-  Generated(const char* mode, int frames) {
-    write_text(folder_ / "spec.json", fmt::format(R"({{"mode": "{}", "light": "direct"}})", mode));
+  Generated(const char* mode, const char* light, int frames) {
+    write_text(folder_ / "spec.json", fmt::format(R"({{"mode": "{}", "light": "{}"}})", mode, light));
     dataset_ = std::make_unique<Dataset>(
         Dataset{.spec = read_dataset_spec(folder_ / "spec.json", kSeed), .seed = kSeed, .frames = frames});
   }
@@ -52,8 +52,8 @@ class Generated {
   std::unique_ptr<Dataset> dataset_;
 };
 
-void measure_frames(const std::string& name, const char* mode, int frames) {
-  const auto generated = std::make_shared<Generated>(mode, frames);
+void measure_frames(const std::string& name, const char* mode, const char* light, int frames) {
+  const auto generated = std::make_shared<Generated>(mode, light, frames);
   generated->make();
   measure(name, {{"frames", frames}, {"bytes", generated->bytes()}}, [generated] { generated->make(); });
 }
@@ -71,9 +71,10 @@ void measure_alone(const std::string& name, double count, Work work) {
 
 void register_generate() {
   constexpr int kGeometric = 100, kPhotometric = 4;  // a whole scene, of which 24 frames have previews
-  measure_frames("generate/geometric", "geometric", kGeometric);
-  measure_frames("generate/photometric", "photometric", kPhotometric);
-  const auto alone = std::make_shared<Generated>("geometric", kGeometric);
+  measure_frames("generate/geometric", "geometric", "direct", kGeometric);
+  measure_frames("generate/geometric_scattered", "geometric", "auto", kGeometric);
+  measure_frames("generate/photometric", "photometric", "direct", kPhotometric);
+  const auto alone = std::make_shared<Generated>("geometric", "direct", kGeometric);
   measure_alone("generate/geometric_one_thread", 0.0, [alone] { alone->make(); });
 
   struct Yardstick {
