@@ -126,8 +126,8 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
   if (mode == CaptureMode::geometric) {
     if (light_ == LightModel::full)
       turbid_ = turbid_parts(*projector, setup_.rig, truth_, samples_across_, seed, statistics_);
-    if (turbid_.empty()) light_ = LightModel::direct, samples_across_ = 0;
-    if (!turbid_.empty()) light_ = LightModel::scattered;
+    light_ = turbid_.empty() ? LightModel::direct : LightModel::scattered;
+    if (turbid_.empty()) samples_across_ = 0;
     if (sensor.noise.disparity.present()) still_chance_ = block_chance(sensor, seed, kStill);
     const int margin = reference_margin(sensor.matcher);
     residue_ = reference_residue(sensor.unit, margin, sensor.width + 2 * margin, sensor.ir_height / 2);

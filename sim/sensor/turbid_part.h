@@ -40,7 +40,7 @@ class TurbidPart {
   int object_;
 };
 
-/// One for each liquid in sight that scatters; in all its light.
+/// One for each liquid in sight that scatters, in LightModel::scattered.
 std::vector<TurbidPart> turbid_parts(const PointLight& projector, const Rig& rig, const Image<TruePixel>& truth,
                                      int samples_across, std::uint64_t seed, CaptureStatistics& statistics);
 
