@@ -152,6 +152,14 @@ void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
     if (const auto seen = follow(world, *image, world.first_hit(image->ray), &reflections)) visit(*seen);
 }
 
+std::optional<SeenPoint> see_first_mirrored(const Intersector& world, const Ray& camera_ray) {
+  std::vector<Sight> reflections;
+  const Sight sight = sight_of(world, camera_ray, 0);
+  follow(world, sight, world.first_hit(sight.ray), &reflections);
+  if (reflections.empty()) return std::nullopt;
+  return follow(world, reflections.front(), world.first_hit(reflections.front().ray));
+}
+
 std::optional<Illumination> illuminate(const PointLight& projector, const SeenPoint& seen) {
   const Packet<Illumination> lights = illuminate(projector, alone(seen));
   const Illumination* light = lights.find(0);

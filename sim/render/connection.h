@@ -56,6 +56,9 @@ Packet<SeenPoint> see(const Intersector& world, std::span<const Ray> camera_rays
 void see_mirrored(const Intersector& world, const Ray& camera_ray, Rng& rng,
                   const std::function<void(const SeenPoint&)>& visit);
 
+/// The first of them.
+std::optional<SeenPoint> see_first_mirrored(const Intersector& world, const Ray& camera_ray);
+
 /// Whether the point takes up light that travels in the direction `arrival`; a body that scatters reflects some
 /// totally.
 inline bool takes_up(const SeenPoint& seen, const Eigen::Vector3d& arrival) {
@@ -73,15 +76,20 @@ inline Illumination illumination_by(const Connection& way, const SeenPoint& seen
 }
 
 /// Calls `visit(i, illumination)` for each way in which the projector's light gets to the points seen, i their number.
+/// `starts`: as for PointLight::connect().
 template <class Visit>
-void for_each_illumination(const PointLight& projector, const Packet<SeenPoint>& seen, Visit&& visit) {
+void for_each_illumination(const PointLight& projector, const Packet<SeenPoint>& seen, Visit&& visit,
+                           const Starts& starts = {}) {
   Packet<Receiver> receivers;
   for (std::size_t i = 0; i < kPacket; ++i)
     if (const SeenPoint* at = seen.find(i)) receivers.set(i, {at->point, at->around, &at->normal});
-  projector.connect(receivers, [&](std::size_t i, const Connection& way) {
-    const SeenPoint& at = *seen.find(i);
-    if (takes_up(at, way.arrival)) visit(i, illumination_by(way, at));
-  });
+  projector.connect(
+      receivers,
+      [&](std::size_t i, const Connection& way) {
+        const SeenPoint& at = *seen.find(i);
+        if (takes_up(at, way.arrival)) visit(i, illumination_by(way, at));
+      },
+      starts);
 }
 
 /// The strongest of them where bodies that scatter are opaque; nothing where the projector does not reach the point.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace fathom {
@@ -174,15 +175,16 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
     Eigen::Vector2d step = landing.jacobian.inverse() * landing.miss;
     double steps = step.norm() / seed.spacing;
     // Near a caustic the landing is far from linear: a small miss is as good as a short step.
-    if (!(steps < kMostSteps)) {
+    const bool by_step = steps < kMostSteps;
+    if (!by_step) {
       if (landing.miss.norm() > 0.7 * reach_there) continue;
       step.setZero(), steps = kMostSteps;
     }
-    candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, landing.miss.norm(),
-                          determinant < 0.0});
+    candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, by_step,
+                          landing.miss.norm(), determinant < 0.0});
   }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return std::pair(a.steps, a.seed) < std::pair(b.steps, b.seed);
+    return std::tuple(a.steps, a.miss, a.seed) < std::tuple(b.steps, b.miss, b.seed);
   });
   return candidates;
 }

@@ -33,8 +33,9 @@ class Fan {
     const Seed* seed;
     Eigen::Vector3d direction;  ///< that would land on the target if the landing were linear; not of unit length
     double steps;               ///< from the seed to there, in spacings
-    double miss;                ///< [m] of the seed itself
-    bool turned_over;           ///< as in Connection
+    bool by_step;      ///< otherwise the landing is far from linear there, and the seed's own direction is given
+    double miss;       ///< [m] of the seed itself
+    bool turned_over;  ///< as in Connection
   };
   /// The seeds near whose pencils `target` lies in the medium `around`, the nearest first.
   std::vector<Candidate> near(const Eigen::Vector3d& target, const Body* around) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/optics/flat_refraction.h"
 #include "sim/optics/fresnel.h"
@@ -118,9 +119,23 @@ Packet<Connection> PointLight::connect_exactly(const Packet<Receiver>& receivers
   return ways;
 }
 
-void PointLight::connect_mirrored_each(const Receiver& receiver, double share, Rng& rng,
-                                       const std::function<void(const Connection&)>& visit) const {
+void PointLight::connect_by_search(const Packet<Receiver>& receivers,
+                                   const std::function<void(std::size_t, const Connection&)>& visit,
+                                   const Starts& starts) const {
+  const Packet<Connection> straight = connect_straight(receivers);
   std::vector<Connection> found;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const Receiver* receiver = receivers.find(i);
+    if (!receiver) continue;
+    found.clear();
+    if (const Connection* way = straight.find(i)) found.push_back(*way);
+    const auto known = starts ? starts(i) : std::nullopt;
+    if (!known || !follow(*known, *receiver, found)) connect_from(*fan_, *receiver, found);
+    for (const Connection& each : found) visit(i, each);
+  }
+}
+
+void PointLight::connect_level_mirrors(const Receiver& receiver, std::vector<Connection>& found) const {
   for (const Mirror& mirror : mirrors_) {
     if (receiver.around) break;
     const double height = source_.position.z() - mirror.level, above = receiver.point.z() - mirror.level;
@@ -131,33 +146,67 @@ void PointLight::connect_mirrored_each(const Receiver& receiver, double share, R
     if (!mirror.area.contains(meeting)) continue;
     add_new(found, shoot(world_, source_, receiver.point, nullptr, towards.normalized(), 1, 0, receiver.loss));
   }
+}
+
+const Fan& PointLight::mirrored_fan() const {
+  std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Ways::mirrored); });
+  return *mirrored_fan_;
+}
+
+void PointLight::connect_mirrored_each(const Receiver& receiver, double share, double drawn,
+                                       const std::function<void(const Connection&)>& visit) const {
+  std::vector<Connection> found;
+  connect_level_mirrors(receiver, found);
   const auto level_ones = static_cast<std::ptrdiff_t>(found.size());
   if (fan_) {
-    std::call_once(mirrored_once_, [this] { mirrored_fan_.emplace(world_, source_, Ways::mirrored); });
-    constexpr double kFaint = 0.1;  // beside the straight light
+    constexpr double kFaint = 0.05;  // beside the straight light
     const double straight = 1.0 / (receiver.point - source_.position).squaredNorm();
-    const double chance = std::min(share * mirrored_fan_->strength_near(receiver.point) / (kFaint * straight), 1.0);
-    if (chance == 1.0 || rng.uniform() < chance) connect_from(*mirrored_fan_, receiver, found);
+    const double strength = mirrored_fan().strength_near(receiver.point);
+    const double chance = std::min(share * strength / (kFaint * straight), 1.0);
+    if (drawn < chance) connect_from(mirrored_fan(), receiver, found);
     std::for_each(found.begin() + level_ones, found.end(), [&](Connection& way) { way.transmittance /= chance; });
   }
   for (const Connection& way : found)
     if (!from_behind(receiver, way.arrival)) visit(way);
 }
 
+std::vector<Connection> PointLight::search(Ways ways, const Receiver& receiver) const {
+  std::vector<Connection> found;
+  if (ways == Ways::mirrored) connect_level_mirrors(receiver, found);
+  if (fan_) connect_from(ways == Ways::mirrored ? mirrored_fan() : *fan_, receiver, found);
+  return found;
+}
+
+bool PointLight::follow(std::span<const Start> starts, const Receiver& receiver, std::vector<Connection>& found) const {
+  const std::size_t before = found.size();
+  for (const Start& start : starts) {
+    const auto way = shoot(world_, source_, receiver.point, receiver.around, start.direction, start.crossings,
+                           start.mirror, receiver.loss);
+    const std::size_t known = found.size();
+    if (way && !from_behind(receiver, way->arrival) && way->partly_mirrored == (start.mirror != kNoMirror))
+      add_new(found, way);
+    if (found.size() > known) continue;
+    found.resize(before);
+    return false;
+  }
+  return true;
+}
+
 void PointLight::connect_from(const Fan& fan, const Receiver& receiver, std::vector<Connection>& found) const {
   constexpr std::size_t kMostShots = 8;  // where light is scarce most candidates lead nowhere
   std::vector<Tried> tried;
+  bool by_step = true;  // of the others, which come last, one is tried: few lead anywhere new
   for (const Fan::Candidate& candidate : fan.near(receiver.point, receiver.around)) {
     const bool covered =
         std::any_of(tried.begin(), tried.end(), [&](const Tried& other) { return other.covers(candidate); });
     if (covered || from_behind(receiver, candidate.seed->differential.direction)) continue;
-    if (tried.size() == kMostShots) break;
+    if (tried.size() == kMostShots || (!candidate.by_step && !std::exchange(by_step, false))) break;
     const Seed& seed = *candidate.seed;
     const Guess guess{candidate.direction.normalized(), candidate.miss};
     const auto way = shoot(world_, source_, receiver.point, receiver.around, seed.direction, seed.crossings,
                            seed.mirror, receiver.loss, &guess);
     if (way)
-      tried.push_back({seed.crossings, seed.mirror, way->turned_over, way->direction, 2.0 * seed.spacing});
+      tried.push_back({seed.crossings, seed.mirror, way->turned_over, way->direction, 4.0 * seed.spacing});
     else
       tried.push_back({seed.crossings, seed.mirror, candidate.turned_over, candidate.direction, 0.5 * seed.spacing});
     if (way && !from_behind(receiver, way->arrival) && way->partly_mirrored == (seed.mirror != kNoMirror))

@@ -5,6 +5,8 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/rng.h"
@@ -21,6 +23,15 @@ struct Receiver {
   Loss loss = Loss::all;                    ///< on the way
 };
 
+/// A way that leads to a point, as far as it is known from points beside it.
+struct Start {
+  Eigen::Vector3d direction;  ///< unit, about that in which the light leaves
+  int crossings, mirror;      ///< as in Connection
+};
+
+/// Of receiver `i`, what is known of its ways, if anything.
+using Starts = std::function<std::optional<std::vector<Start>>(std::size_t i)>;
+
 class PointLight {
  public:
   /// Keeps a reference to `world`, which must outlive it. A world with more than level liquids in opaque cups is
@@ -30,21 +41,14 @@ class PointLight {
   /// Calls `visit(i, connection)` for each connection of each of the receivers, by rising i. Straight and level ways
   /// are exact and complete; of the others those are found that lie near a seed (see Fan). Safe to call from several
   /// threads.
+  ///   `starts(i)` may say how all ways to a receiver but the straight one start, from points beside it. If they can be
+  /// followed, no others are searched for.
   template <class Visit>
-  void connect(const Packet<Receiver>& receivers, Visit&& visit) const {
-    const Packet<Connection> ways = fan_ ? connect_straight(receivers) : connect_exactly(receivers);
-    std::vector<Connection> found;
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      const Connection* way = ways.find(i);
-      if (!fan_) {
-        if (way) visit(i, *way);
-      } else if (const Receiver* receiver = receivers.find(i)) {
-        found.clear();
-        if (way) found.push_back(*way);
-        connect_from(*fan_, *receiver, found);
-        for (const Connection& each : found) visit(i, each);
-      }
-    }
+  void connect(const Packet<Receiver>& receivers, Visit&& visit, const Starts& starts = {}) const {
+    if (fan_) return connect_by_search(receivers, std::ref(visit), starts);
+    const Packet<Connection> ways = connect_exactly(receivers);
+    for (std::size_t i = 0; i < kPacket; ++i)
+      if (const Connection* way = ways.find(i)) visit(i, *way);
   }
   /// The same for one: `visit(connection)`.
   template <class Visit>
@@ -55,9 +59,17 @@ class PointLight {
   /// chance decides whether it is looked for, and its transmittance is that of all that is not; the less of the light
   /// there counts, by `share`, the fainter it is. Surfaces that are not level are searched for when first asked.
   template <class Visit>
-  void connect_mirrored(const Receiver& receiver, double share, Rng& rng, Visit&& visit) const {
-    connect_mirrored_each(receiver, share, rng, std::ref(visit));
+  void connect_mirrored(const Receiver& receiver, double share, double drawn, Visit&& visit) const {
+    connect_mirrored_each(receiver, share, drawn, std::ref(visit));
   }
+
+  /// Whether there are ways that connect() has to search for.
+  bool searches() const { return fan_.has_value(); }
+  /// These ways: all but the straight one, or all that one interface reflects in part, however faint.
+  std::vector<Connection> search(Ways ways, const Receiver& receiver) const;
+  /// Adds the ways to a receiver that start so. Where they do not all get there, each on its own, others may: then none
+  /// are added, and the answer is no.
+  bool follow(std::span<const Start> starts, const Receiver& receiver, std::vector<Connection>& found) const;
 
   const Intersector& world() const { return world_; }
   const Source& source() const { return source_; }
@@ -68,8 +80,12 @@ class PointLight {
   Packet<Connection> connect_straight(const Packet<Receiver>& receivers) const;
   /// All ways where there are level liquids only.
   Packet<Connection> connect_exactly(const Packet<Receiver>& receivers) const;
-  void connect_mirrored_each(const Receiver& receiver, double share, Rng& rng,
+  void connect_mirrored_each(const Receiver& receiver, double share, double drawn,
                              const std::function<void(const Connection&)>& visit) const;
+  void connect_level_mirrors(const Receiver& receiver, std::vector<Connection>& found) const;
+  const Fan& mirrored_fan() const;
+  void connect_by_search(const Packet<Receiver>& receivers,
+                         const std::function<void(std::size_t, const Connection&)>& visit, const Starts& starts) const;
   void connect_from(const Fan& fan, const Receiver& receiver, std::vector<Connection>& found) const;
 
   const Intersector& world_;

@@ -61,7 +61,7 @@ class Connector {
     if (chance < 1.0 && rng_.uniform() >= chance) return;
     projector_.connect(receiver, [&](const Connection& way) { give(way, returned(way) / chance, receiver.point); });
     if (rng_.uniform() >= kMirrored) return;
-    projector_.connect_mirrored(receiver, walker.weight, rng_, [&](const Connection& way) {
+    projector_.connect_mirrored(receiver, walker.weight, rng_.uniform(), [&](const Connection& way) {
       give(way, returned(way) / (chance * kMirrored), receiver.point);
     });
   }

@@ -54,7 +54,7 @@ struct Aim {
   std::optional<Trial> solve(const Eigen::Vector3d& start, const Guess* guess) const {
     constexpr double kExact = 1e-13, kGood = 1e-10;  // [m] roundings of about 1 m; what is accepted when stuck above
     constexpr double kLongestStep = 0.05;            // [rad]
-    constexpr int kMostHalvings = 5;
+    constexpr int kMostHalvings = 1;  // 5 find one way in 800 more, and take four times as many trials in vain
     std::optional<Trial> best = guess ? trial(guess->direction) : std::nullopt;
     if (!best || best->miss() >= guess->miss) best = trial(start);
     for (int iteration = 0; best && iteration < 30 && best->miss() > kExact; ++iteration) {
@@ -132,7 +132,8 @@ std::optional<Connection> shoot(const Intersector& world, const Source& source, 
                     crossings,
                     area < 0.0,
                     found->through_scattering,
-                    found->partly_mirrored};
+                    found->partly_mirrored,
+                    static_cast<std::int8_t>(mirror)};
 }
 
 void add_new(std::vector<Connection>& found, const std::optional<Connection>& way) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct Connection {
   /// Whether it has come out of a body that scatters; where such bodies are taken as opaque, this light is not there.
   bool through_scattering = false;
   bool partly_mirrored = false;  ///< whether an interface on it reflects in part
+  std::int8_t mirror = -1;       ///< the interface's number, or kNoMirror
 };
 
 /// Where the light comes from, and what bodies it starts in.

@@ -10,6 +10,7 @@
 #include "core/rng.h"
 #include "sim/render/connection.h"
 #include "sim/render/light_walk.h"
+#include "sim/render/nearby_ways.h"
 #include "sim/render/radiance.h"
 #include "sim/sensor/bloom.h"
 #include "sim/sensor/blurred_pattern.h"
@@ -45,6 +46,18 @@ std::vector<Eigen::Vector2d> sample_places(int across) {
   return places;
 }
 
+/// The camera's rays through places in the infrared image [px].
+struct CameraRays {
+  const Rig& rig;
+  double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
+  double first_row = rig.sensor.ir_first_row();
+  Eigen::Vector3d camera = rig.camera_in_world();
+
+  Ray operator()(double x, double y) const {
+    return {camera, rig.direction_in_world(x * px_per_ir_px, (y - first_row) * px_per_ir_px)};
+  }
+};
+
 /// What a camera's samples look at, and what they look with.
 struct Renderer {
   const PointLight& projector;
@@ -54,8 +67,9 @@ struct Renderer {
   std::vector<Eigen::Vector2d> places;  ///< of a pixel's samples in it
   LightModel light;
   std::uint64_t seed;
-  const SharedWalks* shared = nullptr;  ///< of all but direct light
-  double px_per_ir_px = 1.0 / rig.sensor.ir_scale();
+  const SharedWalks* shared = nullptr;        ///< of all but direct light
+  std::array<const NearbyWays*, 2> nearby{};  ///< by SharedWalks::Look, where ways are searched for
+  CameraRays camera_ray{rig};
   std::optional<Defocus> defocus = rig.sensor.optics.defocuses() ? std::optional(Defocus(rig.sensor)) : std::nullopt;
 
   /// Of the dots as the camera sees them on a surface at `point`.
@@ -68,12 +82,13 @@ struct Renderer {
   int samples_per_pixel() const { return static_cast<int>(places.size()); }
   int samples_per_row() const { return samples_per_pixel() * rig.sensor.ir_width; }
 
-  /// Ray of a sample of row y; the samples of a pixel follow one another.
-  Ray camera_ray(int y, int sample) const {
-    const int x = sample / samples_per_pixel();
-    const Eigen::Vector2d& place = places[sample % samples_per_pixel()];
-    const double x_ir_px = x + place.x(), y_ir_px = y - rig.sensor.ir_first_row() + place.y();
-    return {rig.camera_in_world(), rig.direction_in_world(x_ir_px * px_per_ir_px, y_ir_px * px_per_ir_px)};
+  Ray ray_of(int y, int sample) const {
+    const Eigen::Vector2d place = place_of(y, sample);
+    return camera_ray(place.x(), place.y());
+  }
+  /// Where a sample of row y lies in the image; the samples of a pixel follow one another.
+  Eigen::Vector2d place_of(int y, int sample) const {
+    return places[sample % samples_per_pixel()] + Eigen::Vector2d(sample / samples_per_pixel(), y);
   }
 
   /// Of at most kPacket samples.
@@ -84,28 +99,46 @@ struct Renderer {
   /// Of row y, from sample `first` on.
   Radiances radiances(int y, int first, int count) const {
     std::array<Ray, kPacket> rays;
-    for (int i = 0; i < count; ++i) rays[i] = camera_ray(y, first + i);
+    for (int i = 0; i < count; ++i) rays[i] = ray_of(y, first + i);
     Packet<SeenPoint> seen = see(projector.world(), std::span(rays.data(), count));
     Radiances result;
     for (int i = 0; i < count; ++i)
       if (const SeenPoint* at = seen.find(i)) result.ambient[i] = at->transmittance * at->albedo;
     std::array<double, kPacket>& sums = result.projected;
-    if (light != LightModel::direct)
+    if (light != LightModel::direct) {
+      PixelDraws draws;
       for (int i = 0; i < count; ++i) {
         const SeenPoint* at = seen.find(i);
-        if (light == LightModel::full || (at && at->entered)) sums[i] += more_than_direct(y, first + i, rays[i], at);
+        if (i == 0 || (first + i) % samples_per_pixel() == 0) draws = draws_of(y, (first + i) / samples_per_pixel());
+        if (light == LightModel::full || (at && at->entered))
+          sums[i] += more_than_direct(y, first + i, draws, rays[i], at);
         if (at && at->entered) seen.reset(i);
       }
-    for_each_illumination(projector, seen, [&](std::size_t i, const Illumination& from_projector) {
+    }
+    const auto add = [&](std::size_t i, const Illumination& from_projector) {
       if (light == LightModel::direct && from_projector.through_scattering) return;
       const SeenPoint& at = *seen.find(i);
       sums[i] += radiance_dn(rig.sensor, at, from_projector) * intensity(from_projector.direction, at.point);
+    };
+    for_each_illumination(projector, seen, add, [&](std::size_t i) {
+      return starts(Ways::refracted, SharedWalks::straight, place_of(y, first + static_cast<int>(i)), *seen.find(i));
     });
     return result;
   }
 
+  /// Light that surfaces reflect in part is some hundredths: one of a pixel's samples looks for it, whichever it is,
+  /// and at least one at an image in such a surface. Evenly distributed numbers say which.
+  struct PixelDraws {
+    double image, ghost;
+  };
+  PixelDraws draws_of(int y, int x) const {
+    Rng rng(seed, kImageStream, y, x);
+    const double image = rng.uniform();
+    return {image, rng.uniform()};
+  }
+
   /// Radiance [DN] of a sample's light that for_each_illumination() leaves out. `at`: what it sees, if anything.
-  double more_than_direct(int y, int number, const Ray& ray, const SeenPoint* at) const {
+  double more_than_direct(int y, int number, const PixelDraws& draws, const Ray& ray, const SeenPoint* at) const {
     const bool is_full = light == LightModel::full;
     const int per_pixel = samples_per_pixel(), x = number / per_pixel, sample = number % per_pixel;
     Rng rng(seed, kWalkStream, y, number);
@@ -113,39 +146,61 @@ struct Renderer {
       const std::optional<double> of_all = shared->radiance(look, x, y, sample, per_pixel, seen);
       return of_all ? *of_all : walked_radiance(seen, rng);
     };
+    const double share = 1.0 / per_pixel;
+    double drawn = wrapped(draws.image + sample * share);
+    const bool sees_ghosts = is_full && wrapped(draws.ghost + sample * share) < share;
+    const Eigen::Vector2d place = place_of(y, number);
     double sum = 0.0;
-    if (at) sum += (is_full ? ghost_radiance(*at, rng) : 0.0) + walked(SharedWalks::straight, *at);
+    if (at) {
+      if (sees_ghosts) sum += per_pixel * ghost_radiance(SharedWalks::straight, place, *at, rng);
+      sum += walked(SharedWalks::straight, *at);
+    }
     if (at && !at->refracted && !at->entered) return sum;
-    // A surface mirrors some hundredths: such an image is looked at by at least one of a pixel's samples.
-    double drawn = wrapped(Rng(seed, kImageStream, y, x).uniform() + static_cast<double>(sample) / per_pixel);
     see_mirrored(projector.world(), ray, rng, [&](const SeenPoint& image) {
-      const double chance = std::clamp(image.transmittance / kFaintImage, 1.0 / per_pixel, 1.0);
+      const double chance = std::clamp(image.transmittance / kFaintImage, share, 1.0);
       drawn = wrapped(drawn + std::numbers::phi);
       if (drawn >= chance) return;
-      sum += direct_radiance(image) / chance;
-      if (is_full) sum += (ghost_radiance(image, rng) + walked(SharedWalks::mirrored, image)) / chance;
+      sum += direct_radiance(SharedWalks::mirrored, place, image) / chance;
+      if (sees_ghosts) sum += per_pixel * ghost_radiance(SharedWalks::mirrored, place, image, rng) / chance;
+      if (is_full) sum += walked(SharedWalks::mirrored, image) / chance;
     });
     return sum;
   }
 
+  /// As NearbyWays::starts().
+  std::optional<std::vector<Start>> starts(Ways ways, SharedWalks::Look look, const Eigen::Vector2d& place,
+                                           const SeenPoint& seen) const {
+    return nearby[look] ? nearby[look]->starts(ways, place.x(), place.y(), seen) : std::nullopt;
+  }
+
+  double radiance_by(const Connection& way, const SeenPoint& seen) const {
+    return radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
+  }
+
   /// Radiance [DN] by light straight or refracted from the projector; of bodies that scatter the walks see all.
-  double direct_radiance(const SeenPoint& seen) const {
+  double direct_radiance(SharedWalks::Look look, const Eigen::Vector2d& place, const SeenPoint& seen) const {
     double sum = 0.0;
     if (!seen.entered)
-      projector.connect({seen.point, seen.around, &seen.normal}, [&](const Connection& way) {
-        sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
-      });
+      projector.connect(
+          alone(Receiver{seen.point, seen.around, &seen.normal}),
+          [&](std::size_t, const Connection& way) { sum += radiance_by(way, seen); },
+          [&](std::size_t) { return starts(Ways::refracted, look, place, seen); });
     return sum;
   }
 
-  /// Radiance [DN] by reflections in liquids.
-  double ghost_radiance(const SeenPoint& seen, Rng& rng) const {
+  /// Radiance [DN] by reflections in liquids and glass.
+  double ghost_radiance(SharedWalks::Look look, const Eigen::Vector2d& place, const SeenPoint& seen, Rng& rng) const {
+    if (seen.entered) return 0.0;
     double sum = 0.0;
-    if (!seen.entered)
-      projector.connect_mirrored(
-          {seen.point, seen.around, &seen.normal}, seen.transmittance, rng, [&](const Connection& way) {
-            sum += radiance_dn(rig.sensor, seen, illumination_by(way, seen)) * intensity(way.direction, seen.point);
-          });
+    const Receiver receiver{seen.point, seen.around, &seen.normal};
+    std::vector<Connection> found;
+    const auto known = starts(Ways::mirrored, look, place, seen);
+    if (known && projector.follow(*known, receiver, found)) {
+      for (const Connection& way : found) sum += radiance_by(way, seen);
+    } else {
+      projector.connect_mirrored(receiver, samples_per_pixel() * seen.transmittance, rng.uniform(),
+                                 [&](const Connection& way) { sum += radiance_by(way, seen); });
+    }
     return sum;
   }
 
@@ -172,8 +227,29 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
   std::optional<SharedWalks> shared;
   if (light != LightModel::direct)
     shared.emplace(projector, rig, blurred, light == LightModel::full ? kFineSharing : kCoarseSharing, seed, kBandRows);
-  const Renderer renderer{
-      projector, rig, pattern, blurred, sample_places(samples_across), light, seed, shared ? &*shared : nullptr};
+  std::vector<NearbyWays> nearby;  // by SharedWalks::Look
+  if (projector.searches()) {
+    using Looking = std::optional<SeenPoint> (*)(const Intersector&, const Ray&);
+    const auto add = [&](Looking looking) {
+      nearby.emplace_back(
+          projector,
+          [camera_ray = CameraRays{rig}, &world = projector.world(), looking](double x, double y) {
+            return looking(world, camera_ray(x, y));
+          },
+          rig.sensor.ir_width, light == LightModel::full);
+    };
+    add([](const Intersector& world, const Ray& ray) { return see(world, ray); });
+    if (light != LightModel::direct) add(&see_first_mirrored);
+  }
+  const Renderer renderer{projector,
+                          rig,
+                          pattern,
+                          blurred,
+                          sample_places(samples_across),
+                          light,
+                          seed,
+                          shared ? &*shared : nullptr,
+                          {nearby.empty() ? nullptr : &nearby[0], nearby.size() > 1 ? &nearby[1] : nullptr}};
   const int width = rig.sensor.ir_width, height = rig.sensor.ir_height;
   const double ambient_dn = rig.sensor.noise.ambient_dn;
   IrLight image{Image<float>(width, height), ambient_dn > 0.0 ? Image<float>(width, height) : Image<float>()};
@@ -200,6 +276,7 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
   for (int top = 0; top < height; top += kBandRows) {
     const int rows = std::min(kBandRows, height - top);
     if (shared) shared->prepare(top, top + rows);
+    for (NearbyWays& ways : nearby) ways.prepare(top, top + rows);
     parallel_ranges(rows, [&](int begin, int end) { render_rows(top + begin, top + end); });
   }
   if (light == LightModel::full) add_glints(projector, rig, pattern, image.projected);

@@ -201,7 +201,7 @@ Irradiance irradiance_at(const PointLight& source, const SeenPoint& seen, Rng& r
   const auto add = [&](const Connection& way) { result.direct += illumination_by(way, seen).irradiance; };
   const Receiver receiver{seen.point, seen.around, &seen.normal};
   source.connect(receiver, add);
-  source.connect_mirrored(receiver, 1.0, rng, add);
+  source.connect_mirrored(receiver, 1.0, rng.uniform(), add);
   walk_light(source, seen, rng, [&](const ReturnedLight& light) { result.thrown += light.reflected / seen.albedo; });
   return result;
 }

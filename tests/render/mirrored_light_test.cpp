@@ -26,7 +26,7 @@ TEST(Mirrored, LightComesFromTheImageBelowALevelSurface) {
   for (int i = 0; i < 40; ++i) {
     const Eigen::Vector2d out = direction_of(std::numbers::pi * (0.25 + 0.5 * i / 40.0));
     const Eigen::Vector3d point = kAxis + Eigen::Vector3d(0.0399 * out.x(), 0.0399 * out.y(), kLevel + 0.020);
-    scene.projector.connect_mirrored({point, nullptr}, 1.0, rng, [&](const Connection& way) {
+    scene.projector.connect_mirrored({point, nullptr}, 1.0, rng.uniform(), [&](const Connection& way) {
       const Eigen::Vector3d path = point - image;
       EXPECT_LT((way.arrival - path.normalized()).norm(), 1e-9);  // what shooting calls a hit, 1e-10 m, over 20 mm
       EXPECT_NEAR(way.spreading * path.squaredNorm(), 1.0, 1e-9);
@@ -94,9 +94,10 @@ Estimate received(const LitScene& scene, int places, Region region, int object, 
     const Place place = draw(rng);
     double irradiance = 0.0;
     if (region(place.point, object))
-      scene.projector.connect_mirrored({place.point, nullptr, &place.normal}, 1.0, rng, [&](const Connection& way) {
-        irradiance -= way.transmittance * way.spreading * place.normal.dot(way.arrival);
-      });
+      scene.projector.connect_mirrored(
+          {place.point, nullptr, &place.normal}, 1.0, rng.uniform(), [&](const Connection& way) {
+            irradiance -= way.transmittance * way.spreading * place.normal.dot(way.arrival);
+          });
     power.add(place.area * irradiance);
   }
   return power.estimate();
