@@ -148,11 +148,12 @@ struct Renderer {
     };
     const double share = 1.0 / per_pixel;
     double drawn = wrapped(draws.image + sample * share);
-    const bool sees_ghosts = is_full && wrapped(draws.ghost + sample * share) < share;
+    const double ghost_share = projector.searches() ? share : 1.0;  // level mirrors need no search
+    const bool sees_ghosts = is_full && wrapped(draws.ghost + sample * share) < ghost_share;
     const Eigen::Vector2d place = place_of(y, number);
     double sum = 0.0;
     if (at) {
-      if (sees_ghosts) sum += per_pixel * ghost_radiance(SharedWalks::straight, place, *at, rng);
+      if (sees_ghosts) sum += ghost_radiance(SharedWalks::straight, place, *at, ghost_share, rng);
       sum += walked(SharedWalks::straight, *at);
     }
     if (at && !at->refracted && !at->entered) return sum;
@@ -161,7 +162,7 @@ struct Renderer {
       drawn = wrapped(drawn + std::numbers::phi);
       if (drawn >= chance) return;
       sum += direct_radiance(SharedWalks::mirrored, place, image) / chance;
-      if (sees_ghosts) sum += per_pixel * ghost_radiance(SharedWalks::mirrored, place, image, rng) / chance;
+      if (sees_ghosts) sum += ghost_radiance(SharedWalks::mirrored, place, image, ghost_share, rng) / chance;
       if (is_full) sum += walked(SharedWalks::mirrored, image) / chance;
     });
     return sum;
@@ -188,8 +189,9 @@ struct Renderer {
     return sum;
   }
 
-  /// Radiance [DN] by reflections in liquids and glass.
-  double ghost_radiance(SharedWalks::Look look, const Eigen::Vector2d& place, const SeenPoint& seen, Rng& rng) const {
+  /// Radiance [DN] by reflections in liquids and glass; a share of a pixel's samples looks for it.
+  double ghost_radiance(SharedWalks::Look look, const Eigen::Vector2d& place, const SeenPoint& seen, double share,
+                        Rng& rng) const {
     if (seen.entered) return 0.0;
     double sum = 0.0;
     const Receiver receiver{seen.point, seen.around, &seen.normal};
@@ -198,10 +200,10 @@ struct Renderer {
     if (known && projector.follow(*known, receiver, found)) {
       for (const Connection& way : found) sum += radiance_by(way, seen);
     } else {
-      projector.connect_mirrored(receiver, samples_per_pixel() * seen.transmittance, rng.uniform(),
+      projector.connect_mirrored(receiver, seen.transmittance / share, rng.uniform(),
                                  [&](const Connection& way) { sum += radiance_by(way, seen); });
     }
-    return sum;
+    return sum / share;
   }
 
   /// Radiance [DN] by walks of its own.
