@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/parallel.h"
@@ -45,41 +46,63 @@ struct CommonWay {
 
 }  // namespace
 
-NearbyWays::NearbyWays(const PointLight& projector, Look look, int width, bool mirrored)
-    : projector_(projector), look_(std::move(look)), mirrored_(mirrored), columns_((width - 1) / kApart + 2) {}
+NearbyWays::NearbyWays(const PointLight& projector, std::function<Ray(double, double)> camera_ray, int width,
+                       Scope scope)
+    : projector_(projector), camera_ray_(std::move(camera_ray)), scope_(scope), columns_((width - 1) / kApart + 2) {}
 
 void NearbyWays::prepare(int begin, int end) {
   first_row_ = begin / kApart;
   const int rows = (end - 1) / kApart + 2 - first_row_;
-  corners_ = Image<Corner>(columns_, rows);
+  corners_[0] = Image<Corner>(columns_, rows);
+  if (scope_.images) corners_[1] = Image<Corner>(columns_, rows);
   parallel_ranges(rows, [&](int first, int last) {
-    for (int row = first; row < last; ++row)
-      for (int column = 0; column < columns_; ++column)
-        corners_(column, row) = corner(kApart * column, kApart * (first_row_ + row));
+    for (int row = first; row < last; ++row) search_row(row);
   });
 }
 
-NearbyWays::Corner NearbyWays::corner(double x, double y) const {
-  Corner corner{look_(x, y), {}};
-  if (!corner.seen || corner.seen->entered) return corner;
-  const Receiver receiver{corner.seen->point, corner.seen->around, &corner.seen->normal};
-  for (const Ways ways : {Ways::refracted, Ways::mirrored})
-    if (ways == Ways::refracted || mirrored_)
-      corner.ways[static_cast<std::size_t>(ways)] = projector_.search(ways, receiver);
+void NearbyWays::search_row(int row) {
+  for (int left = 0; left < columns_; left += kPacket) {
+    const int count = std::min<int>(kPacket, columns_ - left);
+    std::array<Ray, kPacket> rays;
+    for (int i = 0; i < count; ++i) rays[i] = camera_ray_(kApart * (left + i), kApart * (first_row_ + row));
+    const Packet<SeenPoint> seen = see(projector_.world(), std::span(rays.data(), count));
+    for (int i = 0; i < count; ++i) {
+      const SeenPoint* at = seen.find(i);
+      if (at) corners_[0](left + i, row) = corner(*at);
+      if (scope_.images && (!at || at->refracted || at->entered))
+        corners_[1](left + i, row) = corner(see_first_mirrored(projector_.world(), rays[i]));
+    }
+  }
+}
+
+NearbyWays::Corner NearbyWays::corner(const std::optional<SeenPoint>& seen) const {
+  Corner corner{seen, {}};
+  if (!seen || seen->entered) return corner;
+  const Receiver receiver{seen->point, seen->around, &seen->normal};
+  const auto search = [&](Ways ways) {
+    corner.ways[static_cast<std::size_t>(ways)] = projector_.search(ways, receiver);
+  };
+  search(Ways::refracted);
+  if (scope_.mirrored_light) search(Ways::mirrored);
   return corner;
 }
 
-std::optional<std::vector<Start>> NearbyWays::starts(Ways ways, double x, double y, const SeenPoint& seen) const {
+std::optional<std::vector<Start>> NearbyWays::starts(Ways ways, bool in_image, double x, double y,
+                                                     const SeenPoint& seen) const {
   const int column = static_cast<int>(x) / kApart, row = static_cast<int>(y) / kApart;
   const double across = x / kApart - column, down = y / kApart - row;
   std::array<const Corner*, 4> corners;
   Bilinear points;
   for (int i = 0; i < 4; ++i) {
-    corners[i] = &corners_(column + i % 2, row + i / 2 - first_row_);
+    corners[i] = &corners_[in_image](column + i % 2, row + i / 2 - first_row_);
     if (!corners[i]->seen || !same_surface(*corners[i]->seen, seen)) return std::nullopt;
     points.at[i] = corners[i]->seen->point;
   }
   constexpr double kOff = 0.1;
+  constexpr double kWidest =
+      4e-3;  // [rad] as the projector sees it: twice what lies between the rays that it sends out
+  const double from_projector = (seen.point - projector_.position()).norm();
+  if (points.size() > kWidest * from_projector) return std::nullopt;  // in curved mirrors corners see places far apart
   if (!points.is_even() || (points(across, down) - seen.point).norm() > kOff * points.size()) return std::nullopt;
   std::vector<CommonWay> common;
   for (int i = 0; i < 4; ++i) {

@@ -15,18 +15,21 @@ namespace fathom {
 
 class NearbyWays {
  public:
-  using Look = std::function<std::optional<SeenPoint>(double x, double y)>;
+  /// Which places and ways are asked for.
+  struct Scope {
+    bool images;          ///< what is seen in the first mirror image, too
+    bool mirrored_light;  ///< light that an interface reflects in part, too
+  };
 
-  /// `look`: what is seen at a place in the image [px]. `mirrored`: whether light is searched for that an interface
-  /// reflects in part, too. Keeps a reference to the projector, which must outlive it.
-  NearbyWays(const PointLight& projector, Look look, int width, bool mirrored);
+  /// `camera_ray`: through a place in the image [px]. Keeps a reference to the projector, which must outlive it.
+  NearbyWays(const PointLight& projector, std::function<Ray(double x, double y)> camera_ray, int width, Scope scope);
 
   /// Searches for the ways of the rows begin … end − 1; others are forgotten. The same for any number of threads.
   void prepare(int begin, int end);
 
-  /// How all ways to `seen`, which stands at a place of a row that is prepared, start; but for the straight one.
-  /// Nothing where the corners around it see another surface.
-  std::optional<std::vector<Start>> starts(Ways ways, double x, double y, const SeenPoint& seen) const;
+  /// How all ways to `seen` start, but for the straight one. It stands, `in_image` or not, at a place of a row that is
+  /// prepared. Nothing where the corners around it see another surface.
+  std::optional<std::vector<Start>> starts(Ways ways, bool in_image, double x, double y, const SeenPoint& seen) const;
 
  private:
   /// Between the corners [px]: light that finds room between them may be missed.
@@ -36,14 +39,15 @@ class NearbyWays {
     std::optional<SeenPoint> seen;
     std::array<std::vector<Connection>, 2> ways;  ///< by Ways
   };
-  Corner corner(double x, double y) const;
+  void search_row(int row);
+  Corner corner(const std::optional<SeenPoint>& seen) const;
 
   const PointLight& projector_;
-  Look look_;
-  bool mirrored_;
+  std::function<Ray(double, double)> camera_ray_;
+  Scope scope_;
   int columns_;
   int first_row_ = 0;
-  Image<Corner> corners_;
+  std::array<Image<Corner>, 2> corners_;  ///< seen straight, and in the first mirror image
 };
 
 }  // namespace fathom

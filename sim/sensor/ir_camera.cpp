@@ -67,8 +67,8 @@ struct Renderer {
   std::vector<Eigen::Vector2d> places;  ///< of a pixel's samples in it
   LightModel light;
   std::uint64_t seed;
-  const SharedWalks* shared = nullptr;        ///< of all but direct light
-  std::array<const NearbyWays*, 2> nearby{};  ///< by SharedWalks::Look, where ways are searched for
+  const SharedWalks* shared = nullptr;  ///< of all but direct light
+  const NearbyWays* nearby = nullptr;   ///< where ways are searched for
   CameraRays camera_ray{rig};
   std::optional<Defocus> defocus = rig.sensor.optics.defocuses() ? std::optional(Defocus(rig.sensor)) : std::nullopt;
 
@@ -171,7 +171,7 @@ struct Renderer {
   /// As NearbyWays::starts().
   std::optional<std::vector<Start>> starts(Ways ways, SharedWalks::Look look, const Eigen::Vector2d& place,
                                            const SeenPoint& seen) const {
-    return nearby[look] ? nearby[look]->starts(ways, place.x(), place.y(), seen) : std::nullopt;
+    return nearby ? nearby->starts(ways, look == SharedWalks::mirrored, place.x(), place.y(), seen) : std::nullopt;
   }
 
   double radiance_by(const Connection& way, const SeenPoint& seen) const {
@@ -229,20 +229,10 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
   std::optional<SharedWalks> shared;
   if (light != LightModel::direct)
     shared.emplace(projector, rig, blurred, light == LightModel::full ? kFineSharing : kCoarseSharing, seed, kBandRows);
-  std::vector<NearbyWays> nearby;  // by SharedWalks::Look
-  if (projector.searches()) {
-    using Looking = std::optional<SeenPoint> (*)(const Intersector&, const Ray&);
-    const auto add = [&](Looking looking) {
-      nearby.emplace_back(
-          projector,
-          [camera_ray = CameraRays{rig}, &world = projector.world(), looking](double x, double y) {
-            return looking(world, camera_ray(x, y));
-          },
-          rig.sensor.ir_width, light == LightModel::full);
-    };
-    add([](const Intersector& world, const Ray& ray) { return see(world, ray); });
-    if (light != LightModel::direct) add(&see_first_mirrored);
-  }
+  std::optional<NearbyWays> nearby;
+  if (projector.searches())
+    nearby.emplace(projector, CameraRays{rig}, rig.sensor.ir_width,
+                   NearbyWays::Scope{light != LightModel::direct, light == LightModel::full});
   const Renderer renderer{projector,
                           rig,
                           pattern,
@@ -251,7 +241,7 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
                           light,
                           seed,
                           shared ? &*shared : nullptr,
-                          {nearby.empty() ? nullptr : &nearby[0], nearby.size() > 1 ? &nearby[1] : nullptr}};
+                          nearby ? &*nearby : nullptr};
   const int width = rig.sensor.ir_width, height = rig.sensor.ir_height;
   const double ambient_dn = rig.sensor.noise.ambient_dn;
   IrLight image{Image<float>(width, height), ambient_dn > 0.0 ? Image<float>(width, height) : Image<float>()};
@@ -278,7 +268,7 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
   for (int top = 0; top < height; top += kBandRows) {
     const int rows = std::min(kBandRows, height - top);
     if (shared) shared->prepare(top, top + rows);
-    for (NearbyWays& ways : nearby) ways.prepare(top, top + rows);
+    if (nearby) nearby->prepare(top, top + rows);
     parallel_ranges(rows, [&](int begin, int end) { render_rows(top + begin, top + end); });
   }
   if (light == LightModel::full) add_glints(projector, rig, pattern, image.projected);
