@@ -57,9 +57,7 @@ void seal_pack(const std::string& kind, std::uint64_t seed, int sets, const fs::
   if (fs::exists(folder / "pack.json")) throw Error((folder / "pack.json").string(), "is there already");
   const Views views = views_of(designs());
   std::vector<SetTruth> drawn(static_cast<std::size_t>(sets));
-  parallel_ranges(sets, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) drawn[static_cast<std::size_t>(i)] = draw_set(views, seed, i, sets);
-  });
+  parallel_items(sets, [&](int i) { drawn[static_cast<std::size_t>(i)] = draw_set(views, seed, i, sets); });
   Json list = Json::array(), options = Json::array();
   for (const SetTruth& set : drawn) {
     list.push_back(sealed_json(set));

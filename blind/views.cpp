@@ -96,9 +96,8 @@ Views views_of(std::span<const Design> designs) {
     for (const Placement& placement : plan(design, 0))
       if (views.try_emplace(condition_of(placement)).second) placements.push_back(placement);
   }
-  parallel_ranges(static_cast<int>(placements.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) views.at(condition_of(placements[i])) = views_under(placements[i], trials);
-  });
+  parallel_items(static_cast<int>(placements.size()),
+                 [&](int i) { views.at(condition_of(placements[i])) = views_under(placements[i], trials); });
   return views;
 }
 

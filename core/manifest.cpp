@@ -123,6 +123,7 @@ bool Manifest::holds(const std::string& name) const {
 void Manifest::add(const std::string& name) {
   const fs::path file = folder_ / name;
   Json line{{"file", name}, {"bytes", fs::file_size(file)}, {"sha256", sha256_of_file(file)}};
+  const std::lock_guard lock(adding_);
   appended_ << line.dump() << '\n' << std::flush;
   if (!appended_) throw Error(path_.string(), "cannot be written: disk full or not writable");
   files_.insert_or_assign(name, std::move(line));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -39,7 +40,7 @@ class Manifest {
   void begin();
   /// Whether this file was noted and stands in the folder with the same bytes.
   bool holds(const std::string& name) const;
-  /// Notes a file that is whole.
+  /// Notes a file that is whole. Threads may do so side by side.
   void add(const std::string& name);
   /// When the run is done: the lines in the order of their names, whichever way the run went.
   void finish();
@@ -51,6 +52,7 @@ class Manifest {
   std::optional<std::string> difference_;
   std::map<std::string, Json> files_;
   std::ofstream appended_;
+  std::mutex adding_;
 };
 
 }  // namespace fathom

@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
 
 #include "core/watcher.h"
 
@@ -33,18 +35,33 @@ struct Order {
 };
 #endif
 
-}  // namespace
-
-void parallel_ranges(int count, const std::function<void(int, int)>& body) {
+/// Calls `piece(begin, end)` for ranges; one of `grain` turns or fewer is not divided further.
+template <class Piece, class Partitioner>
+void share(int count, int grain, const Piece& piece, const Partitioner& partitioner) {
   [[maybe_unused]] Order order;
   Watcher* const who = watcher();
-  tbb::parallel_for(tbb::blocked_range<int>(0, count, 4), [&](const tbb::blocked_range<int>& range) {
+  const auto run = [&](const tbb::blocked_range<int>& range) {
     order.begin_piece();
     const WatcherScope scope(who);
     go_on();
-    body(range.begin(), range.end());
+    piece(range.begin(), range.end());
     order.end_piece();
-  });
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, count, grain), run, partitioner);
+}
+
+}  // namespace
+
+void parallel_ranges(int count, const std::function<void(int, int)>& body) {
+  share(count, 4, body, tbb::auto_partitioner());
+}
+
+void parallel_items(int count, const std::function<void(int)>& body) {
+  const auto one = [&](int i, int) {
+    // A thread that waits for the rest of a loop within its item begins no other item meanwhile.
+    tbb::this_task_arena::isolate([&] { body(i); });
+  };
+  share(count, 1, one, tbb::simple_partitioner());
 }
 
 int thread_count() {

@@ -52,11 +52,9 @@ SamplingResult sample_until(const SamplingPlan& plan, std::size_t quantities, co
   while (result.samples < goal) {
     const std::uint64_t begin = result.samples, end = std::min(goal, begin + kBatchesAtOnce * kBatch);
     std::vector<Batch> batches((end - begin + kBatch - 1) / kBatch);
-    parallel_ranges(static_cast<int>(batches.size()), [&](int first, int last) {
-      for (int i = first; i < last; ++i) {
-        const std::uint64_t from = begin + static_cast<std::uint64_t>(i) * kBatch;
-        batches[static_cast<std::size_t>(i)] = run_batch(from, std::min(end, from + kBatch), quantities, sampler);
-      }
+    parallel_items(static_cast<int>(batches.size()), [&](int i) {
+      const std::uint64_t from = begin + static_cast<std::uint64_t>(i) * kBatch;
+      batches[static_cast<std::size_t>(i)] = run_batch(from, std::min(end, from + kBatch), quantities, sampler);
     });
     for (const Batch& batch : batches) {
       for (std::size_t i = 0; i < quantities; ++i) means[i].add(batch.means[i]);

@@ -53,7 +53,7 @@ std::optional<PixelBox> box_of(const Image<std::uint8_t>& mask) {
 }
 
 /// Where the thing would be seen if nothing else were there. Where it is seen no ray needs to say so.
-void see_alone(const Pose& world_from_model, const Rig& rig, const Image<float>& depth, InstanceLabel& label) {
+void see_alone(const Pose& world_from_model, const Rig& rig, const Image<std::uint16_t>& depth, InstanceLabel& label) {
   const Model& model = *label.model;
   const int width = rig.sensor.width, height = rig.sensor.height;
   label.whole = Image<std::uint8_t>(width, height);
@@ -87,7 +87,7 @@ void see_alone(const Pose& world_from_model, const Rig& rig, const Image<float>&
         const int column = window.x + across;
         if (!in_image(column)) continue;
         label.whole(column, row) = 255;
-        label.valid += depth(column, row) > 0.0f;
+        label.valid += depth(column, row) > 0;
       }
     }
   }
@@ -95,25 +95,19 @@ void see_alone(const Pose& world_from_model, const Rig& rig, const Image<float>&
   if (label.whole_box) label.whole_box->x += window.x, label.whole_box->y += window.y;
 }
 
-/// A camera's pixels with what labels need of them, beside the camera.
-struct Seen {
-  const Camera& camera;
-  const Frame& frame;
-  Image<int> first;  ///< the number of the object that is seen first; 0: none
+/// 255 where one of two objects is what is seen first.
+Image<std::uint8_t> mask_of(int object, int or_object, const Image<int>& first) {
+  Image<std::uint8_t> mask(first.width(), first.height());
+  std::transform(first.pixels().begin(), first.pixels().end(), mask.pixels().begin(),
+                 [=](int seen) { return seen == object || seen == or_object ? std::uint8_t{255} : std::uint8_t{0}; });
+  return mask;
+}
 
-  Seen(const Camera& of_camera, const Frame& of_frame)
-      : camera(of_camera), frame(of_frame), first(of_camera.truth().width(), of_camera.truth().height()) {
-    std::transform(camera.truth().pixels().begin(), camera.truth().pixels().end(), first.pixels().begin(),
-                   [](const TruePixel& pixel) { return pixel.first ? pixel.first->object : 0; });
-  }
-
-  Image<std::uint8_t> mask_of(int object, int or_object) const {
-    Image<std::uint8_t> mask(first.width(), first.height());
-    std::transform(first.pixels().begin(), first.pixels().end(), mask.pixels().begin(),
-                   [=](int seen) { return seen == object || seen == or_object ? std::uint8_t{255} : std::uint8_t{0}; });
-    return mask;
-  }
-};
+/// Tenths of a millimetre; 0 where there is nothing, or more than 16 bits hold.
+std::uint16_t depth_count(double depth) {
+  const double count = depth * (1e3 / kDepthUnitMm) + 0.5;  // a cast cuts off
+  return count >= 1.0 && count < 65536.0 ? static_cast<std::uint16_t>(count) : std::uint16_t{0};
+}
 
 /// Height above the desk of what a camera without noise measures at a pixel.
 double apparent_height(const Rig& rig, int x, int y, double apparent_depth) {
@@ -127,8 +121,7 @@ double bottom_height(const Cup& cup) {
   return shape ? shape->bottom() : liquid_level(cup) - cup.filling->depth;
 }
 
-std::optional<LiquidLabel> liquid_of(const Seen& seen, std::size_t index) {
-  const Camera& camera = seen.camera;
+std::optional<LiquidLabel> liquid_of(const Camera& camera, const Image<int>& first, std::size_t index) {
   const Cup& cup = camera.setup().scene.cups[index];
   const std::optional<int> number = camera.geometry().cups[index].liquid;
   if (!cup.filling || !number) return std::nullopt;
@@ -141,7 +134,7 @@ std::optional<LiquidLabel> liquid_of(const Seen& seen, std::size_t index) {
                     .surface_mm = mm_from_metres(liquid_level(cup)),
                     .bottom_mm = mm_from_metres(bottom_height(cup)),
                     .apparent_mm = {},
-                    .mask = seen.mask_of(*number, *number),
+                    .mask = mask_of(*number, *number, first),
                     .runs = {}};
   label.runs = run_lengths(label.mask);
   std::vector<double> heights;
@@ -154,19 +147,20 @@ std::optional<LiquidLabel> liquid_of(const Seen& seen, std::size_t index) {
   return label;
 }
 
-InstanceLabel label_of(const Model& model, std::size_t index, int object, std::optional<int> liquid, const Seen& seen) {
-  const Rig& rig = seen.camera.setup().rig;
-  const Pose world_from_model = seen.camera.geometry().world_from_object.at(object - 1);
+InstanceLabel label_of(const Model& model, std::size_t index, int object, std::optional<int> liquid,
+                       const Camera& camera, const FramePixels& pixels) {
+  const Rig& rig = camera.setup().rig;
+  const Pose world_from_model = camera.geometry().world_from_object.at(object - 1);
   InstanceLabel label{.model = &model,
                       .index = index,
                       .camera_from_model = rig.world_from_camera.inverse() * world_from_model,
                       .whole = {},
-                      .visible = seen.mask_of(object, liquid.value_or(object)),
+                      .visible = mask_of(object, liquid.value_or(object), pixels.first_object),
                       .visible_runs = {},
                       .whole_box = {},
                       .liquid = {}};
   label.visible_runs = run_lengths(label.visible);
-  see_alone(world_from_model, rig, seen.frame.depth, label);
+  see_alone(world_from_model, rig, pixels.measured, label);
   return label;
 }
 
@@ -206,17 +200,34 @@ RunLengths run_lengths(const Image<std::uint8_t>& mask) {
   return runs;
 }
 
+FramePixels::FramePixels(const Camera& camera, const Frame& frame) {
+  const Image<TruePixel>& truth = camera.truth();
+  const Rig& rig = camera.setup().rig;
+  const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2), eye = rig.camera_in_world();
+  measured = seen = apparent = first = Image<std::uint16_t>(truth.width(), truth.height());
+  first_object = Image<int>(truth.width(), truth.height());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const TruePixel& pixel = truth.pixels()[i];
+    measured.pixels()[i] = depth_count(frame.depth.pixels()[i]);
+    seen.pixels()[i] = depth_count(pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0);
+    apparent.pixels()[i] = depth_count(pixel.apparent_depth.value_or(0.0));
+    first.pixels()[i] = depth_count(pixel.first_depth);
+    first_object.pixels()[i] = pixel.first_object;
+  }
+}
+
 std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, const Camera& camera,
-                                       const Frame& frame) {
+                                       const FramePixels& pixels) {
   const Geometry& geometry = camera.geometry();
-  const Seen seen(camera, frame);
   std::vector<InstanceLabel> labels;
   for (std::size_t i = 0; i < scene.at("cups").size(); ++i) {
-    labels.push_back(label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, seen));
-    labels.back().liquid = liquid_of(seen, i);
+    labels.push_back(
+        label_of(models.of_cup(scene["cups"][i]), i, geometry.cups[i].cup, geometry.cups[i].liquid, camera, pixels));
+    labels.back().liquid = liquid_of(camera, pixels.first_object, i);
   }
   for (std::size_t i = 0; i < scene.at("objects").size(); ++i)
-    labels.push_back(label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, seen));
+    labels.push_back(
+        label_of(models.of_thing(scene["objects"][i]), i, geometry.things[i], std::nullopt, camera, pixels));
   return labels;
 }
 

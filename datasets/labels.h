@@ -51,9 +51,22 @@ struct InstanceLabel {
   std::optional<LiquidLabel> liquid;
 };
 
+inline constexpr double kDepthUnitMm = 0.1;  ///< of 16-bit depth images
+
+/// What a frame's pixels show: depths in tenths of a millimetre, 0 where there is none or more than 16 bits hold.
+struct FramePixels {
+  Image<std::uint16_t> measured;
+  Image<std::uint16_t> seen;      ///< of the first diffuse point on the refracted ray
+  Image<std::uint16_t> apparent;  ///< what a camera without noise measures there
+  Image<std::uint16_t> first;     ///< of the first surface of any kind
+  Image<int> first_object;        ///< the number of what has that surface; 0: none
+
+  FramePixels(const Camera& camera, const Frame& frame);
+};
+
 /// Of every cup and then every object of the scene. `scene` is what the camera's set-up was read from.
 std::vector<InstanceLabel> label_frame(const Json& scene, const Models& models, const Camera& camera,
-                                       const Frame& frame);
+                                       const FramePixels& pixels);
 
 /// BOP's and OpenCV's first pixel has its centre at (0, 0), Fathom's at (0.5, 0.5).
 Eigen::Vector2d bop_principal_px(const SensorModel& sensor);
@@ -64,7 +77,5 @@ Json pose_entry(const InstanceLabel& instance);
 Json info_entry(const InstanceLabel& instance);
 /// What BOP has no place for: where a cup's rim and handle are, its box, and its liquid.
 Json cup_entry(const InstanceLabel& instance, const Cup& cup);
-
-inline constexpr double kDepthUnitMm = 0.1;  ///< of 16-bit depth images
 
 }  // namespace fathom

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <mutex>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -25,12 +24,6 @@ constexpr const char* kComplete = "complete.json";  ///< of a scene, comes last 
 constexpr std::uint64_t kCameraStream = 0x63616d657261ULL;
 
 std::string frame_name(int image) { return fmt::format("{:06}", image); }
-
-/// Tenths of a millimetre; 0 where there is nothing, or more than 16 bits hold.
-std::uint16_t depth_count(double depth) {
-  const double count = depth * (1e3 / kDepthUnitMm) + 0.5;  // a cast cuts off
-  return count >= 1.0 && count < 65536.0 ? static_cast<std::uint16_t>(count) : std::uint16_t{0};
-}
 
 /// Errors of a drawn scene name the specification and the frame.
 Setup setup_of(const Dataset& dataset, const Json& scene, int number) {
@@ -76,25 +69,12 @@ class FrameWriter {
   std::vector<std::string> files_;
 };
 
-void write_depths(const Camera& camera, const Frame& frame, FrameWriter& writer) {
-  const Image<TruePixel>& truth = camera.truth();
-  const Rig& rig = camera.setup().rig;
-  const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2), eye = rig.camera_in_world();
-  const Image<std::uint16_t> nothing(truth.width(), truth.height());
-  Image<std::uint16_t> measured = nothing, seen = nothing, apparent = nothing, first = nothing;
-  for (std::size_t i = 0; i < truth.size(); ++i) {  // once: the true pixels of a frame fill 25 MB
-    const TruePixel& pixel = truth.pixels()[i];
-    measured.pixels()[i] = depth_count(frame.depth.pixels()[i]);
-    seen.pixels()[i] = depth_count(pixel.object > 0 ? forward.dot(pixel.position - eye) : 0.0);
-    apparent.pixels()[i] = depth_count(pixel.apparent_depth.value_or(0.0));
-    first.pixels()[i] = depth_count(pixel.first ? pixel.first->depth : 0.0);
-  }
-  writer.image("depth", measured);
-  writer.image("depth_true", seen, Packing::repeats);
-  writer.image("depth_apparent", apparent, Packing::repeats);
-  writer.image("depth_first", first, Packing::repeats);
-  if (frame.ir.empty()) return;
-  writer.image("ir", whole_dn(at_depth_scale(camera.setup().rig.sensor, frame.ir)));
+void write_images(const SensorModel& sensor, const Frame& frame, const FramePixels& pixels, FrameWriter& writer) {
+  writer.image("depth", pixels.measured);
+  writer.image("depth_true", pixels.seen, Packing::repeats);
+  writer.image("depth_apparent", pixels.apparent, Packing::repeats);
+  writer.image("depth_first", pixels.first, Packing::repeats);
+  if (!frame.ir.empty()) writer.image("ir", whole_dn(at_depth_scale(sensor, frame.ir)));
 }
 
 Json runs_json(const RunLengths& runs) { return {{"size", {runs.height, runs.width}}, {"counts", runs.counts}}; }
@@ -106,10 +86,11 @@ std::vector<std::string> make_frame(const fs::path& folder, const Dataset& datas
   Camera camera(setup, dataset.spec.mode, kDefaultSamplesPerPixel, Rng(dataset.seed, kCameraStream, number).bits(),
                 dataset.spec.light);
   const Frame frame = camera.shoot(0);
-  const std::vector<InstanceLabel> labels = label_frame(scene, dataset.models, camera, frame);
+  const FramePixels pixels(camera, frame);
+  const std::vector<InstanceLabel> labels = label_frame(scene, dataset.models, camera, pixels);
 
   FrameWriter writer(folder, frame_name(number % dataset.frames_of_scene));
-  write_depths(camera, frame, writer);
+  write_images(setup.rig.sensor, frame, pixels, writer);
   Json instances = Json::array();
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const InstanceLabel& label = labels[i];
@@ -157,20 +138,34 @@ Json annotation(std::int64_t id, std::int64_t image, Category category, const Js
           {"area", area}};
 }
 
+/// The labels of a scene's frames. All that was written has reached the disk when they are read, which takes as long.
+std::vector<Json> read_labels_and_flush(const fs::path& folder, int images) {
+  std::vector<Json> labels(static_cast<std::size_t>(images));
+  parallel_items(images + 1, [&](int i) {
+    if (i == 0)
+      flush_file_system(folder);
+    else
+      labels[static_cast<std::size_t>(i - 1)] = read_json(folder / fmt::format("labels/{}.json", frame_name(i - 1)));
+  });
+  return labels;
+}
+
 /// The labels of a scene's frames, gathered into BOP's and COCO's files.
-void gather(const fs::path& folder, const std::string& name, int images, bool has_infrared, Manifest& manifest) {
+void gather(const fs::path& folder, const std::string& name, const std::vector<Json>& frames, bool has_infrared,
+            Manifest& manifest) {
   constexpr std::int64_t kMostAnnotations = 1000;  // of a frame: numbers are unique in the whole data set
   Json cameras = Json::object(), poses = Json::object(), infos = Json::object(), cups = Json::object();
   Json shown = Json::array(), annotations = Json::array();
-  for (int image = 0; image < images; ++image) {
+  for (std::size_t image = 0; image < frames.size(); ++image) {
     const std::string key = fmt::format("{}", image);
-    const Json labels = read_json(folder / fmt::format("labels/{}.json", frame_name(image)));
+    const Json& labels = frames[image];
     cameras[key] = labels.at("camera");
     poses[key] = infos[key] = cups[key] = Json::array();
     const std::int64_t frame = labels.at("frame");
     auto next_id = [frame, number = 0]() mutable { return frame * kMostAnnotations + ++number; };
     shown.push_back({{"id", frame},
-                     {"file_name", fmt::format("{}/{}/{}.png", name, has_infrared ? "ir" : "depth", frame_name(image))},
+                     {"file_name", fmt::format("{}/{}/{}.png", name, has_infrared ? "ir" : "depth",
+                                               frame_name(static_cast<int>(image)))},
                      {"width", labels.at("width")},
                      {"height", labels.at("height")}});
     for (const Json& instance : labels.at("instances")) {
@@ -193,7 +188,7 @@ void gather(const fs::path& folder, const std::string& name, int images, bool ha
       cups[key].push_back(std::move(cup));
     }
   }
-  const Json frames = {{"frames", images}};
+  const Json complete = {{"frames", frames.size()}};
   const Json coco = {{"info", {{"description", "simulated by Fathom"}}},
                      {"licenses", Json::array()},
                      {"categories", categories()},
@@ -205,7 +200,7 @@ void gather(const fs::path& folder, const std::string& name, int images, bool ha
                                                                   {"scene_cups.json", &cups},
                                                                   {"coco.json", &coco},
                                                                   {"scene_gt.json", &poses},
-                                                                  {kComplete, &frames}}) {
+                                                                  {kComplete, &complete}}) {
     const std::string text = content->dump() + "\n";
     // A data set that is whole stays as it is: a second run that is killed leaves no line twice in its manifest.
     if (manifest.holds(file) && read_text(folder / file) == text) continue;
@@ -288,17 +283,13 @@ int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, con
       missing.push_back(image);
   }
   if (!missing.empty()) fs::remove(folder / kComplete);
-  std::mutex noting;
-  parallel_ranges(static_cast<int>(missing.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const std::vector<std::string> files = make_frame(folder, dataset, scene * dataset.frames_of_scene + missing[i]);
-      const std::lock_guard lock(noting);
-      for (const std::string& file : files) manifest.add(file);
-      step();
-    }
+  parallel_items(static_cast<int>(missing.size()), [&](int i) {
+    const std::vector<std::string> files = make_frame(folder, dataset, scene * dataset.frames_of_scene + missing[i]);
+    for (const std::string& file : files) manifest.add(file);
+    step();
   });
-  flush_file_system(folder);  // before anything says that the scene is whole
-  gather(folder, scene_folder(scene), images, has_infrared, manifest);
+  // The frames are on the disk before anything says that the scene is whole.
+  gather(folder, scene_folder(scene), read_labels_and_flush(folder, images), has_infrared, manifest);
   manifest.finish();
   return static_cast<int>(missing.size());
 }

@@ -48,14 +48,12 @@ void search_scene(const fs::path& folder, const DatasetFrames& frames, const Dat
     else
       missing.push_back(image);
   }
-  parallel_ranges(static_cast<int>(missing.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      TrialResult result = search_trial(frames.read(scene, missing[i]), method, settings).result;
-      result.detect_s = 0.0;
-      result.stages_s.clear();
-      answers.keep(frame_name(missing[i]), result);
-      step();
-    }
+  parallel_items(static_cast<int>(missing.size()), [&](int i) {
+    TrialResult result = search_trial(frames.read(scene, missing[i]), method, settings).result;
+    result.detect_s = 0.0;
+    result.stages_s.clear();
+    answers.keep(frame_name(missing[i]), result);
+    step();
   });
   answers.finish();
 }

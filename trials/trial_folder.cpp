@@ -36,7 +36,6 @@ std::optional<TrialResult> TrialFolder::kept(const std::string& name) const {
 
 void TrialFolder::keep(const std::string& name, const TrialResult& result) {
   write_json(folder_ / file_of_trial(name), json_of(result));
-  const std::lock_guard lock(noting_);
   manifest_.add(file_of_trial(name));
 }
 

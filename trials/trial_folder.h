@@ -1,7 +1,6 @@
 // The trials of an evaluation in a folder: what a second run goes on with.
 #pragma once
 
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -33,7 +32,6 @@ class TrialFolder {
   std::filesystem::path folder_;
   FolderOwner owner_;
   Manifest manifest_;
-  std::mutex noting_;
 };
 
 }  // namespace fathom

@@ -58,12 +58,10 @@ std::vector<CupShot> cup_shots(const Measurement& measurement, std::span<const s
   std::vector<std::optional<CupShot>> shots(conditions.size());
   const std::size_t most_each = most / std::max<std::size_t>(conditions.size(), 1);
   const QuietPcl quiet;
-  parallel_ranges(static_cast<int>(conditions.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      for (auto frame = conditions[i].begin(); frame != conditions[i].end() && !shots[i]; ++frame)
-        shots[i] = cup_shot(**frame, measurement, folders[(*frame)->folder]);
-      if (shots[i]) thin(shots[i]->points, std::max<std::size_t>(most_each, 1));
-    }
+  parallel_items(static_cast<int>(conditions.size()), [&](int i) {
+    for (auto frame = conditions[i].begin(); frame != conditions[i].end() && !shots[i]; ++frame)
+      shots[i] = cup_shot(**frame, measurement, folders[(*frame)->folder]);
+    if (shots[i]) thin(shots[i]->points, std::max<std::size_t>(most_each, 1));
   });
   std::vector<CupShot> result;
   for (std::optional<CupShot>& shot : shots)

@@ -94,12 +94,13 @@ std::vector<FrameReading> read_frames_of(const Measurement& measurement, const s
   std::vector<std::string> problems(readings.size());
   const QuietPcl quiet_pcl;  // its verbosity is global: threads that silence it must all find it silent
   Progress progress("frame", readings.size(), quiet);
-  parallel_ranges(static_cast<int>(readings.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i, progress.step()) try {
-        readings[i] = read_frame(measurement.frames[i], measurement.rig, folder, bias);
-      } catch (const Error& problem) {
-        problems[i] = problem.what();
-      }
+  parallel_items(static_cast<int>(readings.size()), [&](int i) {
+    try {
+      readings[i] = read_frame(measurement.frames[i], measurement.rig, folder, bias);
+    } catch (const Error& problem) {
+      problems[i] = problem.what();
+    }
+    progress.step();
   });
   for (std::size_t row = 0; row < problems.size(); ++row)
     if (!problems[row].empty()) table.fail(row, "cloud", problems[row]);

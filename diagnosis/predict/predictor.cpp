@@ -101,27 +101,23 @@ Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& o
 
 void Predictor::look_at_nominal() {
   const std::vector<std::vector<std::size_t>> groups = alike({}, all_conditions());
-  parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
-    for (int group = begin; group < end; ++group) {
-      const Condition& first = conditions_[groups[group].front()];
-      const auto frame =
-          std::make_shared<const SurrogateFrame>(surrogate_frame(setup(first), model_.laboratory, first.pixels));
-      for (const std::size_t i : groups[group]) conditions_[i].nominal = frame;
-    }
+  parallel_items(static_cast<int>(groups.size()), [&](int group) {
+    const Condition& first = conditions_[groups[group].front()];
+    const auto frame =
+        std::make_shared<const SurrogateFrame>(surrogate_frame(setup(first), model_.laboratory, first.pixels));
+    for (const std::size_t i : groups[group]) conditions_[i].nominal = frame;
   });
   for (std::size_t i = 0; i < conditions_.size(); ++i) {
     const auto [known, is_first] = desk_of_session_.try_emplace(conditions_[i].factors.session, i);
     if (conditions_[i].factors.liquid == "none") known->second = i;
   }
   if (unit_) nominal_bias_ = bias_by({});
-  parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
-    for (int group = begin; group < end; ++group) {
-      const Condition& first = conditions_[groups[group].front()];
-      const auto estimates =
-          unit_ ? estimates_without(std::array{as_bias(nominal_bias_)}, *first.nominal, model_.laboratory, first.pixels)
-                : first.nominal->estimates;
-      for (const std::size_t i : groups[group]) conditions_[i].nominal_estimates = estimates;
-    }
+  parallel_items(static_cast<int>(groups.size()), [&](int group) {
+    const Condition& first = conditions_[groups[group].front()];
+    const auto estimates =
+        unit_ ? estimates_without(std::array{as_bias(nominal_bias_)}, *first.nominal, model_.laboratory, first.pixels)
+              : first.nominal->estimates;
+    for (const std::size_t i : groups[group]) conditions_[i].nominal_estimates = estimates;
   });
 }
 
@@ -162,16 +158,14 @@ std::vector<Eigen::VectorXd> Predictor::unit_errors() const {
   const std::vector<Bias> modes = unit_->error_modes(kMost, points);
   const Eigen::VectorXd nominal = predict_from([](const Condition& c) { return c.nominal_estimates; });
   std::vector<Eigen::VectorXd> errors(modes.size());
-  parallel_ranges(static_cast<int>(modes.size()), [&](int begin, int end) {
-    for (int mode = begin; mode < end; ++mode) {
-      errors[mode] = predict_from([&](const Condition& c) {
-        return estimates_without(std::array{as_bias(nominal_bias_), modes[mode]}, *c.nominal, model_.laboratory,
-                                 c.pixels);
-      });
-      errors[mode] -= nominal;
-      for (double& value : errors[mode])
-        if (!std::isfinite(value)) value = 0.0;
-    }
+  parallel_items(static_cast<int>(modes.size()), [&](int mode) {
+    errors[mode] = predict_from([&](const Condition& c) {
+      return estimates_without(std::array{as_bias(nominal_bias_), modes[mode]}, *c.nominal, model_.laboratory,
+                               c.pixels);
+    });
+    errors[mode] -= nominal;
+    for (double& value : errors[mode])
+      if (!std::isfinite(value)) value = 0.0;
   });
   return errors;
 }
@@ -363,9 +357,8 @@ Eigen::VectorXd Predictor::predict(const Change& change, const std::vector<std::
   };
   const std::vector<std::vector<std::size_t>> groups = alike(change, conditions);
   Values values = no_values();
-  parallel_ranges(static_cast<int>(groups.size()), [&](int begin, int end) {
-    for (int group = begin; group < end; ++group) predict_alike(by_few_rays, change, groups[group], values);
-  });
+  parallel_items(static_cast<int>(groups.size()),
+                 [&](int group) { predict_alike(by_few_rays, change, groups[group], values); });
   return with_shapes(std::move(values));
 }
 

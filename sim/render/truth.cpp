@@ -23,8 +23,10 @@ void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std
   const Eigen::Vector3d forward = rig.world_from_camera.linear().col(2);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     TruePixel& pixel = pixels[i];
-    if (const Hit* met = first.find(i))
-      pixel.first = {met->surface->object, forward.dot(met->point - rig.camera_in_world())};
+    if (const Hit* met = first.find(i)) {
+      pixel.first_object = met->surface->object;
+      pixel.first_depth = forward.dot(met->point - rig.camera_in_world());
+    }
     const SeenPoint* at = seen.find(i);
     if (!at) continue;
     pixel.position = at->point;
@@ -33,7 +35,7 @@ void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std
     const Illumination* light = lights.find(i);
     if (!light) continue;
     pixel.apparent_depth = triangulated_depth(rig, chiefs[i].direction, light->direction);
-    pixel.intensity = radiance_dn(rig.sensor, *at, *light);
+    pixel.intensity = static_cast<float>(radiance_dn(rig.sensor, *at, *light));
   }
 }
 
@@ -57,5 +59,6 @@ Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig) {
   });
   return truth;
 }
+static_assert(sizeof(TruePixel) == 64);
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 
 #include "core/image.h"
@@ -11,22 +12,20 @@
 namespace fathom {
 
 /// How a pixel sees its point; the codes of truth.exr's channel `path`.
-enum class PathKind { nothing = 0, direct = 1, refracted = 2, scattered = 3 };
+enum class PathKind : std::uint8_t { nothing = 0, direct = 1, refracted = 2, scattered = 3 };
 
-/// The first surface of any kind that a pixel's chief ray meets: a liquid's and a clear wall's, too.
-struct FirstSurface {
-  int object;
-  double depth;  ///< [m] camera frame
-};
-
+/// As small as may be: a frame has 300,000, and every pass over them takes as long as reading them does.
 struct TruePixel {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] world, first diffuse point on the refracted chief ray
   std::optional<double>
       apparent_depth;      ///< [m] camera frame, exact triangulation; nothing where the projector is hidden
-  double intensity = 0.0;  ///< [DN] of a dot's centre there
+  float intensity = 0.0f;  ///< [DN] of a dot's centre there
   int object = 0;
   PathKind path = PathKind::nothing;
-  std::optional<FirstSurface> first;  ///< may be there where the point is not: behind glass lies nothing
+  /// The first surface of any kind on the chief ray, also a liquid's or a clear wall's; 0: none. It may be there where
+  /// the point is not: behind glass may lie nothing.
+  int first_object = 0;
+  double first_depth = 0.0;  ///< [m] camera frame
 };
 
 /// Depth from the horizontal parallax of two rays: Z = b / (ξ_camera − ξ_projector) [m]; nothing when they do not meet

@@ -11,9 +11,28 @@
 namespace fathom {
 namespace {
 
+FATHOM_SIMD_CLONES
+void add_row(const float* __restrict values, double* __restrict sums, double* __restrict squares, int width) {
+  for (int x = 0; x < width; ++x) {
+    const double value = values[x];
+    sums[x] += value, squares[x] += value * value;
+  }
+}
+
+/// Of the sums and squares of `columns` neighbouring columns of `count` values in all.
+FATHOM_SIMD_CLONES
+void sum_blocks(const double* __restrict sums, const double* __restrict squares, int columns, double count,
+                float* __restrict sum, float* __restrict spread, int width) {
+  for (int x = 0; x < width; ++x) {
+    double of_values = 0.0, of_squares = 0.0;
+    for (int column = 0; column < columns; ++column) of_values += sums[x + column], of_squares += squares[x + column];
+    sum[x] = static_cast<float>(of_values);
+    spread[x] = static_cast<float>(std::sqrt(std::max(of_squares - of_values * of_values / count, 0.0)));
+  }
+}
+
 Blocks blocks_of(const MatcherModel& matcher, Image<float> values) {
   const int columns = matcher.window_columns, rows = matcher.window_rows;
-  const double count = columns * rows;
   Blocks blocks{std::move(values), {}, {}};
   const int width = blocks.values.width(), height = blocks.values.height();
   blocks.sum = Image<float>(width, height);
@@ -23,17 +42,9 @@ Blocks blocks_of(const MatcherModel& matcher, Image<float> values) {
     for (int y = begin; y < end; ++y) {
       std::fill(sums.begin(), sums.end(), 0.0);
       std::fill(squares.begin(), squares.end(), 0.0);
-      for (int row = 0; row < rows; ++row)
-        for (int x = 0; x < width; ++x) {
-          const double value = blocks.values(x, y + row);
-          sums[x] += value, squares[x] += value * value;
-        }
-      for (int x = 0; x + columns <= width; ++x) {
-        double sum = 0.0, square = 0.0;
-        for (int column = 0; column < columns; ++column) sum += sums[x + column], square += squares[x + column];
-        blocks.sum(x, y) = static_cast<float>(sum);
-        blocks.spread(x, y) = static_cast<float>(std::sqrt(std::max(square - sum * sum / count, 0.0)));
-      }
+      for (int row = 0; row < rows; ++row) add_row(blocks.values.row(y + row), sums.data(), squares.data(), width);
+      sum_blocks(sums.data(), squares.data(), columns, columns * rows, blocks.sum.row(y), blocks.spread.row(y),
+                 width - columns + 1);
     }
   });
   return blocks;
@@ -144,9 +155,11 @@ BlockReference block_reference(const MatcherModel& matcher, std::span<const Imag
     const bool in_right_half = eighth >= kHalf;
     const Image<float>&left = phases[eighth], &right = phases[in_right_half ? eighth - kHalf : eighth + kHalf];
     Image<float> values(left.width(), left.height());
-    for (int y = 0; y < values.height(); ++y)
-      for (int x = 0; x < values.width(); ++x)
-        values(x, y) = 0.5f * (left(x, y) + right(std::min(x + in_right_half, right.width() - 1), y));
+    parallel_ranges(values.height(), [&](int begin, int end) {
+      for (int y = begin; y < end; ++y)
+        for (int x = 0; x < values.width(); ++x)
+          values(x, y) = 0.5f * (left(x, y) + right(std::min(x + in_right_half, right.width() - 1), y));
+    });
     reference.phase.push_back(blocks_of(matcher, compressed(matcher, std::move(values))));
   }
   return reference;

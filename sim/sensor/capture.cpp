@@ -155,7 +155,7 @@ Frame Camera::shoot_geometric(std::uint64_t frame) {
   Image<float> intensity(truth_.width(), truth_.height());
   for (std::size_t i = 0; i < truth_.size(); ++i) {
     const TruePixel& pixel = truth_.pixels()[i];
-    intensity.pixels()[i] = static_cast<float>(pixel.intensity);
+    intensity.pixels()[i] = pixel.intensity;
     if (pixel.apparent_depth)
       shot.disparity_px.pixels()[i] = static_cast<float>(
           seen_disparity(sensor, pixel_centre(static_cast<int>(i), truth_.width()), *pixel.apparent_depth));

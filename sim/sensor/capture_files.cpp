@@ -49,7 +49,7 @@ bool is_frame_folder(const std::string& name) {
 Json numbers_in_sight(const Image<TruePixel>& truth) {
   std::set<int> first, finally;
   for (const TruePixel& pixel : truth.pixels()) {
-    if (pixel.first) first.insert(pixel.first->object);
+    if (pixel.first_object > 0) first.insert(pixel.first_object);
     if (pixel.object > 0) finally.insert(pixel.object);
   }
   return {{"first", first}, {"finally", finally}};
@@ -136,8 +136,8 @@ std::vector<ExrChannel> truth_channels(const Image<TruePixel>& truth) {
           channel("position.Y", truth, [](const TruePixel& p) { return p.position.y(); }),
           channel("position.Z", truth, [](const TruePixel& p) { return p.position.z(); }),
           channel("apparent.Z", truth, [](const TruePixel& p) { return p.apparent_depth.value_or(0.0); }),
-          channel("first.object", truth, [](const TruePixel& p) { return p.first ? p.first->object : 0; }),
-          channel("first.Z", truth, [](const TruePixel& p) { return p.first ? p.first->depth : 0.0; }),
+          channel("first.object", truth, [](const TruePixel& p) { return p.first_object; }),
+          channel("first.Z", truth, [](const TruePixel& p) { return p.first_depth; }),
           channel("object", truth, [](const TruePixel& p) { return p.object; }),
           channel("path", truth, [](const TruePixel& p) { return static_cast<int>(p.path); })};
 }

@@ -130,18 +130,22 @@ void compare_windows(const Image<WindowBits>& windows, int range, Visit visit) {
 
 /// Brightness of the whole grid: tiles that are not alike bright, each with a spot in its middle.
 Image<float> tiled(const PatternModel& model) {
-  static LastMade<PatternModel, Image<std::uint8_t>> kept;
+  constexpr std::size_t kProjectors = 8;  // frames of a data set take turns among as many
+  static LastMade<PatternModel, Image<std::uint8_t>, kProjectors> kept;
   const std::shared_ptr<const Image<std::uint8_t>> made = kept.get(model, [&] { return make_dot_tile(model); });
   const Image<std::uint8_t>& tile = *made;
   Image<float> grid(model.tile_columns * model.tiles_across, model.tile_rows * model.tiles_down);
-  for (int row = 0; row < grid.height(); ++row)
-    for (int column = 0; column < grid.width(); ++column) {
-      const int x = column % model.tile_columns, y = row % model.tile_rows;
-      if (!tile(x, y)) continue;
-      Rng rng(model.seed, kTileStream, column / model.tile_columns, row / model.tile_rows);
+  for (int down = 0; down < model.tiles_down; ++down)
+    for (int across = 0; across < model.tiles_across; ++across) {
+      Rng rng(model.seed, kTileStream, across, down);
       const double of_tile = model.tile_spread > 0.0 ? std::max(1.0 + model.tile_spread * rng.normal(), 0.1) : 1.0;
-      const bool in_middle = x == model.tile_columns / 2 && y == model.tile_rows / 2;
-      grid(column, row) = static_cast<float>(of_tile * (in_middle ? model.zero_order : 1.0));
+      for (int y = 0; y < model.tile_rows; ++y)
+        for (int x = 0; x < model.tile_columns; ++x) {
+          if (!tile(x, y)) continue;
+          const bool in_middle = x == model.tile_columns / 2 && y == model.tile_rows / 2;
+          grid(across * model.tile_columns + x, down * model.tile_rows + y) =
+              static_cast<float>(of_tile * (in_middle ? model.zero_order : 1.0));
+        }
     }
   return grid;
 }

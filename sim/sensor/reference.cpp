@@ -66,6 +66,17 @@ SplitColumns<float> convolved(const Image<float>& image, const std::array<float,
   return result;
 }
 
+/// An image's values, or slopes, at all phases.
+std::array<Image<float>, kPhases> at_phases(const Image<float>& paired, double (*law)(double)) {
+  constexpr int kOdd = kPhases / 2;  // an odd column lies half a depth pixel to the right
+  std::array<Image<float>, kPhases> phases;
+  for (int phase = 0; phase < kOdd; ++phase) {
+    auto [even, odd] = convolved(paired, kernel(phase, law));
+    phases[phase] = std::move(even), phases[phase + kOdd] = std::move(odd);
+  }
+  return phases;
+}
+
 FATHOM_SIMD_CLONES
 void mean_of_rows(const float* __restrict a, const float* __restrict b, float* __restrict mean, int width) {
   for (int x = 0; x < width; ++x) mean[x] = 0.5f * (a[x] + b[x]);
@@ -194,14 +205,13 @@ Reference memorise(const SensorModel& sensor, const Image<float>& image, int mar
   reference.margin_px = margin_px;
   const Image<float> paired = rows_in_pairs(image);
   reference.search = locally_normalised(columns_in_pairs(paired), sensor.matcher, 0);
-  constexpr int kOdd = kPhases / 2;  // an odd column lies half a depth pixel to the right
-  for (int phase = 0; phase < kOdd; ++phase) {
-    auto [even, odd] = convolved(paired, kernel(phase, lanczos));
-    reference.value[phase] = std::move(even), reference.value[phase + kOdd] = std::move(odd);
-    auto [even_slope, odd_slope] = convolved(paired, kernel(phase, lanczos_slope));
-    reference.slope[phase] = std::move(even_slope), reference.slope[phase + kOdd] = std::move(odd_slope);
+  std::array<Image<float>, kPhases> value = at_phases(paired, lanczos);
+  if (sensor.matcher.method == MatchMethod::device) {
+    reference.blocks = block_reference(sensor.matcher, value);
+  } else {
+    reference.value = std::move(value);
+    reference.slope = at_phases(paired, lanczos_slope);
   }
-  if (sensor.matcher.method == MatchMethod::device) reference.blocks = block_reference(sensor.matcher, reference.value);
   return reference;
 }
 

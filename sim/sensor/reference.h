@@ -29,6 +29,7 @@ inline constexpr int kPhases = 8;
 struct Reference {
   int margin_px = 0;                  ///< depth pixels by which the reference is wider than the image, on each side
   SplitColumns<std::int16_t> search;  ///< halved and locally normalised, (width + 2 margin) × (ir_height / 2)
+  // Of the precise method only:
   std::array<Image<float>, kPhases> value;  ///< rows in pairs, at depth pixel x − margin + phase / kPhases
   std::array<Image<float>, kPhases> slope;  ///< its derivative along x [1/depth px]
   BlockReference blocks;                    ///< of the device's method only

@@ -70,6 +70,31 @@ TEST(Watcher, EndsLoopsThatTellNoProgress) {
   EXPECT_THROW(parallel_ranges(1000, [](int, int) { FAIL(); }), Ended);
 }
 
+TEST(ParallelItems, EachComesOnceAndNoneBeginsWithinAnother) {
+  std::vector<std::atomic<int>> calls(200);
+  std::atomic<int> rows = 0, begun_within_another = 0;
+  parallel_items(200, [&](int i) {
+    thread_local bool is_busy = false;
+    if (is_busy) ++begun_within_another;
+    is_busy = true;
+    ++calls[static_cast<std::size_t>(i)];
+    parallel_ranges(64, [&](int begin, int end) { rows += end - begin; });
+    is_busy = false;
+  });
+  for (const std::atomic<int>& count : calls) EXPECT_EQ(count, 1);
+  EXPECT_EQ(begun_within_another, 0);
+  EXPECT_EQ(rows, 200 * 64);
+}
+
+TEST(ParallelItems, EndsBetweenThem) {
+  Recorder recorder(3);
+  std::atomic<int> begun = 0;
+  const WatcherScope scope(&recorder);
+  Progress progress("piece", 1000, true);
+  EXPECT_THROW(parallel_items(1000, [&](int) { ++begun, progress.step(); }), Ended);
+  EXPECT_LT(begun, 900);
+}
+
 TEST(Watcher, IsNotThatOfOtherWork) {
   std::atomic<int> pieces = 0;
   work(pieces);

@@ -82,7 +82,7 @@ TEST_F(DatasetFolder, LabelsAgreeWithTheModelsMeshes) {
   scene["objects"][0]["position_mm"] = {-330, 300};  // cut by the image's border
   Camera camera(setup_from_json(scene, "scene.json"), CaptureMode::geometric, 1, 1);
   const Frame frame = camera.shoot(0);
-  const std::vector<InstanceLabel> labels = label_frame(scene, set.models, camera, frame);
+  const std::vector<InstanceLabel> labels = label_frame(scene, set.models, camera, FramePixels(camera, frame));
   ASSERT_EQ(labels.size(), 4u);
   const SensorModel& sensor = camera.setup().rig.sensor;
   for (const InstanceLabel& label : labels) {
@@ -117,7 +117,7 @@ TEST_F(DatasetFolder, LiquidsSayWhereTheyAreAndWhereTheySeemToBe) {
     ASSERT_LT(number, 40u);
     const Json scene = dataset_scene(set.spec, 7, number);
     Camera camera(setup_from_json(scene, "scene.json"), CaptureMode::geometric, 1, 1);
-    for (const InstanceLabel& label : label_frame(scene, set.models, camera, camera.shoot(0))) {
+    for (const InstanceLabel& label : label_frame(scene, set.models, camera, FramePixels(camera, camera.shoot(0)))) {
       if (!label.liquid || run_lengths(label.liquid->mask).area() < 500) continue;
       const LiquidLabel& liquid = *label.liquid;
       EXPECT_NEAR(liquid.surface_mm - liquid.bottom_mm, liquid.fill_mm, 0.02);
