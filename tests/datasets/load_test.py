@@ -104,6 +104,17 @@ def main(program):
             labels = json.load(tar.extractfile("000017.labels.json"))
         assert labels["frame"] == 17
         assert [name.split(".")[0] for name in names] == sorted(name.split(".")[0] for name in names), "frames are mixed"
+        (folder / "direct.json").write_text('{"light": "direct"}')  # takes half the time
+        many = "build/release/app/fathom generate direct.json --frames 201 -o out/many --quiet"
+        subprocess.run(many, shell=True, check=True, cwd=folder, capture_output=True)
+        subprocess.run([ROOT / "scripts/webdataset", "out/many", folder / "pairs", "--shards-of", "200"], check=True, cwd=folder)
+        held = []
+        for archive in sorted((folder / "pairs").iterdir()):
+            with tarfile.open(archive) as tar:
+                held.append(sorted({int(name.split(".")[0]) for name in tar.getnames()}))
+        assert held == [list(range(200)), [200]], held
+        odd = subprocess.run([ROOT / "scripts/webdataset", "out/many", folder / "odd", "--shards-of", "150"], cwd=folder, capture_output=True, text=True)
+        assert odd.returncode == 1 and "multiple of 100" in odd.stderr and not (folder / "odd").exists(), odd
         print(f"{boxes} things lie in their masks, {clouds} clouds on their models")
 
 
