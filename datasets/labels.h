@@ -47,7 +47,7 @@ struct InstanceLabel {
   RunLengths visible_runs;            ///< of `visible`
   int whole_pixels = 0;               ///< of its silhouette, also beyond the image
   std::optional<PixelBox> whole_box;  ///< of the silhouette, also beyond the image
-  int valid = 0;                      ///< pixels of `whole` with a measured depth
+  int valid = 0;                      ///< pixels of `whole` whose depth is in the depth image
   std::optional<LiquidLabel> liquid;
 };
 

@@ -130,7 +130,7 @@ void compare_windows(const Image<WindowBits>& windows, int range, Visit visit) {
 
 /// Brightness of the whole grid: tiles that are not alike bright, each with a spot in its middle.
 Image<float> tiled(const PatternModel& model) {
-  constexpr std::size_t kProjectors = 8;  // frames of a data set take turns among as many
+  constexpr std::size_t kProjectors = 8;  // frames of a data set take turns among its sensors'
   static LastMade<PatternModel, Image<std::uint8_t>, kProjectors> kept;
   const std::shared_ptr<const Image<std::uint8_t>> made = kept.get(model, [&] { return make_dot_tile(model); });
   const Image<std::uint8_t>& tile = *made;

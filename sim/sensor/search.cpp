@@ -189,11 +189,9 @@ Image<float> search(const SensorModel& sensor, const SplitColumns<float>& paired
   const ScoreLogarithm logarithm;
   constexpr int kBandRows = 16;
   const int bands = (disparity.height() + kBandRows - 1) / kBandRows;
-  parallel_ranges(bands, [&](int begin, int end) {
-    for (int band = begin; band < end; ++band) {
-      BandSearch search(sensor, live, reference, logarithm);
-      search.run(band * kBandRows, std::min((band + 1) * kBandRows, disparity.height()), disparity);
-    }
+  parallel_items(bands, [&](int band) {
+    BandSearch search(sensor, live, reference, logarithm);
+    search.run(band * kBandRows, std::min((band + 1) * kBandRows, disparity.height()), disparity);
   });
   return disparity;
 }

@@ -5,6 +5,7 @@ itself by arithmetic that is not the program's: meshes land in their masks, clou
 BOP's masks. Skipped (exit code 77) without Debian's python3-opencv."""
 import json
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -105,8 +106,8 @@ def main(program):
         assert labels["frame"] == 17
         assert [name.split(".")[0] for name in names] == sorted(name.split(".")[0] for name in names), "frames are mixed"
         (folder / "direct.json").write_text('{"light": "direct"}')  # takes half the time
-        many = "build/release/app/fathom generate direct.json --frames 201 -o out/many --quiet"
-        subprocess.run(many, shell=True, check=True, cwd=folder, capture_output=True)
+        many = ["build/release/app/fathom", "generate", "direct.json", "--frames", "201", "-o", "out/many", "--quiet"]
+        subprocess.run(many, check=True, cwd=folder, capture_output=True)
         subprocess.run([ROOT / "scripts/webdataset", "out/many", folder / "pairs", "--shards-of", "200"], check=True, cwd=folder)
         held = []
         for archive in sorted((folder / "pairs").iterdir()):
@@ -115,6 +116,9 @@ def main(program):
         assert held == [list(range(200)), [200]], held
         odd = subprocess.run([ROOT / "scripts/webdataset", "out/many", folder / "odd", "--shards-of", "150"], cwd=folder, capture_output=True, text=True)
         assert odd.returncode == 1 and "multiple of 100" in odd.stderr and not (folder / "odd").exists(), odd
+        shutil.rmtree(folder / "out/many/train/000000")
+        subprocess.run([ROOT / "scripts/webdataset", "out/many", folder / "part"], check=True, cwd=folder)
+        assert sorted(archive.name for archive in (folder / "part").iterdir()) == ["000001.tar", "000002.tar"], "archives of a part are renumbered"
         print(f"{boxes} things lie in their masks, {clouds} clouds on their models")
 
 
