@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """usage: blind/povray/make_pack.py --out PACK [--seed N] [--sets N] [--classes null:10,single:12,pair:3,unknown:5]
 Writes measurement directories of the world of POV-Ray and OpenCV (world.py), PACK/set_0000 and so on, and what is hidden in
-each to PACK.truth.jsonl. A set has 64 clouds (240 MB) and takes a minute of one core. Same seed, same sets. Needs Debian's
+each to PACK.truth.jsonl. A set has 64 clouds (240 MB) and takes half a minute of one core. Same seed, same sets. Needs Debian's
 povray, python3-numpy, python3-scipy, python3-opencv."""
 import argparse
 import json

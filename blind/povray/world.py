@@ -9,13 +9,14 @@ World: mm, z up, the desk is z = 0, x right, y away, the origin below the middle
 pixel centres are whole numbers, the principal point is (319.5, 239.5). Infrared pictures have twice the depth's pixels.
 """
 import dataclasses
+import functools
 import subprocess
 import tempfile
 from pathlib import Path
 
 import cv2
 import numpy as np
-from scipy.ndimage import gaussian_filter
+import scipy.fft
 from scipy.spatial import cKDTree
 
 COLUMNS, ROWS = 640, 480
@@ -112,7 +113,10 @@ class Unit:
 
 def smooth_field(rng, sigma_px):
     """A field (ROWS, COLUMNS) of unit variance, smooth over so many pixels."""
-    field = gaussian_filter(rng.standard_normal((ROWS, COLUMNS)), sigma_px, mode="wrap")
+    # A Gaussian of that width, by its Fourier transform: four times as fast as by sums over the wide ones.
+    down, right = scipy.fft.fftfreq(ROWS)[:, None], scipy.fft.rfftfreq(COLUMNS)
+    spectrum = scipy.fft.rfft2(rng.standard_normal((ROWS, COLUMNS))) * np.exp(-2 * (np.pi * sigma_px) ** 2 * (down ** 2 + right ** 2))
+    field = scipy.fft.irfft2(spectrum, (ROWS, COLUMNS))
     return field / field.std()
 
 
@@ -127,17 +131,16 @@ def drawn(places, levels):
     reach = 4
     inside = ((places > -reach) & (places < [width + reach, height + reach])).all(1) & np.isfinite(places).all(1)
     places, levels = places[inside], levels[inside]
-    picture = np.zeros((height + 2 * reach + 2) * (width + 2 * reach + 2))
     first = np.floor(places).astype(int)
-    for dy in range(-reach + 1, reach + 1):
-        for dx in range(-reach + 1, reach + 1):
-            at = first + [dx, dy]
-            distance2 = ((at - places) ** 2).sum(1)
-            flat = (at[:, 1] + reach + 1) * (width + 2 * reach + 2) + at[:, 0] + reach + 1
-            ok = ((at >= -reach - 1) & (at <= [width + reach, height + reach])).all(1)
-            picture += np.bincount(flat[ok], (levels * np.exp(-distance2 / (2 * DOT_SIGMA_PX ** 2)))[ok], len(picture))
-    picture = picture.reshape(height + 2 * reach + 2, width + 2 * reach + 2)
-    return picture[reach + 1:reach + 1 + height, reach + 1:reach + 1 + width]
+    # A dot's square of pixels is its column's weights times its row's.
+    near = np.arange(1 - reach, reach + 1)
+    across, along = (np.exp(-(first[:, axis, None] + near - places[:, axis, None]) ** 2 / (2 * DOT_SIGMA_PX ** 2)) for axis in (0, 1))
+    margin = 2 * reach  # room for the dots that lie beyond the edges
+    wide = width + 2 * margin
+    pixels = (first[:, 1, None, None] + near[:, None] + margin) * wide + first[:, 0, None, None] + near + margin
+    light = (levels[:, None] * along)[:, :, None] * across[:, None, :]
+    picture = np.bincount(pixels.ravel(), light.ravel(), (height + 2 * margin) * wide).reshape(height + 2 * margin, wide)
+    return picture[margin:-margin, margin:-margin]
 
 
 def pov(vector):
@@ -146,24 +149,43 @@ def pov(vector):
 
 def positions(eye_mm, sensor, cup, liquid):
     """(ROWS, COLUMNS, 3) the point [mm] that each direction from an eye sees first through the liquid; NaN: none. By POV-Ray."""
-    right, down, forward = sensor.axes()
+    right, down, forward = axes = sensor.axes()
     lines = {"EyeMm": pov(eye_mm), "Right": pov(right), "Down": pov(down), "Forward": pov(forward), "FocalPx": FOCAL_PX,
-             "Columns": COLUMNS, "Rows": ROWS, "Least": pov(LEAST_MM), "Most": pov(MOST_MM), "HasCup": int(cup is not None)}
-    if cup is not None:
-        bumps = cup.bumps or ((0, 0, -30.0, 1.0),)  # POV-Ray has no empty arrays: one below the desk
-        lines |= {"CupMm": pov([cup.x_mm, cup.y_mm, 0]), "RimMm": cup.rim_mm, "BottomMm": cup.bottom_mm, "InnerMm": cup.inner_mm,
-                  "OuterMm": cup.outer_mm, "SagMm": cup.sag_mm, "LevelMm": liquid.level_mm, "Index": liquid.index,
-                  "TiltDeg": liquid.tilt_deg, "AzimuthDeg": liquid.azimuth_deg,
-                  "Bumps": f"array[{len(bumps)}] {{{', '.join(pov(bump) for bump in bumps)}}}"}
+             "Columns": COLUMNS, "Rows": ROWS, "Least": pov(LEAST_MM), "Most": pov(MOST_MM), "HasCup": 0}
+    picture = rendered(tuple(lines.items()), (0, 0, COLUMNS, ROWS))
+    if cup is None:
+        return picture
+    bumps = cup.bumps or ((0, 0, -30.0, 1.0),)  # POV-Ray has no empty arrays: one below the desk
+    lines |= {"HasCup": 1, "CupMm": pov([cup.x_mm, cup.y_mm, 0]), "RimMm": cup.rim_mm, "BottomMm": cup.bottom_mm, "InnerMm": cup.inner_mm,
+              "OuterMm": cup.outer_mm, "SagMm": cup.sag_mm, "LevelMm": liquid.level_mm, "Index": liquid.index,
+              "TiltDeg": liquid.tilt_deg, "AzimuthDeg": liquid.azimuth_deg,
+              "Bumps": f"array[{len(bumps)}] {{{', '.join(pov(bump) for bump in bumps)}}}"}
+    # The cup changes the part of the picture that shows the box around it.
+    box = [[cup.x_mm + x * cup.outer_mm, cup.y_mm + y * cup.outer_mm, z * cup.rim_mm] for x in (-1, 1) for y in (-1, 1) for z in (0, 1)]
+    local = (np.array(box) - eye_mm) @ axes.T
+    corners = CENTRE + FOCAL_PX * local[:, :2] / local[:, 2:]
+    left, top = np.clip(np.floor(corners.min(0)).astype(int) - 2, 0, [COLUMNS - 1, ROWS - 1])
+    beyond, below = np.clip(np.ceil(corners.max(0)).astype(int) + 3, [left + 1, top + 1], [COLUMNS, ROWS])
+    picture = picture.copy()
+    picture[top:below, left:beyond] = rendered(tuple(lines.items()), (left, top, beyond, below))
+    return picture
+
+
+@functools.lru_cache(maxsize=16)
+def rendered(lines, part):
+    """The points that a part of the picture shows: (first column, first row, last column + 1, last row + 1). Not to be changed."""
+    left, top, beyond, below = part
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        (folder / "parameters.inc").write_text("".join(f"#declare {name} = {value};\n" for name, value in lines.items()))
+        (folder / "parameters.inc").write_text("".join(f"#declare {name} = {value};\n" for name, value in lines))
         (folder / "positions.pov").write_text(Path(__file__).with_name("positions.pov").read_text())
-        run = subprocess.run(["povray", "+Ipositions.pov", "+Opositions.png", f"+W{COLUMNS}", f"+H{ROWS}", "+FN16", "File_Gamma=1",
-                              "-D", "-A", "+WT1"], cwd=folder, capture_output=True, text=True)
+        run = subprocess.run(["povray", "+Ipositions.pov", "+Opositions.png", f"+W{COLUMNS}", f"+H{ROWS}", f"+SC{left + 1}", f"+EC{beyond}",
+                              f"+SR{top + 1}", f"+ER{below}", "+FN16", "File_Gamma=1", "-D", "-A", "+WT1"], cwd=folder,
+                             capture_output=True, text=True)
         picture = cv2.imread(str(folder / "positions.png"), cv2.IMREAD_UNCHANGED)
     if run.returncode or picture is None:
         raise RuntimeError("povray: " + run.stderr)
+    picture = picture[top:below, left:beyond] if picture.shape[:2] == (ROWS, COLUMNS) else picture
     colour = picture[:, :, 2::-1] / 65535.0
     nothing = (colour == 0).all(2) | (colour >= 1).any(2)
     return np.where(nothing[:, :, None], np.nan, LEAST_MM + colour * (MOST_MM - LEAST_MM))

@@ -111,6 +111,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
         describe_unknown(evidence, c.covariance, c.problem, c.discrepancy, rest.residual, rest.explained);
   measure_gaps(c, fit, diagnosis);
   diagnosis.limits.upper = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
+  diagnosis.limits.size_errors = size_errors(evidence, c.problem);
   if (sure) {
     diagnosis.effects = named_effects(c, *sure);
     for (std::size_t e = 0; e < diagnosis.effects.size(); ++e)

@@ -94,6 +94,12 @@ struct UpperLimit {
   double smallest_seen = 0.0;  ///< the one that would be named with 50 % probability
 };
 
+/// How well the measurements know an effect's size.
+struct SizeError {
+  std::string effect, parameter;
+  double standard_error = 0.0;  ///< of the parameter, in its unit, if the model lacks nothing else
+};
+
 struct ConfusablePair {
   std::string first, second;
   double angle_deg = 0.0;  ///< between their sensitivities, after nuisances
@@ -109,6 +115,7 @@ struct NearNullDirection {
 /// What the measurements cannot show, or cannot tell apart.
 struct Limits {
   std::vector<UpperLimit> upper;
+  std::vector<SizeError> size_errors;
   std::vector<ConfusablePair> confusable;
   std::vector<NearNullDirection> near_null;
 };

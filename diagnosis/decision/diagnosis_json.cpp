@@ -75,9 +75,10 @@ Json json_from(const StratumGap& stratum) {
   return {{"stratum", stratum.stratum}, {"train", json_from(stratum.train)}, {"held_out", json_from(stratum.held_out)}};
 }
 
-/// "scattering_per_mm" → "per_mm", "height_mm" → "mm": what stands behind a parameter's first word.
+/// "scattering_per_mm" → "per_mm", "rate_mm_per_h" → "mm_per_h", "height_mm" → "mm": what stands behind a parameter's
+/// first word.
 std::string unit_of(const std::string& parameter) {
-  for (const std::string unit : {"_per_mm", "_mm", "_deg", "_px", "_s"})
+  for (const std::string unit : {"_per_mm", "_mm_per_h", "_mm", "_deg", "_px", "_s"})
     if (parameter.ends_with(unit)) return unit.substr(1);
   return "1";
 }
@@ -88,6 +89,14 @@ Json json_from(const UpperLimit& limit) {
   json["limit95"] = limit.limit95;
   json["smallest_seen"] = limit.smallest_seen;
   json["unit"] = unit_of(limit.parameter);
+  return json;
+}
+
+Json json_from(const SizeError& error) {
+  Json json = named(error.effect);
+  json["parameter"] = error.parameter;
+  json["standard_error"] = error.standard_error;
+  json["unit"] = unit_of(error.parameter);
   return json;
 }
 
@@ -179,6 +188,7 @@ Json json_from(const Diagnosis& diagnosis) {
                                 {"part", diagnosis.unknown.part},
                                 {"higher_mm", diagnosis.unknown.higher_mm}};
   json["upper_limits"] = array_of(diagnosis.limits.upper);
+  json["size_errors"] = array_of(diagnosis.limits.size_errors);
   json["confusable"] = array_of(diagnosis.limits.confusable);
   json["near_null"] = array_of(diagnosis.limits.near_null);
   json["next"] = array_of(diagnosis.next);

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kConfusable_deg = 15.0;
 constexpr double kNearNull = 0.1;
-constexpr double kPartOf = 0.2;         // weight from which on an effect is part of a direction
-constexpr double kLeastStrength = 0.5;  // a typical departure below this is not seen anyway
+constexpr double kPartOf = 0.2;              // weight from which on an effect is part of a direction
+constexpr double kLeastInformation = 1e-12;  // of a typical departure: less is rounding
+constexpr double kLeastStrength = 0.5;       // a typical departure below this is not seen anyway
 
 }  // namespace
 
@@ -30,9 +31,9 @@ std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& pr
       const Parameter& parameter = candidate.parameters[k];
       const double widest =
           std::max(std::abs(parameter.upper - parameter.nominal), std::abs(parameter.lower - parameter.nominal));
-      const double sigma = information > 1e-12 ? parameter.prior_scale / std::sqrt(information) : HUGE_VAL;
+      const double sigma = information > kLeastInformation ? parameter.prior_scale / std::sqrt(information) : HUGE_VAL;
       const double estimate =
-          information > 1e-12 ? parameter.prior_scale * sensitivity.dot(residual) / information : 0.0;
+          information > kLeastInformation ? parameter.prior_scale * sensitivity.dot(residual) / information : 0.0;
       const double limit = std::abs(estimate) + 1.96 * sigma;
       const double threshold = std::sqrt(
           std::max(0.0, 2.0 * (std::log(kAlarmOdds) - problem.log_odds[effect]) + parameter_cost(information)));
@@ -41,6 +42,19 @@ std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& pr
           {candidate.effect, parameter.name, widest > 0.0 ? std::min(limit, widest) : limit, threshold * sigma});
     }
   }
+  return result;
+}
+
+std::vector<SizeError> size_errors(const Evidence& evidence, const Problem& problem) {
+  std::vector<SizeError> result;
+  for (std::size_t effect = 0; effect < problem.columns.size(); ++effect)
+    for (std::size_t k = 0; k < problem.columns[effect].size(); ++k) {
+      const Candidate& candidate = evidence.candidates[effect];
+      const double information = problem.sensitivities.col(problem.columns[effect][k]).squaredNorm();
+      if (information > kLeastInformation)
+        result.push_back({candidate.effect, candidate.parameters[k].name,
+                          candidate.parameters[k].prior_scale / std::sqrt(information)});
+    }
   return result;
 }
 

@@ -15,6 +15,9 @@ namespace fathom {
 std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& problem, const std::vector<int>& named,
                                      const Eigen::VectorXd& residual, const Eigen::MatrixXd& explained);
 
+/// For every parameter of every candidate that the observations see.
+std::vector<SizeError> size_errors(const Evidence& evidence, const Problem& problem);
+
 /// Pairs of candidates whose sensitivities differ by less than 15°, closest first.
 std::vector<ConfusablePair> confusable_pairs(const Evidence& evidence, const Problem& problem);
 

@@ -524,8 +524,8 @@ TEST(Report, HasTheKeysOfItsFormat) {
   const World world(small_design());
   const Json json =
       json_from(decide(world.measure({world.at_strength("meniscus", 20.0, 1.0)}, {}, 8), world.predict()));
-  for (const char* key :
-       {"verdict", "where", "effects", "ambiguity_set", "gap", "upper_limits", "confusable", "next", "budget"})
+  for (const char* key : {"verdict", "where", "effects", "ambiguity_set", "gap", "upper_limits", "size_errors",
+                          "confusable", "next", "budget"})
     EXPECT_TRUE(json.contains(key)) << key;
   ASSERT_FALSE(json["effects"].empty());
   EXPECT_EQ(json["effects"][0]["parameters"]["departure"]["ci95"].size(), 2U);
