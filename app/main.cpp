@@ -97,6 +97,7 @@ int main(int argc, char** argv) {
   CLI::App app("Fathom: simulates a structured-light depth camera that looks at cups with liquids in them", "fathom");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string(FATHOM_VERSION));
+  app.footer("'fathom COMMAND --help' lists a command's options and examples that run.");
   fathom::CommonOptions common;
   std::function<void()> run;
   for (const fathom::Command& command : fathom::kCommands) {

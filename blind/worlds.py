@@ -13,6 +13,7 @@ import csv
 import fcntl
 import itertools
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -34,6 +35,25 @@ def ids(names):
     return frozenset(name.split("@")[0] for name in names)
 
 
+def strength(effect, errors):
+    """The norm s of an effect's whitened sensitivity: its size beside the standard error of that, which the answer gives. A world
+    that reckons strengths by itself is believed. None where nothing is known: no answer, or nothing that the list holds."""
+    if "strength" in effect:
+        return effect["strength"]
+    sizes = effect.get("parameters", {})
+    known = {error["parameter"]: error["standard_error"] for error in errors if error["name"] == effect["name"] and "liquid" not in error}
+    if effect["name"] == "surface_tilt":
+        direction = math.radians(sizes["azimuth_deg"])
+        sizes = {"slope_x_deg": sizes["tilt_deg"] * math.cos(direction), "slope_y_deg": sizes["tilt_deg"] * math.sin(direction)}
+    elif effect["name"] == "thermal_drift":  # of a cold device nothing is known but what it warms up to
+        sizes = {"settled_px": sizes["delta_px"]}
+    else:  # both sides have one parameter, by other names
+        sizes = dict(zip(known, sizes.values()))
+    if not sizes or not set(sizes) <= set(known):
+        return None
+    return math.hypot(*(size / known[parameter] for parameter, size in sizes.items()))
+
+
 class Judged:
     """An answer beside its truth, by the rules of blind/judge.cpp. One is stricter: what stands first under the verdict `none`
     was not found."""
@@ -47,6 +67,9 @@ class Judged:
         except (OSError, ValueError):
             report = {"verdict": "missing"}
         self.verdict = report["verdict"]
+        strengths = [strength(effect, report.get("size_errors") or []) for effect in truth["effects"]]
+        # A pair is as strong as its weaker effect.
+        self.s = None if None in strengths else min(strengths, default=None)
         self.named = ids(effect["name"] for effect in report.get("effects") or []) if "named" in self.verdict else frozenset()
         self.unknown = "unknown" in self.verdict
         # Of each explanation itself with what cannot be told from it, what may be there besides, and their probability.
@@ -59,6 +82,13 @@ class Judged:
         if self.kind == "null":
             return not self.named
         return self.named == self.wanted or (self.verdict == "ambiguous" and bool(self.entries) and self.entries[0][0][0] == self.wanted)
+
+    def is_strong(self, least=8.0, most=math.inf):
+        """Whether s is from least to below most; where it is not known, it counts as large."""
+        return least <= (sys.float_info.max if self.s is None else self.s) < most
+
+    def detected(self):
+        return self.verdict not in ("none", "insufficient", "missing")
 
     def leaves_open(self, entry):
         same, more, _ = entry
@@ -89,20 +119,38 @@ def share(metric, judged, hit, bar, at_most):
             "verdict": "met" if sure else "open" if met else "missed"}
 
 
+def power_lost(singles):
+    """By how much less single effects are detected than by a filter that knows the effect and the errors, at 1 % false alarms."""
+    from scipy.stats import norm
+    lost = [norm.cdf(one.s - norm.ppf(0.99)) - one.detected() for one in singles if one.s is not None]
+    goal = {"metric": "matched filter's power less detected share", "trials": len(lost), "bar": 0.1}
+    if not lost:
+        return goal | {"value": None, "ci95": [-1, 1], "verdict": "no sets"}
+    value = sum(lost) / len(lost)
+    error = 1.96 * math.sqrt(sum((one - value) ** 2 for one in lost)) / len(lost)
+    return goal | {"value": value, "ci95": [value - error, value + error],
+                   "verdict": "met" if value + error <= 0.1 else "open" if value <= 0.1 else "missed"}
+
+
 def goals(judged):
     def of(*kinds):
         return [one for one in judged if one.kind in kinds]
+
+    def strong(kind, *limits):
+        return [one for one in of(kind) if one.is_strong(*limits)]
     return [
         share("answered", judged, lambda one: one.verdict != "missing", 1.0, False),
         share("null set called none", of("null"), lambda one: one.verdict == "none", 0.95, False),
         share("names something on a null set", of("null"), lambda one: one.named, 0.01, True),
         share("calls a null set unknown", of("null"), lambda one: one.unknown, 0.01, True),
-        share("single effect first", of("single"), Judged.right, 0.97, False),
+        share("single effect first, s 5 to 8", strong("single", 5, 8), Judged.right, 0.90, False),
+        share("single effect first, s ≥ 8", strong("single"), Judged.right, 0.97, False),
         share("single effect first, or not told from what is", of("single"), lambda one: one.right() or one.first_holds_truth(), 0.99, False),
-        share("pair exact", of("pair"), Judged.right, 0.90, False),
+        share("pair exact, both s ≥ 8", strong("pair"), Judged.right, 0.90, False),
         share("truth in the ambiguity set", of("single", "pair"), Judged.holds_truth, 0.99, False),
         share("unknown flagged", of("unknown"), lambda one: one.unknown, 0.97, False),
         share("confidently wrong", judged, Judged.confidently_wrong, 0.02, True),
+        power_lost(of("single")),
     ]
 
 
@@ -143,15 +191,18 @@ def score(pack, world):
     (pack / "score").mkdir(exist_ok=True)
     (pack / "score" / "score.json").write_text(json.dumps({"pack": pack.name, "world": world, "sets": len(judged), "goals": result}, indent=1) + "\n")
     with open(pack / "score" / "sets.csv", "w", encoding="utf-8") as table:
-        table.write("set,class,hidden,verdict,named,first,probability,right,not_told,confidently_wrong\n")
+        table.write("set,class,hidden,s,verdict,named,first,probability,right,not_told,confidently_wrong\n")
         for one in judged:
             first = one.entries[0] if one.entries else ([frozenset()], [], 0)
-            table.write(",".join([one.name, one.kind, "+".join(sorted(one.truth)) or "none", one.verdict, "+".join(sorted(one.named)),
+            table.write(",".join([one.name, one.kind, "+".join(sorted(one.truth)) or "none",
+                                  "" if one.s is None else f"{one.s:.1f}", one.verdict, "+".join(sorted(one.named)),
                                   "+".join(sorted(first[0][0])), f"{first[2]:.2f}", str(int(one.right())), str(int(one.right() or one.first_holds_truth())),
                                   str(int(one.confidently_wrong()))]) + "\n")
     for goal in result:
         if goal["trials"]:
-            print(f"{goal['metric']:46} {goal['hits']:4} of {goal['trials']:4}  {100 * goal['ci95'][0]:5.1f} to {100 * goal['ci95'][1]:5.1f} %  {goal['verdict']}")
+            low, high = (100 * limit for limit in goal["ci95"])
+            measured = f"{goal['hits']:4} of {goal['trials']:4}" if "hits" in goal else f"{100 * goal['value']:10.1f} %"
+            print(f"{goal['metric']:46} {measured}  {low:5.1f} to {high:5.1f} %  {goal['verdict']}")
     print(f"Look at {pack / 'score'}")
 
 
@@ -162,7 +213,8 @@ def page(files):
     metrics = [goal["metric"] for goal in scores[0]["goals"]]
     print("| world | " + " | ".join(metrics) + " |\n|" + "---|" * (len(metrics) + 1))
     for one in scores:
-        cells = {goal["metric"]: f"{goal['hits']}/{goal['trials']}" for goal in one["goals"]}
+        cells = {goal["metric"]: f"{goal['hits']}/{goal['trials']}" if "hits" in goal else f"{goal['value']:.2f}"
+                 for goal in one["goals"] if goal["trials"]}
         print(f"| {one['pack']} | " + " | ".join(cells.get(metric, "") for metric in metrics) + " |")
     for file, one in zip(files, map(json.loads, (Path(file).read_text() for file in files))):
         by_hidden(one["pack"], Path(file).with_name("sets.csv"))
@@ -173,13 +225,16 @@ def by_hidden(pack, file):
     with open(file, encoding="utf-8") as table:
         rows = [row for row in csv.DictReader(table) if row["class"] != "null"]
     rows.sort(key=lambda row: (["single", "pair", "unknown"].index(row["class"]), row["hidden"]))
-    print(f"\n| {pack}: hidden | right | right, or not told from what is | said in its place |\n|---|---|---|---|")
+    print(f"\n| {pack}: hidden | right | right, or not told from what is | s of the others | said in its place |\n|---|---|---|---|---|")
     for (kind, hidden), group in itertools.groupby(rows, lambda row: (row["class"], row["hidden"])):
         group = list(group)
-        said = collections.Counter(row["named"] if "named" in row["verdict"] else row["verdict"] for row in group if row["not_told"] == "0")
+        missed = [row for row in group if row["not_told"] == "0"]
+        said = collections.Counter(row["named"] if "named" in row["verdict"] else row["verdict"] for row in missed)
+        weak = sorted(float(row["s"]) for row in missed if row["s"])
+        weak = f"{weak[0]:.1f} to {weak[-1]:.1f}" if len(weak) > 1 else f"{weak[0]:.1f}" if weak else ""
         counts = [f"{sum(row[key] == '1' for row in group)}/{len(group)}" for key in ("right", "not_told")]
         words = ", ".join(name.replace("_", " ").replace("+", " and ") + (f" ({count})" if count > 1 else "") for name, count in said.most_common())
-        print(f"| {hidden.replace('_', ' ').replace('+', ' and ')}{' (unknown)' if kind == 'unknown' else ''} | {counts[0]} | {counts[1]} | {words} |")
+        print(f"| {hidden.replace('_', ' ').replace('+', ' and ')}{' (unknown)' if kind == 'unknown' else ''} | {counts[0]} | {counts[1]} | {weak} | {words} |")
 
 
 def main():

@@ -19,10 +19,12 @@ HAS_WORLD = HAS_SCIPY and importlib.util.find_spec("cv2") is not None and shutil
 
 
 def judged(kind, hidden, report):
+    """What is hidden is given by its name, or by all that the truth says of it."""
+    effects = [{"name": one} if isinstance(one, str) else one for one in hidden]
     with tempfile.TemporaryDirectory() as folder:
         if report is not None:
             (Path(folder) / "report.json").write_text(json.dumps(report))
-        return worlds.Judged({"set": "0000", "class": kind, "effects": [{"name": name} for name in hidden]}, Path(folder))
+        return worlds.Judged({"set": "0000", "class": kind, "effects": effects}, Path(folder))
 
 
 def named(*effects, probability=0.99):
@@ -58,10 +60,35 @@ class Judging(unittest.TestCase):
         self.assertTrue(answer.holds_truth())
         self.assertFalse(answer.confidently_wrong())
 
+    def test_an_effect_is_as_strong_as_its_size_is_known(self):
+        errors = [{"name": "fill_offset", "parameter": "fill_mm", "standard_error": 0.25},
+                  {"name": "fill_offset", "liquid": "water", "parameter": "fill_mm", "standard_error": 0.5},
+                  {"name": "surface_tilt", "parameter": "slope_x_deg", "standard_error": 0.5},
+                  {"name": "surface_tilt", "parameter": "slope_y_deg", "standard_error": 1.0}]
+        offset = {"name": "fill_offset", "parameters": {"delta_mm": -2.0}}
+        tilt = {"name": "surface_tilt", "parameters": {"tilt_deg": 2.0, "azimuth_deg": 90.0}}
+        report = {"verdict": "none", "size_errors": errors}
+        self.assertAlmostEqual(judged("single", [offset], report).s, 8.0)
+        self.assertAlmostEqual(judged("single", [tilt], report).s, 2.0)
+        self.assertAlmostEqual(judged("pair", [offset, tilt], report).s, 2.0)
+        self.assertEqual(judged("single", [offset | {"strength": 11.0}], report).s, 11.0)
+        self.assertIsNone(judged("unknown", [{"name": "coaster", "parameters": {"delta_mm": 3}}], report).s)
+
+    @unittest.skipUnless(HAS_SCIPY, "SciPy is not installed")
+    def test_power_is_lost_where_a_filter_would_have_detected(self):
+        strong = {"name": "foam", "strength": 9.0}
+        found, silent = judged("single", [strong], named("foam")), judged("single", [strong], {"verdict": "none"})
+        self.assertAlmostEqual(worlds.power_lost([found] * 9 + [silent])["value"], 0.1, places=6)
+        self.assertEqual(worlds.power_lost([silent] * 4)["verdict"], "missed")
+        # At s = 2.33 the filter detects half at 1 % false alarms.
+        weak = judged("single", [{"name": "foam", "strength": 2.3263}], named("foam"))
+        self.assertAlmostEqual(worlds.power_lost([weak])["value"], -0.5, places=4)
+
     @unittest.skipUnless(HAS_SCIPY, "SciPy is not installed")
     def test_no_answer_fails_every_goal(self):
         missing = [judged(kind, hidden, None) for kind, hidden in
-                   [("null", []), ("single", ["foam"]), ("pair", ["foam", "meniscus"]), ("unknown", ["pebble"])]]
+                   [("null", []), ("single", ["foam"]), ("single", [{"name": "foam", "strength": 6.0}]), ("pair", ["foam", "meniscus"]),
+                    ("unknown", ["pebble"])]]
         for goal in worlds.goals(missing):
             self.assertEqual(goal["verdict"], "missed", goal)
 
