@@ -50,17 +50,21 @@ std::string where_html(const std::vector<GapLocation>& locations) {
   Rows rows;
   double left = 1.0;
   for (const GapLocation& where : locations) {
-    rows.push_back({stratum_words(where),
-                    fmt::format("{:+.2g} ± {:.1g}{}", where.mean, where.sigma, observable_words(where.observable).unit),
+    const std::string_view unit = observable_words(where.observable).unit;
+    rows.push_back({stratum_words(where), fmt::format("{:+.2g}{}", where.departure, unit),
+                    fmt::format("{:+.2g} ± {:.1g}{}", where.mean, where.sigma, unit),
                     fmt::format("{:.0f} %", 100 * where.share_of_gap), fmt::format("{:.1g}", where.p)});
     left -= where.share_of_gap;
   }
   if (left >= 0.005)
-    rows.push_back({"elsewhere, too thinly spread to be placed", "", fmt::format("{:.0f} %", 100 * left), ""});
+    rows.push_back({"elsewhere, too thinly spread to be placed", "", "", fmt::format("{:.0f} %", 100 * left), ""});
   return paragraph(
-             "Each difference is beside those of the other lines. The shares are of the whole gap, in squared "
-             "errors.") +
-         html_table({"where", "measured − model", "share of the gap", "p that errors alone make it"}, rows);
+             "What is of its own is what would be left if the other lines were put right. The shares are of the whole "
+             "gap, "
+             "in squared errors.") +
+         html_table(
+             {"where", "mean of measured − model", "of its own", "share of the gap", "p that errors alone make it"},
+             rows);
 }
 
 std::string effects_html(const Diagnosis& diagnosis) {

@@ -71,19 +71,22 @@ std::string where_sentence(const Diagnosis& diagnosis) {
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
   return capitalised(fmt::format("{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ",
-                                 words.name, std::abs(where.mean), words.unit,
-                                 where.mean < 0 ? words.less : words.more));
+                                 words.name, std::abs(where.departure), words.unit,
+                                 where.departure < 0 ? words.less : words.more));
 }
 
 /// "15 % (13 to 17 %)": the size of a parameter's departure from nominal, whichever way it goes, with its 95 %
-/// interval.
+/// interval. "at least 2.3 px (3 px is the most that is considered)": where it ends at the parameter's bound.
 std::string size_words(const NamedParameter& found, const EffectParameter& parameter, bool in_percent) {
   const double factor = (in_percent ? 100.0 : 1.0) * (found.value < parameter.nominal ? -1.0 : 1.0);
   const std::string_view unit = in_percent ? " %" : without_unit(found.name).second;
   const auto [low, high] =
       std::minmax({factor * (found.low95 - parameter.nominal), factor * (found.high95 - parameter.nominal)});
-  return fmt::format("{:.3g}{} ({:.3g} to {:.3g}{})", factor * (found.value - parameter.nominal), unit, low, high,
-                     unit);
+  const double size = factor * (found.value - parameter.nominal);
+  const double most = factor * ((factor < 0.0 ? parameter.lower : parameter.upper) - parameter.nominal);
+  if (size >= most * (1.0 - 1e-6))
+    return fmt::format("at least {:.3g}{} ({:.3g}{} is the most that is considered)", low, unit, most, unit);
+  return fmt::format("{:.3g}{} ({:.3g} to {:.3g}{})", size, unit, low, high, unit);
 }
 
 std::string named_sentence(const Diagnosis& diagnosis) {
@@ -126,10 +129,10 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
   const std::size_t more = open.size() > kMostOpen ? open.size() - kMostOpen : 0;
   open.resize(open.size() - more);
   if (more > 0) open.push_back(fmt::format("{} more pairs", more));
-  text += fmt::format("None of the measurements that were considered will tell {}. ", joined(open, "or"));
+  text += fmt::format("No measurement that was tried in simulation tells {}. ", joined(open, "or"));
   for (const std::string& name : unsettled)
     if (const Effect* effect = find_effect(effect_name(name).id))
-      text += fmt::format("Of {} the list of effects says: {}. ", effect_words(name), effect->discriminated_by);
+      text += fmt::format("A check for {}: {}. ", effect_words(name), effect->discriminated_by);
   return text;
 }
 

@@ -37,6 +37,11 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   const Eigen::MatrixXd columns = stratum_columns(c.strata, c.covariance);
   diagnosis.departures.where =
       locate(c.strata, columns, degrees_of_freedom(c.covariance, columns), c.problem.residual, c.settings.p_where);
+  const Eigen::VectorXd departures = measured_minus_predicted(c.evidence);
+  for (GapLocation& where : diagnosis.departures.where)
+    for (const Stratum& stratum : c.strata)
+      if (stratum.observable == where.observable && stratum.name == where.stratum)
+        where.departure = departures(stratum.rows).mean();
 }
 
 /// The likeliest option's effects that are surely there, fitted by themselves; nothing where there are none.

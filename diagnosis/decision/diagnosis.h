@@ -27,6 +27,7 @@ struct GapLocation {
   double mean = 0.0, sigma = 0.0;   ///< in the observable's unit, beside the other parts'
   double share_of_gap = 0.0;        ///< of the squared gap in units of its error; of all parts at most 1 together
   double p = 1.0;                   ///< that errors alone make a part depart as one does, of all that were looked at
+  double departure = 0.0;           ///< plain mean of what was measured there minus predicted
 };
 
 /// A group that differs from the others by more than the laboratory states.

@@ -18,6 +18,7 @@ Json json_from(const GapLocation& where) {
   const bool is_length = where.observable.ends_with("_mm");
   return {{"observable", where.observable},
           {"stratum", where.stratum},
+          {is_length ? "departure_mm" : "departure", where.departure},
           {is_length ? "mean_mm" : "mean", where.mean},
           {is_length ? "sigma_mm" : "sigma", where.sigma},
           {"share_of_gap", where.share_of_gap},

@@ -43,5 +43,21 @@ TEST(DiagnosisWords, OfManyPairsThatNothingTellsApartTheLikeliestAreNamed) {
   EXPECT_FALSE(says(diagnosis, "absorption"));
 }
 
+TEST(DiagnosisWords, WhereIsSaidByThePlainMeanOfWhatDeparts) {
+  Diagnosis diagnosis = agreement(0.001);
+  diagnosis.verdict = Verdict::unknown;
+  diagnosis.departures.where = {{"height_mm", "liquid=milk", 2.5, 0.3, 0.8, 1e-6, 3.3}};
+  EXPECT_TRUE(says(diagnosis, "Where liquid is milk, the height in the cup is 3.3 mm higher than the model has it."));
+}
+
+TEST(DiagnosisWords, ASizeAtItsBoundIsSaidToBeAtLeastThat) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::named;
+  diagnosis.effects = {{"disparity_offset", {{"offset_px", -3.0, -3.0, -2.32}}}};
+  EXPECT_TRUE(says(diagnosis, "all disparities at least 2.32 px (3 px is the most that is considered) too small"));
+  diagnosis.effects = {{"disparity_offset", {{"offset_px", -1.0, -1.2, -0.8}}}};
+  EXPECT_TRUE(says(diagnosis, "all disparities 1 px (0.8 to 1.2 px) too small"));
+}
+
 }  // namespace
 }  // namespace fathom
