@@ -252,6 +252,9 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
                 "places of the cup.");
   if (!diagnosis.effects.empty()) html += heading("What the model lacked") + effects_html(diagnosis);
   html += heading("Before and after");
+  if (diagnosis.verdict == Verdict::ambiguous && diagnosis.effects.empty())
+    html += paragraph(fmt::format("After: with the likeliest explanation, {}.",
+                                  effects_words(diagnosis.ambiguity_set.front().effects)));
   if (draw_heights(folder, campaign)) html += heights_chart(campaign);
   html += gap_html(diagnosis);
   if (!campaign.ray_traced_html.empty()) html += heading("Few rays and ray tracing") + campaign.ray_traced_html;

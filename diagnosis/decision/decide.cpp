@@ -59,6 +59,15 @@ std::optional<Refit> sure_fit(const Case& c, const Posterior& posterior, const s
   return with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
 }
 
+/// The fit of what stands first in the set; of no effects, where that has no fit.
+Refit first_fit(const Case& c, const Posterior& posterior, const AmbiguitySet& set) {
+  for (const Option& option : set.classes.front().options)
+    for (const Refit& fit : posterior.fits)
+      if (fit.hypothesis.effects == option.effects)
+        return with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
+  return posterior.fit_of({});
+}
+
 /// What effects leave of the residual, with whatever changes of their parameters would make taken out.
 struct Rest {
   Eigen::VectorXd residual;   ///< whitened
@@ -114,7 +123,8 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)
     diagnosis.unknown =
         describe_unknown(evidence, c.covariance, c.problem, c.discrepancy, rest.residual, rest.explained);
-  measure_gaps(c, fit, diagnosis);
+  // Where several explanations are left a reader wants to see what the likeliest makes of the differences.
+  measure_gaps(c, diagnosis.verdict == Verdict::ambiguous && !sure ? first_fit(c, posterior, set) : fit, diagnosis);
   diagnosis.limits.upper = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
   diagnosis.limits.size_errors = size_errors(evidence, c.problem);
   if (sure) {
