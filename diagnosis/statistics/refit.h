@@ -17,7 +17,8 @@ struct Refit {
 
 /// Levenberg and Marquardt's method within the bounds, from the linear solution; nuisances are free within their priors
 /// because the covariance holds them. The Jacobian starts as the sensitivities and learns from every step (Broyden
-/// 1965); where that fails it is differenced once.
+/// 1965); where that fails it is differenced once. Ceres would difference it at every step, and a prediction is what
+/// costs.
 Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
             const Hypothesis& start);
 
