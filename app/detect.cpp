@@ -17,6 +17,7 @@
 #include "detector/read_cloud.h"
 #include "detector/robust.h"
 #include "detector/settings_json.h"
+#include "diagnosis/measurement/calibrated_unit.h"
 #include "report/detection_report.h"
 #include "report/kept_detection.h"
 
@@ -31,6 +32,7 @@ struct DetectOptions {
   DeskOptions desk;
   std::filesystem::path config;
   std::filesystem::path poses;
+  std::filesystem::path unit;
   int keep_clouds = 10;
 };
 
@@ -48,7 +50,8 @@ Cloud joined(const std::vector<Cloud>& clouds, const std::vector<Pose>& world_fr
 }
 
 /// All clouds as views of one desk.
-void run_fused(const DetectOptions& options, const DetectorSettings& settings, const CommonOptions& common) {
+void run_fused(const DetectOptions& options, const DetectorSettings& settings,
+               const std::optional<CalibratedUnit>& unit, const CommonOptions& common) {
   const std::vector<Pose> poses = read_poses(options.poses, options.clouds.size());
   std::optional<KeptDetection> keeper;
   if (!common.output.empty()) keeper.emplace(common.output, options.keep_clouds);
@@ -58,6 +61,7 @@ void run_fused(const DetectOptions& options, const DetectorSettings& settings, c
   Progress progress("detect", poses.size(), common.quiet);
   for (std::size_t i = 0; i < poses.size(); ++i, progress.step()) {
     Cloud cloud = read_cloud(options.clouds[i]);
+    if (unit) unit->take_off_bias(cloud.points);
     views.push_back({detect_robust(cloud, settings), poses[i]});
     names.push_back(options.clouds[i].string());
     if (keeper) clouds.push_back(std::move(cloud));
@@ -91,7 +95,9 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
   const Method& method = method_named(options.method);
   DetectorSettings settings = read_detector_settings(options.config);
   settings.prior = options.desk.prior();
-  if (!options.poses.empty()) return run_fused(options, settings, common);
+  std::optional<CalibratedUnit> unit;
+  if (!options.unit.empty()) unit.emplace(options.unit);
+  if (!options.poses.empty()) return run_fused(options, settings, unit, common);
 
   const std::size_t count = options.live ? static_cast<std::size_t>(options.frames) : options.clouds.size();
   Progress progress("detect", count, common.quiet);
@@ -104,7 +110,8 @@ void run_detect(const DetectOptions& options, const CommonOptions& common) {
   std::string rows;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = camera ? camera->uri() : options.clouds[i].string();
-    const Cloud cloud = camera ? cloud_from_image(camera->next_cloud()) : read_cloud(options.clouds[i]);
+    Cloud cloud = camera ? cloud_from_image(camera->next_cloud()) : read_cloud(options.clouds[i]);
+    if (unit) unit->take_off_bias(cloud.points);
     const Detection detection = method.detect(cloud, settings);
     warn_of(name, cloud, detection);
     if (keeper) keeper->add(cloud);
@@ -146,6 +153,8 @@ std::function<void()> define_detect(CLI::App& app, const CommonOptions& common) 
                  "Takes the clouds as views of one desk: {\"world_from_camera\": [3 rows of 4 for each cloud]}, metres")
       ->type_name("JSON")
       ->excludes(live);
+  app.add_option("--unit", options->unit, "What fathom calibrate found of the device: its bias is taken off the clouds")
+      ->type_name("unit.json");
   app.add_option("--keep-clouds", options->keep_clouds, "How many clouds the folder of -o keeps, for fathom view")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();

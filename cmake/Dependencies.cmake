@@ -4,7 +4,10 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PNG REQUIRED)
+# Debian's Imath lists a library for Python that nobody needs, and says in eight lines that it is not there.
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
 find_package(OpenEXR CONFIG REQUIRED)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(OpenSSL 3 REQUIRED)
 find_path(NANOFLANN_INCLUDE_DIR nanoflann.hpp REQUIRED)  # headers in Debian's usual place; there is no target
 if(FATHOM_SIMULATOR)

@@ -48,8 +48,12 @@ bool LearnedUnit::operator==(const LearnedUnit& other) const {
 }
 
 LearnedUnit learned_unit_from_json(const JsonReader& json) {
+  return read_learned_unit(path_named_in(json.file(), json.pointer(), json.text()));
+}
+
+LearnedUnit read_learned_unit(const std::filesystem::path& file) {
   LearnedUnit learned;
-  learned.file = path_named_in(json.file(), json.pointer(), json.text()).string();
+  learned.file = file.string();
   const Json value = read_json(learned.file);
   const JsonReader unit(value, learned.file);
   unit.allow_only({"source", "device", "bias", "prior", "noise", "depths", "warm_up"});

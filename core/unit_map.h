@@ -1,6 +1,7 @@
 // What was learned of one unit's bias of disparity (fathom calibrate), as the simulator takes it.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -31,6 +32,9 @@ struct LearnedUnit {
   /// Maps are the same that hold the same, whatever files they came from.
   bool operator==(const LearnedUnit& other) const;
 };
+
+/// Of a unit.json, and the image that it names.
+LearnedUnit read_learned_unit(const std::filesystem::path& file);
 
 /// The value is the path of a unit.json, as path_named_in() takes it.
 LearnedUnit learned_unit_from_json(const JsonReader& json);

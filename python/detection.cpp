@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "detector/read_cloud.h"
 #include "detector/settings_json.h"
+#include "diagnosis/measurement/calibrated_unit.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/objects.h"
@@ -91,8 +92,9 @@ py::dict dict_of(const Detection& detection) {
 
 py::dict detect(const Floats& points, const std::optional<Floats>& intensity, const std::string& method,
                 const std::optional<double>& height_mm, const std::optional<double>& pitch_deg,
+                const std::optional<std::filesystem::path>& unit,
                 const std::optional<std::filesystem::path>& config_file, const py::object& config) {
-  const Cloud cloud = cloud_from(points, intensity);
+  Cloud cloud = cloud_from(points, intensity);
   const Method& chosen = method_named(method);
   const std::optional<DeskPrior> prior = prior_of(height_mm, pitch_deg);
   const Json keys = config.is_none() ? Json::object() : json_from_python(config, "config");
@@ -100,6 +102,7 @@ py::dict detect(const Floats& points, const std::optional<Floats>& intensity, co
     DetectorSettings settings =
         config_file ? read_detector_settings(*config_file) : detector_settings(JsonReader(keys, "config"));
     settings.prior = prior;
+    if (unit) CalibratedUnit(*unit).take_off_bias(cloud.points);
     return chosen.detect(cloud, settings);
   });
   return dict_of(detection);
@@ -119,7 +122,7 @@ std::optional<DeskPrior> prior_of(const std::optional<double>& height_mm, const 
 void define_detection(py::module_& module) {
   module.def("read_cloud", &read_cloud_arrays, py::arg("path"));
   module.def("detect", &detect, py::arg("points"), py::arg("intensity"), py::arg("method"), py::arg("height_mm"),
-             py::arg("pitch_deg"), py::arg("config_file"), py::arg("config"));
+             py::arg("pitch_deg"), py::arg("unit"), py::arg("config_file"), py::arg("config"));
 }
 
 }  // namespace fathom

@@ -8,7 +8,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kReference = 25600.0;  // pixels of a whole band of rows
+constexpr double kWholeBand = 25600.0;  // pixels of a whole band of rows
 constexpr double kFewestOfBand = 1000.0;
 constexpr double kOfPlane = 2.0;  // of a plane's three parameters, each kind of bands feels so many
 
@@ -38,12 +38,12 @@ Pooled pooled(std::span<const DeskBands> trials, Bands DeskBands::*bands) {
   return pooled;
 }
 
-/// Mean over bands of the variance between trials [px²], times the pixels of a band and over kReference.
+/// Mean over bands of the variance between trials [px²], times the pixels of a band and over kWholeBand.
 template <class Bands>
 std::optional<double> variance_of(std::span<const DeskBands> trials, Bands DeskBands::*bands) {
   const Pooled all = pooled(trials, bands);
   if (all.seen <= 2.0 * kOfPlane) return std::nullopt;
-  return all.sum_px2 / (all.seen - kOfPlane) / kReference;
+  return all.sum_px2 / (all.seen - kOfPlane) / kWholeBand;
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/units.h"
+#include "diagnosis/unit/bias_view.h"
 
 namespace fathom {
 namespace {
 
-constexpr double kReference = 1.2;                            ///< [m] the device's depth law counts steps from there
 constexpr double kLeastHeight = -0.010, kMostHeight = 0.100;  ///< [m] of what is seen in a cup (detector/liquid.h)
 constexpr double kFewestOfDesk = 100.0;
 // A plane of few codes, or of pixels at distances that are whole steps apart, has teeth of its own.
@@ -249,12 +249,13 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
     if (number % comb_every != 0) continue;
     // Depths are cut to millimetres: what was cut off is half of one in the mean.
     const double z = sensed.device_z > 0.0f ? sensed.device_z : sensed.point.z();  // steps are the device's
-    const double steps = steps_per_inverse * (1.0 / kReference - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;
+    const double steps = steps_per_inverse * (1.0 / kReferenceDistance_m - 1.0 / (z + 0.5 * kMetresPerMm)) - 0.5;
     codes.add(steps, w);
     const std::complex<double> of_half = std::polar(1.0, 0.25 * two_pi * steps), of_quarter = of_half * of_half;
     coarse[0] += w * of_quarter;
     coarse[1] += w * of_half;
-    const double steps_of_plane = steps_per_inverse * (1.0 / kReference - inverse_desk.dot(seen) / seen.z()) - 0.5;
+    const double steps_of_plane =
+        steps_per_inverse * (1.0 / kReferenceDistance_m - inverse_desk.dot(seen) / seen.z()) - 0.5;
     const std::complex<double> half_of_plane = std::polar(1.0, 0.25 * two_pi * steps_of_plane);
     coarse_of_plane[0] += w * half_of_plane * half_of_plane;
     coarse_of_plane[1] += w * half_of_plane;

@@ -153,14 +153,17 @@ BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig) {
           .nearer_px = of_inverse / z - of_inverse / kReferenceDistance_m};
 }
 
+float stretch_without(const Bias& bias, const BiasPoint& point, double of_inverse, double z) {
+  const double disparity_px = of_inverse / z - bias(point);
+  return disparity_px > 0.0 ? static_cast<float>(of_inverse / disparity_px / z) : 1.0f;
+}
+
 void take_off(const Bias& bias, const LaboratoryRig& rig, std::span<SensedPoint> points) {
   const double of_inverse = rig.focal_px * rig.baseline_m;
   for (SensedPoint& sensed : points) {
     const float z = sensed.point.z();
-    const double disparity_px = of_inverse / z - bias(bias_point(sensed.point, rig));
-    if (disparity_px <= 0.0) continue;
     if (sensed.device_z == 0.0f) sensed.device_z = z;
-    sensed.point *= static_cast<float>(of_inverse / disparity_px / z);
+    sensed.point *= stretch_without(bias, bias_point(sensed.point, rig), of_inverse, z);
   }
 }
 

@@ -71,6 +71,10 @@ Bias as_bias(const UnitMap& map);
 /// Where a point is seen and how near, as fields take it.
 BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig);
 
+/// How many times as far a point of depth `z` is without this bias, where disparities are `of_inverse` / z [px]; 1
+/// where nothing would be seen.
+float stretch_without(const Bias& bias, const BiasPoint& point, double of_inverse, double z);
+
 /// Points moved along their lines of sight to where they would be read without this bias. What the device gave stays
 /// known (SensedPoint::device_z).
 void take_off(const Bias& bias, const LaboratoryRig& rig, std::span<SensedPoint> points);

@@ -153,7 +153,7 @@ def read_cloud(path: PathLike) -> tuple[Floats, Floats | None]:
 
 
 def detect(cloud: Union[ArrayLike, PathLike, Capture], intensity: ArrayLike | None = None, *, method: str = "robust",
-           height_mm: float | None = None, pitch_deg: float | None = None,
+           height_mm: float | None = None, pitch_deg: float | None = None, unit: PathLike | None = None,
            config: Union[PathLike, Mapping[str, Any], None] = None) -> Detection:
     """Finds cups on a desk and the liquids in them.
 
@@ -162,6 +162,7 @@ def detect(cloud: Union[ArrayLike, PathLike, Capture], intensity: ArrayLike | No
     intensity: infrared light at the points, n or h x w; it tells clear liquids from opaque ones
     method: "robust", or "paper" and the other methods of `fathom detect --help`
     height_mm, pitch_deg: of the camera over the desk, where that is known; both or neither
+    unit: unit.json of `calibrate`, whose bias is taken off the cloud
     config: parameters of the method, a file or its keys (docs/files.md)
     """
     if isinstance(cloud, Capture):
@@ -173,7 +174,7 @@ def detect(cloud: Union[ArrayLike, PathLike, Capture], intensity: ArrayLike | No
     else:
         points = _numbers("cloud", cloud, np.float32)
     brightness = None if intensity is None else _numbers("intensity", intensity, np.float32)
-    found = _fathom.detect(points, brightness, method, height_mm, pitch_deg, *_file_or_object(config))
+    found = _fathom.detect(points, brightness, method, height_mm, pitch_deg, unit, *_file_or_object(config))
     plane = found["plane"]
     if plane:
         plane["normal"] = np.array(plane["normal"])

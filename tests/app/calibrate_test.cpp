@@ -100,6 +100,15 @@ TEST_F(CalibrateCommand, ASimulatedUnitsMapComesBackFromItsClouds) {
   EXPECT_LT(rows["desk_error_after"]["value"].get<double>(), 0.5 * rows["desk_error_before"]["value"].get<double>());
   EXPECT_TRUE(fs::exists(unit / "report.html"));
 
+  // The detector finds the same two cups without the bias, at heights of their own.
+  const std::string cups = "detect " + (folder / "desk1/cloud.pcd").string() + " --json --quiet";
+  const ProgramRun biased = run_fathom(cups), corrected = run_fathom(cups + " --unit " + (unit / "unit.json").string());
+  ASSERT_EQ(corrected.exit_code, 0) << corrected.err;
+  const Json before_cups = Json::parse(biased.out)["cups"], after_cups = Json::parse(corrected.out)["cups"];
+  EXPECT_EQ(after_cups.size(), 2U);
+  EXPECT_EQ(after_cups.size(), before_cups.size());
+  EXPECT_NE(after_cups, before_cups);
+
   // Against what the simulator displaced the reference image by, a plane apart, where the map claims to know: at
   // pixels that see something nearer by reference_at_px.
   const Image<float> reference = read_exr_channel(unit / "unit_bias.exr", "reference_px"),
