@@ -60,8 +60,7 @@ std::string where_html(const std::vector<GapLocation>& locations) {
     rows.push_back({"elsewhere, too thinly spread to be placed", "", "", fmt::format("{:.0f} %", 100 * left), ""});
   return paragraph(
              "What is of its own is what would be left if the other lines were put right. The shares are of the whole "
-             "gap, "
-             "in squared errors.") +
+             "gap, in squared errors.") +
          html_table(
              {"where", "mean of measured − model", "of its own", "share of the gap", "p that errors alone make it"},
              rows);

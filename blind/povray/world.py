@@ -185,8 +185,7 @@ def rendered(lines, part):
         picture = cv2.imread(str(folder / "positions.png"), cv2.IMREAD_UNCHANGED)
     if run.returncode or picture is None:
         raise RuntimeError("povray: " + run.stderr)
-    picture = picture[top:below, left:beyond] if picture.shape[:2] == (ROWS, COLUMNS) else picture
-    colour = picture[:, :, 2::-1] / 65535.0
+    colour = picture[top:below, left:beyond, 2::-1] / 65535.0  # the rest of the picture is black
     nothing = (colour == 0).all(2) | (colour >= 1).any(2)
     return np.where(nothing[:, :, None], np.nan, LEAST_MM + colour * (MOST_MM - LEAST_MM))
 

@@ -29,10 +29,7 @@ void CalibratedUnit::take_off_bias(std::span<Eigen::Vector3f> points) const {
   const Bias bias = as_bias(*unit_.map);
   for (Eigen::Vector3f& point : points) {
     if (!(point.z() > 0.0f)) continue;  // NaN as well
-    const double z = point.z();
-    const BiasPoint seen{.pixel_px = scale_.pixel_px(point),
-                         .nearer_px = of_inverse / z - of_inverse / kReferenceDistance_m};
-    point *= stretch_without(bias, seen, of_inverse, z);
+    point *= stretch_without(bias, bias_point(point, scale_), of_inverse, point.z());
   }
 }
 

@@ -146,11 +146,13 @@ std::vector<Bias> UnitBias::error_modes(int count, std::span<const BiasPoint> wh
   return modes;
 }
 
+BiasPoint bias_point(const Eigen::Vector3f& point, const DeviceScale& scale) {
+  const double of_inverse = scale.focal_px * scale.baseline_m;
+  return {.pixel_px = scale.pixel_px(point), .nearer_px = of_inverse / point.z() - of_inverse / kReferenceDistance_m};
+}
+
 BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig) {
-  const double z = point.z(), of_inverse = rig.focal_px * rig.baseline_m;
-  return {.pixel_px = {rig.focal_px * point.x() / z + 0.5 * kImageWidth_px,
-                       rig.focal_px * point.y() / z + 0.5 * kImageHeight_px},
-          .nearer_px = of_inverse / z - of_inverse / kReferenceDistance_m};
+  return bias_point(point, DeviceScale{.focal_px = rig.focal_px, .baseline_m = rig.baseline_m});
 }
 
 float stretch_without(const Bias& bias, const BiasPoint& point, double of_inverse, double z) {

@@ -7,6 +7,7 @@
 
 #include "diagnosis/measurement/desk_cells.h"
 #include "diagnosis/unit/bias_learner.h"
+#include "diagnosis/unit/calibration_view.h"
 #include "diagnosis/unit/desk_difference.h"
 
 namespace fathom {
@@ -69,6 +70,7 @@ Bias as_bias(const BiasField& field);
 Bias as_bias(const UnitMap& map);
 
 /// Where a point is seen and how near, as fields take it.
+BiasPoint bias_point(const Eigen::Vector3f& point, const DeviceScale& scale);
 BiasPoint bias_point(const Eigen::Vector3f& point, const LaboratoryRig& rig);
 
 /// How many times as far a point of depth `z` is without this bias, where disparities are `of_inverse` / z [px]; 1
