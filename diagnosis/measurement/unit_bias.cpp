@@ -66,6 +66,7 @@ UnitBias::Views UnitBias::views_of(const Desks& desks, bool is_calibrated) {
   if (is_calibrated)
     for (double& amplitude : all.prior.reference_px) amplitude *= kLeftByCalibration;
   std::map<int, DeskCells> together;
+  DeskCells whole;
   std::map<std::tuple<int, double, double>, double> scenes;  // of a session that show a cell
   std::vector<double> placements;                            // that show a view
   ViewScatter scatter;
@@ -80,6 +81,7 @@ UnitBias::Views UnitBias::views_of(const Desks& desks, bool is_calibrated) {
     scatter.add(views);
     placements.push_back(static_cast<double>(views.size()));
     together[scene.session].add(sum);
+    whole.add(sum);
     all.sessions.push_back(scene.session);
     all.views.push_back(sum.view());
     for (const BiasCell& cell : all.views.back().cells) ++scenes[{scene.session, cell.column_px, cell.row_px}];
@@ -88,6 +90,7 @@ UnitBias::Views UnitBias::views_of(const Desks& desks, bool is_calibrated) {
   double of_dots_px = 0.0;  // error of a cell that is the same in all scenes of a session
   for (const auto& [session, cells] : together)
     of_dots_px = std::max(of_dots_px, own_error_px(all.of_sessions[session] = cells.view()));
+  all.prior = bias_prior_of(whole.view(), all.prior);
   all.prior.cell_px = of_dots_px;
   const double of_dots = of_dots_px * of_dots_px, of_placement = std::pow(scatter.cell_px().value_or(kOfView_px), 2);
   all.weight_of_one = of_dots / (of_dots + of_placement);

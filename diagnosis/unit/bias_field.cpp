@@ -6,7 +6,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kStep_px = 8.0;  ///< of the tables; the shortest wave is nine times as long
+constexpr double kStep_px = 8.0;  ///< of the tables; the shortest wave is six times as long
 constexpr int kColumns = static_cast<int>((Cosines::kRight_px - Cosines::kLeft_px) / kStep_px) + 2;
 constexpr int kRows = static_cast<int>((Cosines::kBottom_px - Cosines::kTop_px) / kStep_px) + 2;
 

@@ -18,6 +18,19 @@ bool any(const BiasAmplitudes& amplitudes) {
   return std::ranges::any_of(amplitudes, [](double amplitude) { return amplitude > 0.0; });
 }
 
+/// Wave number [1/px] beyond which the parts hold nothing that matters: a part's variance beyond k is
+/// amplitude² exp(−k² reach² / 2). Cosines are level at the borders, where wide fields are not: these need finer waves
+/// than their own.
+double finest_wave(const BiasPrior& prior) {
+  constexpr double kNothing_px = 0.003;  // what rounding to whole millimetres leaves in a cell
+  double finest = 0.08;
+  for (const auto amplitudes : {&BiasPrior::reference_px, &BiasPrior::camera_px, &BiasPrior::state_px})
+    for (std::size_t i = 0; i < kBiasReaches_px.size(); ++i)
+      if (const double size = (prior.*amplitudes)[i] / kNothing_px; size > 1.0)
+        finest = std::max(finest, 2.0 * std::sqrt(std::log(size)) / kBiasReaches_px[i]);
+  return std::min(finest, kMostWave_per_px);
+}
+
 Eigen::VectorXd variance_of(const Cosines& cosines, const BiasAmplitudes& amplitudes) {
   Eigen::VectorXd variance = Eigen::VectorXd::Constant(cosines.size(), kNone);
   for (std::size_t i = 0; i < amplitudes.size(); ++i)
@@ -44,7 +57,8 @@ Eigen::VectorXd BiasLearner::without_planes(const Eigen::VectorXd& variance, con
 }
 
 BiasLearner::BiasLearner(std::span<const BiasView> layout, const BiasPrior& prior)
-    : prior_(prior),
+    : cosines_(finest_wave(prior)),
+      prior_(prior),
       sums_(cosines_, layout, prior),
       has_reference_(any(prior.reference_px) || !any(prior.camera_px)),
       has_camera_(any(prior.camera_px)),
@@ -74,11 +88,15 @@ BiasLearner::BiasLearner(std::span<const BiasView> layout, const BiasPrior& prio
     forbid_planes(own, precision);
   }
   for (int state = kNoState; state < sums_.states(); ++state) {
-    const Eigen::MatrixXd gram = sums_.gram(state);
+    if (!has_states_) {
+      precision += sums_.gram(state, first, shared);
+      if (state != kNoState) of_state_.emplace_back();
+      continue;
+    }
+    const Eigen::MatrixXd gram = sums_.gram(state, 0, 2 * half);
     precision += gram.block(first, first, shared, shared);
     if (state == kNoState) continue;
     StateBlock& block = of_state_.emplace_back();
-    if (!has_states_) continue;
     Eigen::MatrixXd own = gram.bottomRightCorner(half, half);
     own.diagonal() += state_variance_.cwiseInverse();
     forbid_planes(sums_.planes(state).bottomRows(half), own);

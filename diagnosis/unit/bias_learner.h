@@ -12,6 +12,10 @@
 
 namespace fathom {
 
+/// Wave number [1/px] of the finest waves: a part with the shortest reach has 4 % of its greatest spectral density
+/// there.
+inline constexpr double kMostWave_per_px = 2.55 / kBiasReaches_px.front();
+
 /// Where the views look settles the operator and the uncertainty; what they read only enters learn(), which is linear.
 /// A plane in any view is pose, not bias, so the field has no plane of its own over what was seen.
 class BiasLearner {
@@ -28,8 +32,9 @@ class BiasLearner {
   std::vector<BiasField> error_modes(int count, std::span<const BiasPoint> where) const;
 
   int states() const { return static_cast<int>(of_state_.size()); }
-  /// The prior after one step towards the largest restricted likelihood of the views' errors.
-  BiasPrior improved() const;
+  /// The prior after one step towards the largest restricted likelihood of the views' errors; with `dof`, towards the
+  /// largest posterior, where the variance of each part was `thought` with so many degrees of freedom.
+  BiasPrior improved(double dof = 0.0, const BiasPrior& thought = {}) const;
 
  private:
   struct StateBlock {

@@ -19,10 +19,10 @@ constexpr std::size_t kFewestViews = 3;
 constexpr std::size_t kMostViews = 24;  ///< that are looked at, evenly: a covariance has few numbers
 constexpr int kFewestStates = 3;        ///< of fewer nobody can say what is a state's own
 
-/// From where the search starts: everything may be there.
+/// From where the search starts: everything may be there but for the finest part, which ten times the time would seek.
 BiasPrior wide_prior(int states) {
-  BiasPrior prior{{0.03, 0.1, 0.05}, {0.015, 0.04, 0.03}, {}, 0.02, 0.01};
-  if (states >= kFewestStates) prior.state_px = {0.02, 0.03, 0.03};
+  BiasPrior prior{{0.0, 0.03, 0.1, 0.05}, {0.0, 0.015, 0.04, 0.03}, {}, 0.02, 0.01};
+  if (states >= kFewestStates) prior.state_px = {0.0, 0.02, 0.03, 0.03};
   return prior;
 }
 
@@ -45,7 +45,7 @@ double change(const BiasPrior& before, const BiasPrior& after) {
 
 }  // namespace
 
-BiasPrior default_bias_prior() { return {{0.02, 0.1, 0.0}, {}, {}, 0.02, 0.0}; }
+BiasPrior default_bias_prior() { return {{0.01, 0.02, 0.1, 0.0}, {}, {}, 0.02, 0.0}; }
 
 BiasPrior learned_bias_prior(std::span<const BiasView> views) {
   if (views.size() < kFewestViews) return default_bias_prior();
@@ -67,7 +67,17 @@ BiasPrior learned_bias_prior(std::span<const BiasView> views) {
   return prior;
 }
 
-BiasPrior BiasLearner::improved() const {
+BiasPrior bias_prior_of(const BiasView& desk, const BiasPrior& thought) {
+  constexpr double kDof = 5.0;  // as of errors of the prediction
+  BiasPrior prior = thought;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const BiasPrior before = std::exchange(prior, BiasLearner({&desk, 1}, prior).improved(kDof, thought));
+    if (change(before, prior) < kEnoughChange) break;
+  }
+  return prior;
+}
+
+BiasPrior BiasLearner::improved(double dof, const BiasPrior& thought) const {
   const int half = cosines_.size(), first = has_reference_ ? 0 : half;
   const Eigen::Index shared = shared_variance_.size();
   const Solution solution = solve(errors_);
@@ -75,13 +85,16 @@ BiasPrior BiasLearner::improved() const {
   double explained_by_parts = 0.0;  // of the observations' number
 
   // By each wave: explained, and by chance.
-  const auto improve = [&](BiasAmplitudes& amplitudes, const Eigen::ArrayXd& explained, const Eigen::ArrayXd& chance) {
+  const auto improve = [&](BiasAmplitudes& amplitudes, const BiasAmplitudes& beforehand,
+                           const Eigen::ArrayXd& explained, const Eigen::ArrayXd& chance) {
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
       const double variance = amplitudes[i] * amplitudes[i];
-      const Eigen::ArrayXd density = cosines_.density(kBiasReaches_px[i]).array();
-      explained_by_parts += variance * (density * chance).sum();
-      amplitudes[i] =
-          std::min(std::sqrt(better(variance, (density * explained).sum(), (density * chance).sum())), kMost_px);
+      if (variance == 0.0) continue;
+      const Eigen::ArrayXd density = variance * cosines_.density(kBiasReaches_px[i]).array();
+      const double waves = (density * chance).sum(), squares = (density * explained).sum();
+      explained_by_parts += waves;
+      const double expected = dof * beforehand[i] * beforehand[i] / variance;
+      amplitudes[i] = std::min(std::sqrt(better(variance, squares + expected, waves + dof)), kMost_px);
     }
   };
   const Eigen::MatrixXd covariance = precision_.solve(Eigen::MatrixXd::Identity(shared, shared));
@@ -91,8 +104,8 @@ BiasPrior BiasLearner::improved() const {
   if (has_reference_) before.head(half) = without_planes(shared_variance_.head(half), planes.topRows(half));
   if (has_camera_) before.tail(half) = without_planes(shared_variance_.tail(half), planes.bottomRows(half));
   const Eigen::ArrayXd chance = (before - covariance.diagonal()).array() / shared_variance_.array().square();
-  if (has_reference_) improve(result.reference_px, explained.head(half), chance.head(half));
-  if (has_camera_) improve(result.camera_px, explained.tail(half), chance.tail(half));
+  if (has_reference_) improve(result.reference_px, thought.reference_px, explained.head(half), chance.head(half));
+  if (has_camera_) improve(result.camera_px, thought.camera_px, explained.tail(half), chance.tail(half));
   if (has_states_) {
     Eigen::ArrayXd of_states = Eigen::ArrayXd::Zero(half), by_chance = Eigen::ArrayXd::Zero(half);
     for (int state = 0; state < states(); ++state) {
@@ -105,7 +118,7 @@ BiasPrior BiasLearner::improved() const {
       const Eigen::VectorXd without = without_planes(state_variance_, sums_.planes(state).bottomRows(half));
       by_chance += (without.array() - variance) / state_variance_.array().square();
     }
-    improve(result.state_px, of_states, by_chance);
+    improve(result.state_px, thought.state_px, of_states, by_chance);
   }
 
   double of_cells = 0.0, of_steps = 0.0, steps_by_chance = 0.0;

@@ -9,7 +9,7 @@
 namespace fathom {
 
 /// Reaches [px] of the parts that a field's covariance is a sum of: Σ amplitude² exp(−r² / 2 reach²).
-inline constexpr std::array kBiasReaches_px{30.0, 70.0, 160.0};
+inline constexpr std::array kBiasReaches_px{20.0, 35.0, 70.0, 160.0};
 using BiasAmplitudes = std::array<double, kBiasReaches_px.size()>;
 
 /// Standard deviations [px].
@@ -27,5 +27,10 @@ BiasPrior default_bias_prior();
 /// By restricted marginal likelihood of the views; the default where there are fewer than three. No part is larger than
 /// 0.3 px: what reaches beyond the image cannot be told from planes, and would grow without limit.
 BiasPrior learned_bias_prior(std::span<const BiasView> views);
+
+/// What one view of a desk says of how large and how smooth the bias is, and of its cells' own errors. Each part of
+/// `thought` weighs as five independent waves. One view does not tell what moves with the reference image from what
+/// stays in the camera's: the latter, and steps of columns, stay as they are.
+BiasPrior bias_prior_of(const BiasView& desk, const BiasPrior& thought);
 
 }  // namespace fathom

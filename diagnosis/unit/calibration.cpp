@@ -298,7 +298,7 @@ void require_room(const std::vector<BiasView>& views, std::size_t cells, const s
   constexpr std::uint64_t kTwice = 2, kOfState = 3, kOfCell = 110;  // squares of waves, numbers
   std::uint64_t poses = 0;
   for (const BiasView& view : views) poses = std::max<std::uint64_t>(poses, view.state + 1);
-  const auto waves = static_cast<std::uint64_t>(Cosines().size());
+  const auto waves = static_cast<std::uint64_t>(Cosines(kMostWave_per_px).size());
   const std::uint64_t bytes = bytes_of({kTwice, sizeof(double), kOfState, poses, waves, waves}) +
                               bytes_of({kTwice, sizeof(double), kOfCell, cells});
   require_within_limit(file, "", bytes, fmt::format("equations of {} views in {} poses", views.size(), poses));

@@ -8,8 +8,6 @@ namespace fathom {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// [1/px] The shortest reach is 30 px: such a field has 4 % of its greatest spectral density there, and less beyond.
-constexpr double kShortestWave = 0.085;
 constexpr double kFieldWidth = Cosines::kRight_px - Cosines::kLeft_px,
                  kFieldHeight = Cosines::kBottom_px - Cosines::kTop_px;
 
@@ -26,10 +24,10 @@ double squared_wave_number(const std::pair<int, int>& wave) {
 
 }  // namespace
 
-Cosines::Cosines() {
-  for (int i = 0; i * kPi / kFieldWidth <= kShortestWave; ++i)
-    for (int j = 0; j * kPi / kFieldHeight <= kShortestWave; ++j)
-      if (squared_wave_number({i, j}) <= kShortestWave * kShortestWave) {
+Cosines::Cosines(double most_per_px) {
+  for (int i = 0; i * kPi / kFieldWidth <= most_per_px; ++i)
+    for (int j = 0; j * kPi / kFieldHeight <= most_per_px; ++j)
+      if (squared_wave_number({i, j}) <= most_per_px * most_per_px) {
         waves_.emplace_back(i, j);
         across_ = std::max(across_, i + 1), down_ = std::max(down_, j + 1);
       }

@@ -11,7 +11,8 @@ namespace fathom {
 /// Over the image and what lies beside it in the frame of the reference. All of unit length there, orthogonal.
 class Cosines {
  public:
-  Cosines();
+  /// With waves up to this wave number [1/px].
+  explicit Cosines(double most_per_px);
 
   static constexpr double kLeft_px = -110.0, kRight_px = 700.0, kTop_px = -60.0, kBottom_px = 540.0;
 

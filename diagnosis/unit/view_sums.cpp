@@ -101,15 +101,16 @@ Eigen::VectorXd ViewSums::whitened(std::size_t number, const Eigen::VectorXd& va
   return (weighted - view.weight.cwiseProduct(view.own * own)) / noise_;
 }
 
-Eigen::MatrixXd ViewSums::gram(int state) const {
+Eigen::MatrixXd ViewSums::gram(int state, int first, int count) const {
   const int half = cosines_.size(), across = cosines_.across();
   std::vector<Eigen::MatrixXd> of_rows(down_.cols(), Eigen::MatrixXd::Zero(2 * across, 2 * across));
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(2 * half, 2 * half);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count);
   for (const View& view : views_) {
     if (view.state != state) continue;
     for (Eigen::Index i = 0; i < view.weight.size(); ++i)
       of_rows[view.row[i]].selfadjointView<Eigen::Lower>().rankUpdate(view.across.col(i), view.weight[i]);
-    const Eigen::MatrixXd taken_out = view.eliminated.matrixL().solve(view.own_projected.transpose());
+    const Eigen::MatrixXd taken_out =
+        view.eliminated.matrixL().solve(view.own_projected.middleRows(first, count).transpose());
     gram.selfadjointView<Eigen::Lower>().rankUpdate(taken_out.transpose(), -1.0);
   }
   for (Eigen::MatrixXd& row : of_rows) row = row.selfadjointView<Eigen::Lower>();
@@ -118,13 +119,13 @@ Eigen::MatrixXd ViewSums::gram(int state) const {
   const auto wave = [&](int factor) {
     return factor < half ? waves[factor].first : across + waves[factor - half].first;
   };
-  for (int b = 0; b < 2 * half; ++b)
-    for (int a = b; a < 2 * half; ++a) {
+  for (int b = first; b < first + count; ++b)
+    for (int a = b; a < first + count; ++a) {
       const int down_a = waves[a % half].second, down_b = waves[b % half].second;
       double sum = 0.0;
       for (Eigen::Index row = 0; row < down_.cols(); ++row)
         sum += down_(down_a, row) * down_(down_b, row) * of_rows[row](wave(a), wave(b));
-      gram(a, b) += sum;
+      gram(a - first, b - first) += sum;
     }
   gram = gram.selfadjointView<Eigen::Lower>();
   return gram / noise_;

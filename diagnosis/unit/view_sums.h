@@ -24,8 +24,9 @@ class ViewSums {
   int state_of(std::size_t view) const { return views_[view].state; }
   Eigen::Index cells() const { return cells_; }
 
-  /// Φᵀ N⁻¹ Φ over the views of a state (kNoState: those without one). N: a view's own errors.
-  Eigen::MatrixXd gram(int state) const;
+  /// Φᵀ N⁻¹ Φ over the views of a state (kNoState: those without one), of `count` factors from `first` on. N: a view's
+  /// own errors.
+  Eigen::MatrixXd gram(int state, int first, int count) const;
   /// Φᵀ values of one view's cells.
   Eigen::VectorXd projected(std::size_t view, const Eigen::VectorXd& values) const;
   /// Φ factors, at the view's cells.
