@@ -189,6 +189,15 @@ std::string excess_sentences(const std::vector<Excess>& excesses) {
                           words.name, excess.size, words.unit, excess.size / excess.sigma);
       continue;
     }
+    if (excess.level == "unit") {
+      text += fmt::format(
+          "The desk reads {:.2g}{} {} {} than around it ({:.0f} σ), and a device's own bias is smoother: there may be "
+          "a "
+          "smear on the lens, or something on the desk. ",
+          std::abs(excess.size), words.unit, excess.size < 0 ? words.less : words.more, excess.part,
+          std::abs(excess.size) / excess.sigma);
+      continue;
+    }
     if (excess.group.empty()) {
       text += fmt::format("From {} to {} the {} scatters by {:.2g}{} (± {:.1g}) more than is stated. ", excess.level,
                           excess.level, words.name, excess.size, words.unit, excess.sigma);
@@ -215,7 +224,8 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
                        unknown.part == "middle" ? "in the middle" : unknown.part, std::abs(unknown.higher_mm),
                        unknown.higher_mm < 0.0 ? "lower" : "higher");
   if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
-  if (!unknown.most_similar.empty())
+  constexpr double kAlike = 0.5;
+  if (!unknown.most_similar.empty() && unknown.similarity >= kAlike)
     text +=
         fmt::format(", and is most like {} (cosine {:.2f})", effect_words(unknown.most_similar), unknown.similarity);
   return text + ". ";

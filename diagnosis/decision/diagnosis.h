@@ -32,13 +32,14 @@ struct GapLocation {
 
 /// A group that differs from the others by more than the laboratory states.
 struct Excess {
-  std::string level;       ///< "session"; "pour", "placement", "trial": from each to the next
+  std::string level;       ///< "session", "unit"; "pour", "placement", "trial": from each to the next
   std::string group;       ///< the session's number; of the others nothing
   std::string observable;  ///< "height_mm"
   std::string part;        ///< of what is observed, "in columns … of the image"; empty: all of it
-  double size = 0.0;       ///< beside the others' mean; of pours, placements and trials 1 σ of the scatter itself
-  double sigma = 0.0;      ///< 1 σ of that
-  double p = 1.0;          ///< of all groups and observables that were looked at
+  double size = 0.0;  ///< beside the others' mean, or the unit's bias elsewhere; of pours, placements and trials 1 σ of
+                      ///< the scatter itself
+  double sigma = 0.0;  ///< 1 σ of that
+  double p = 1.0;      ///< of all groups and observables that were looked at
 };
 
 /// Where measurement and prediction differ by more than their errors.

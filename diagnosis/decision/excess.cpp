@@ -108,8 +108,8 @@ std::vector<Excess> scatter_beyond(const StatedScatter& stated, const ErrorBudge
 std::vector<Excess> odd_parts(const std::vector<OddDesk>& desks) {
   std::vector<Excess> result;
   for (const OddDesk& desk : desks)
-    result.push_back({"session", fmt::format("{}", desk.session), "desk_residual_mm", desk.part, desk.higher_mm,
-                      desk.sigma_mm, desk.p});
+    result.push_back({desk.session ? "session" : "unit", desk.session ? fmt::format("{}", *desk.session) : "",
+                      "desk_residual_mm", desk.part, desk.higher_mm, desk.sigma_mm, desk.p});
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "diagnosis/unit/bias_learner.h"
 #include "diagnosis/unit/calibration_view.h"
 #include "diagnosis/unit/desk_difference.h"
+#include "diagnosis/unit/local_bias.h"
 
 namespace fathom {
 
@@ -38,6 +39,9 @@ class UnitBias {
   /// Where sessions read their desk otherwise than the others, of one desk in all.
   std::vector<DeskDifference> session_differences() const;
 
+  /// Where the unit reads otherwise than its bias elsewhere lets expect.
+  const std::optional<LocalBias>& local_bias() const { return views_.local_bias; }
+
   /// What would be known, were the whole desk seen bare in every session.
   UnitBias with_bare_desks() const;
 
@@ -53,6 +57,7 @@ class UnitBias {
     std::vector<BiasView> views;          ///< whose cells count by how well they are known beside those of other scenes
     std::map<int, BiasView> of_sessions;  ///< all scenes of each together
     BiasPrior prior;
+    std::optional<LocalBias> local_bias;
     double weight_of_one = 1.0;  ///< of a cell that only one placement shows
   };
   static Views views_of(const Desks& desks, bool is_calibrated);

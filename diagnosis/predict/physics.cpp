@@ -56,14 +56,24 @@ std::vector<OddDesk> odd_desks(const Measurement& measurement) {
   if (!measurement.unit) return result;
   const LaboratoryRig& rig = measurement.rig;
   const double of_inverse = rig.focal_px * rig.baseline_m;  // [px m] disparity times depth
+  const auto mm_per_px = [&](double nearer_px) {            // above the desk
+    const double depth_m = of_inverse / (nearer_px + of_inverse / kReferenceDistance_m);
+    return mm_from_metres(depth_m * rig.height_m / of_inverse);
+  };
   for (const DeskDifference& found : measurement.unit->session_differences()) {
-    const double depth_m = of_inverse / (found.nearer_px + of_inverse / kReferenceDistance_m);
-    const double mm_per_px = mm_from_metres(depth_m * rig.height_m / of_inverse);  // above the desk
+    const double scale = mm_per_px(found.nearer_px);
     const Eigen::Vector2d last_px = found.first_px + found.size_px;
     result.push_back({found.session,
                       fmt::format("in columns {:.0f} to {:.0f} and rows {:.0f} to {:.0f} of the image",
                                   found.first_px.x(), last_px.x(), found.first_px.y(), last_px.y()),
-                      mm_per_px * found.bias_px, mm_per_px * found.sigma_px, found.p()});
+                      scale * found.bias_px, scale * found.sigma_px, found.p()});
+  }
+  if (const std::optional<LocalBias>& found = measurement.unit->local_bias()) {
+    const double scale = mm_per_px(found->nearer_px);
+    result.push_back({std::nullopt,
+                      fmt::format("within {:.0f} px of column {:.0f} and row {:.0f} of the image",
+                                  1.5 * found->reach_px, found->middle_px.x(), found->middle_px.y()),
+                      scale * found->bias_px, scale * found->sigma_px, found->p()});
   }
   return result;
 }

@@ -112,9 +112,10 @@ struct StatedScatter {
   double fill_mm = kAny, placement_mm = kAny;    ///< fills of pours, places of cups; heights differ by no more
 };
 
-/// Of a session, the part of its desk that differs most from what the other sessions show there.
+/// Of a session, the part of its desk that differs most from what the other sessions show there; of all sessions
+/// together, the place where the unit's bias is least like the rest of it.
 struct OddDesk {
-  int session = 0;
+  std::optional<int> session;
   std::string part;  ///< "in columns 480 to 560 and rows 64 to 144 of the image"
   double higher_mm = 0.0, sigma_mm = 0.0;
   double p = 1.0;  ///< of all parts that were looked at

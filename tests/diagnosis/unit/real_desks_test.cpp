@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <numeric>
 
 #include "detector/read_cloud.h"
 #include "diagnosis/unit/bias_learner.h"
 #include "diagnosis/unit/calibration_view.h"
 #include "diagnosis/unit/desk_difference.h"
+#include "diagnosis/unit/local_bias.h"
 
 namespace fathom {
 namespace real_desks_test {
@@ -201,6 +203,39 @@ TEST(RealDesks, PartsOfOneDeskDifferByNoMoreThanIsThoughtOfSessions) {
                        std::to_string(static_cast<int>(size.second)),
                    std::to_string(std::sqrt(of.found_px2 / of.count)));
     EXPECT_LE(of.found_px2, of.expected_px2) << size.first << " x " << size.second << " px";
+  }
+}
+
+/// A Kinect's bias has no place that differs from the rest as a smear does.
+TEST(RealDesks, NoPlaceOfADevicesBiasStandsOut) {
+  const std::vector<Desk> all = desks();
+  if (all.size() < 21) GTEST_SKIP() << "the clouds of mOSD and mOSD_more are absent: see FATHOM_REAL_DATA";
+  std::vector<BiasView> views;
+  for (const Desk& desk : all) views.push_back(desk.seen.view);
+  set_states_by_pose(views);
+  std::map<int, std::map<std::pair<double, double>, std::pair<BiasCell, std::vector<double>>>> poses;
+  std::map<int, std::size_t> scenes;
+  for (const BiasView& view : views) {
+    ++scenes[view.state];
+    for (std::size_t i = 0; i < view.cells.size(); ++i) {
+      auto& [cell, errors] = poses[view.state][{view.cells[i].row_px, view.cells[i].column_px}];
+      cell = view.cells[i];
+      errors.push_back(view.errors_px[i]);
+    }
+  }
+  for (const auto& [pose, cells] : poses) {
+    BiasView mean;  // what at least half of the scenes show: things on the desks are elsewhere each time
+    for (const auto& [at, seen] : cells) {
+      if (2 * seen.second.size() < scenes[pose]) continue;
+      mean.cells.push_back(seen.first);
+      mean.errors_px.push_back(std::accumulate(seen.second.begin(), seen.second.end(), 0.0) /
+                               static_cast<double>(seen.second.size()));
+    }
+    const auto found = most_local_bias(mean, bias_prior_of(mean, default_bias_prior()));
+    ASSERT_TRUE(found) << pose;
+    RecordProperty("pose_" + std::to_string(pose) + "_sigmas",
+                   std::to_string(std::abs(found->bias_px) / found->sigma_px));
+    EXPECT_GT(found->p(), 3e-4) << pose << ": " << found->bias_px << " px at " << found->middle_px.transpose();
   }
 }
 

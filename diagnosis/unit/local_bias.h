@@ -1,0 +1,35 @@
+// A place in the image where a device reads otherwise than its bias elsewhere lets expect: a smear on the lens, say.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+
+#include "diagnosis/unit/bias_prior.h"
+#include "diagnosis/unit/bias_view.h"
+
+namespace fathom {
+
+/// A bump of disparity, bias · exp(−r² / 2 reach²), on top of a bias that is a Gaussian process.
+struct LocalBias {
+  Eigen::Vector2d middle_px{0, 0};
+  double reach_px = 0.0;
+  double bias_px = 0.0;    ///< best by generalised least squares
+  double sigma_px = 0.0;   ///< 1 σ of that, were the unit's bias there as it is elsewhere
+  double nearer_px = 0.0;  ///< where the desk lies there, as BiasCell has it
+  std::size_t looks = 0;   ///< bumps that were looked at
+
+  /// Of chance making as much anywhere, at most.
+  double p() const {
+    return std::min(1.0, static_cast<double>(looks) * std::erfc(std::abs(bias_px) / sigma_px / std::numbers::sqrt2));
+  }
+};
+
+/// The bump of 20 to 45 px that stands out most, in σ, from a bias of this prior, whose own errors of cells are the
+/// desk's. Nothing where no place off the image's edges has desk all around.
+std::optional<LocalBias> most_local_bias(const BiasView& desk, const BiasPrior& prior);
+
+}  // namespace fathom
