@@ -70,9 +70,12 @@ std::string where_sentence(const Diagnosis& diagnosis) {
   if (where.observable == "content_shape_mm" && !diagnosis.unknown.part.empty()) return {};
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
-  return capitalised(fmt::format("{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ",
-                                 words.name, std::abs(where.departure), words.unit,
-                                 where.departure < 0 ? words.less : words.more));
+  // What differs from place to place may have a mean of nothing where it differs most.
+  const bool is_of_itself = where.departure * where.mean > 0.5 * where.mean * where.mean;
+  const double size = is_of_itself ? where.departure : where.mean;
+  return capitalised(fmt::format("{}the {} is {:.2g}{} {}{} than the model has it. ", place.empty() ? "" : place + ", ",
+                                 words.name, std::abs(size), words.unit, size < 0 ? words.less : words.more,
+                                 is_of_itself ? "" : ", beside the rest,"));
 }
 
 /// "15 % (13 to 17 %)": the size of a parameter's departure from nominal, whichever way it goes, with its 95 %

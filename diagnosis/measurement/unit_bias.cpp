@@ -90,9 +90,7 @@ UnitBias::Views UnitBias::views_of(const Desks& desks, bool is_calibrated) {
   double of_dots_px = 0.0;  // error of a cell that is the same in all scenes of a session
   for (const auto& [session, cells] : together)
     of_dots_px = std::max(of_dots_px, own_error_px(all.of_sessions[session] = cells.view()));
-  const BiasView desk = whole.view();
-  all.prior = bias_prior_of(desk, all.prior);
-  all.local_bias = most_local_bias(desk, all.prior);
+  all.prior = bias_prior_of(whole.view(), all.prior);
   all.prior.cell_px = of_dots_px;
   const double of_dots = of_dots_px * of_dots_px, of_placement = std::pow(scatter.cell_px().value_or(kOfView_px), 2);
   all.weight_of_one = of_dots / (of_dots + of_placement);

@@ -40,7 +40,7 @@ class UnitBias {
   std::vector<DeskDifference> session_differences() const;
 
   /// Where the unit reads otherwise than its bias elsewhere lets expect.
-  const std::optional<LocalBias>& local_bias() const { return views_.local_bias; }
+  std::optional<LocalBias> local_bias() const { return most_local_bias(learner_, views_.views); }
 
   /// What would be known, were the whole desk seen bare in every session.
   UnitBias with_bare_desks() const;
@@ -57,7 +57,6 @@ class UnitBias {
     std::vector<BiasView> views;          ///< whose cells count by how well they are known beside those of other scenes
     std::map<int, BiasView> of_sessions;  ///< all scenes of each together
     BiasPrior prior;
-    std::optional<LocalBias> local_bias;
     double weight_of_one = 1.0;  ///< of a cell that only one placement shows
   };
   static Views views_of(const Desks& desks, bool is_calibrated);

@@ -68,7 +68,7 @@ std::vector<OddDesk> odd_desks(const Measurement& measurement) {
                                   found.first_px.x(), last_px.x(), found.first_px.y(), last_px.y()),
                       scale * found.bias_px, scale * found.sigma_px, found.p()});
   }
-  if (const std::optional<LocalBias>& found = measurement.unit->local_bias()) {
+  if (const std::optional<LocalBias> found = measurement.unit->local_bias()) {
     const double scale = mm_per_px(found->nearer_px);
     result.push_back({std::nullopt,
                       fmt::format("within {:.0f} px of column {:.0f} and row {:.0f} of the image",

@@ -149,12 +149,15 @@ BiasField BiasLearner::learn(std::span<const Eigen::VectorXd> errors_px) const {
 
 BiasField BiasLearner::learn() const { return learn(errors_); }
 
-Eigen::VectorXd BiasLearner::weighted(const Eigen::VectorXd& errors_px) const {
-  assert(sums_.views() == 1 && !has_states_);
+std::vector<Eigen::VectorXd> BiasLearner::weighted(std::span<const Eigen::VectorXd> errors_px) const {
+  assert(!has_states_);
   const int half = cosines_.size();
   Eigen::VectorXd factors = Eigen::VectorXd::Zero(2 * half);
-  factors.segment(has_reference_ ? 0 : half, shared_variance_.size()) = solve({&errors_px, 1}).shared;
-  return sums_.whitened(0, errors_px - sums_.field(0, factors));
+  factors.segment(has_reference_ ? 0 : half, shared_variance_.size()) = solve(errors_px).shared;
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t view = 0; view < errors_px.size(); ++view)
+    result.push_back(sums_.whitened(view, errors_px[view] - sums_.field(view, factors)));
+  return result;
 }
 
 Eigen::VectorXd BiasLearner::shared_at(const BiasPoint& point) const {

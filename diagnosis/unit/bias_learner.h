@@ -26,8 +26,9 @@ class BiasLearner {
   BiasField learn(std::span<const Eigen::VectorXd> errors_px) const;
   /// Of the errors that the views hold.
   BiasField learn() const;
-  /// What the only view's cells read times the inverse of their covariance: bias, plane and own errors of cells.
-  Eigen::VectorXd weighted(const Eigen::VectorXd& errors_px) const;
+  /// Errors of each view's cells times the inverse of their covariance, in which are the bias, a plane of each view and
+  /// the cells' own errors. Of a prior without states.
+  std::vector<Eigen::VectorXd> weighted(std::span<const Eigen::VectorXd> errors_px) const;
   /// 1 σ of the field that learn() returns [px].
   double sigma(const BiasPoint& point) const;
   /// The posterior error as independent patterns of 1 σ: the `count` that matter most for these points, largest first.

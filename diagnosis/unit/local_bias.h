@@ -7,8 +7,9 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 
-#include "diagnosis/unit/bias_prior.h"
+#include "diagnosis/unit/bias_learner.h"
 #include "diagnosis/unit/bias_view.h"
 
 namespace fathom {
@@ -28,8 +29,8 @@ struct LocalBias {
   }
 };
 
-/// The bump of 20 to 45 px that stands out most, in σ, from a bias of this prior, whose own errors of cells are the
-/// desk's. Nothing where no place off the image's edges has desk all around.
-std::optional<LocalBias> most_local_bias(const BiasView& desk, const BiasPrior& prior);
+/// The bump of 20 to 45 px that stands out most, in σ, from the bias that the learner takes for usual, in all of its
+/// views alike. Nothing where no place off the image's edges has desk all around.
+std::optional<LocalBias> most_local_bias(const BiasLearner& learner, std::span<const BiasView> views);
 
 }  // namespace fathom

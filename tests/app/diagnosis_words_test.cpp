@@ -48,6 +48,8 @@ TEST(DiagnosisWords, WhereIsSaidByThePlainMeanOfWhatDeparts) {
   diagnosis.verdict = Verdict::unknown;
   diagnosis.departures.where = {{"height_mm", "liquid=milk", 2.5, 0.3, 0.8, 1e-6, 3.3}};
   EXPECT_TRUE(says(diagnosis, "Where liquid is milk, the height in the cup is 3.3 mm higher than the model has it."));
+  diagnosis.departures.where.front().departure = 0.1;
+  EXPECT_TRUE(says(diagnosis, "the height in the cup is 2.5 mm higher, beside the rest, than the model has it."));
 }
 
 TEST(DiagnosisWords, ASizeAtItsBoundIsSaidToBeAtLeastThat) {

@@ -36,7 +36,8 @@ BiasView desk(std::uint64_t seed, double smear_px, double smear_reach_px = 30.0)
 }
 
 std::optional<LocalBias> found_in(const BiasView& view) {
-  return most_local_bias(view, bias_prior_of(view, default_bias_prior()));
+  const BiasLearner learner({&view, 1}, bias_prior_of(view, default_bias_prior()));
+  return most_local_bias(learner, {&view, 1});
 }
 
 TEST(LocalBias, AUnitsOwnBiasIsNone) {
@@ -63,7 +64,25 @@ TEST(LocalBias, ASmearIsFoundWhereItIs) {
 TEST(LocalBias, OfTooLittleDeskNothingIsSaid) {
   BiasView view = desk(1, 0.3);
   view.cells.resize(60), view.errors_px.resize(60);
-  EXPECT_FALSE(most_local_bias(view, default_bias_prior()));
+  EXPECT_FALSE(most_local_bias(BiasLearner({&view, 1}, default_bias_prior()), {&view, 1}));
+}
+
+/// Clouds may be cut out around the cup. The plane that is fitted to each leans with the bias there.
+TEST(LocalBias, PartsWhosePlanesLeanOtherwiseAreNone) {
+  for (std::uint64_t unit = 1; unit <= 10; ++unit) {
+    const BiasView whole = desk(unit, 0.0);
+    std::vector<BiasView> parts(3);
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      for (std::size_t i = 0; i < whole.cells.size(); ++i) {
+        const double beside = std::abs(whole.cells[i].column_px - 200.0 - 120.0 * static_cast<double>(part));
+        if (beside > 130.0 || std::abs(whole.cells[i].row_px - 240.0) > 130.0) continue;
+        parts[part].cells.push_back(whole.cells[i]);
+        parts[part].errors_px.push_back(whole.errors_px[i] + 0.2 * static_cast<double>(part));
+      }
+    const auto found = most_local_bias(BiasLearner(parts, bias_prior_of(whole, default_bias_prior())), parts);
+    ASSERT_TRUE(found);
+    EXPECT_GT(found->p(), kAlarm) << unit;
+  }
 }
 
 }  // namespace local_bias_test

@@ -231,7 +231,8 @@ TEST(RealDesks, NoPlaceOfADevicesBiasStandsOut) {
       mean.errors_px.push_back(std::accumulate(seen.second.begin(), seen.second.end(), 0.0) /
                                static_cast<double>(seen.second.size()));
     }
-    const auto found = most_local_bias(mean, bias_prior_of(mean, default_bias_prior()));
+    const BiasLearner learner({&mean, 1}, bias_prior_of(mean, default_bias_prior()));
+    const auto found = most_local_bias(learner, {&mean, 1});
     ASSERT_TRUE(found) << pose;
     RecordProperty("pose_" + std::to_string(pose) + "_sigmas",
                    std::to_string(std::abs(found->bias_px) / found->sigma_px));
