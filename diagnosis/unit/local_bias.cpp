@@ -11,6 +11,9 @@ namespace {
 
 /// Wider ones are what biases are like; narrower ones are lost in a cell.
 constexpr std::array kBumps_px{20.0, 30.0, 45.0};
+/// What a view of a desk has of its own in squares of 64 px: a Kinect's, as desk_difference has it. A device with next
+/// to no bias has such places as well.
+constexpr double kOfView_px = 0.027;
 
 /// Of each cell of each view.
 std::vector<Eigen::VectorXd> bump_at(std::span<const BiasView> views, const Eigen::Vector2d& middle_px,
@@ -89,7 +92,7 @@ std::optional<LocalBias> most_local_bias(const BiasLearner& learner, std::span<c
       const double precision = dot(bump, learner.weighted(bump));
       if (!(precision > 0.0)) continue;
       const LocalBias found{candidate.middle.pixel_px(), reach_px, dot(bump, weighted) / precision,
-                            1.0 / std::sqrt(precision), candidate.middle.nearer_px};
+                            std::hypot(1.0 / std::sqrt(precision), kOfView_px), candidate.middle.nearer_px};
       if (!most || std::abs(found.bias_px) / found.sigma_px > std::abs(most->bias_px) / most->sigma_px) most = found;
     }
   }
