@@ -195,8 +195,7 @@ std::string excess_sentences(const std::vector<Excess>& excesses) {
     if (excess.level == "unit") {
       text += fmt::format(
           "The desk reads {:.2g}{} {} {} than around it ({:.0f} σ), and a device's own bias is smoother: there may be "
-          "a "
-          "smear on the lens, or something on the desk. ",
+          "a smear on the lens, or something on the desk. ",
           std::abs(excess.size), words.unit, excess.size < 0 ? words.less : words.more, excess.part,
           std::abs(excess.size) / excess.sigma);
       continue;

@@ -29,6 +29,8 @@ class BiasLearner {
   /// Errors of each view's cells times the inverse of their covariance, in which are the bias, a plane of each view and
   /// the cells' own errors. Of a prior without states.
   std::vector<Eigen::VectorXd> weighted(std::span<const Eigen::VectorXd> errors_px) const;
+  /// Of the errors that the views hold.
+  std::vector<Eigen::VectorXd> weighted() const { return weighted(errors_); }
   /// 1 σ of the field that learn() returns [px].
   double sigma(const BiasPoint& point) const;
   /// The posterior error as independent patterns of 1 σ: the `count` that matter most for these points, largest first.

@@ -43,6 +43,16 @@ double change(const BiasPrior& before, const BiasPrior& after) {
   return most / std::max(largest, 1e-9);
 }
 
+/// From a prior that weighs as `dof` independent waves of each part, or is no more than a start.
+BiasPrior improved_until_still(std::span<const BiasView> views, const BiasPrior& start, double dof) {
+  BiasPrior prior = start;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const BiasPrior before = std::exchange(prior, BiasLearner(views, prior).improved(dof, start));
+    if (change(before, prior) < kEnoughChange) break;
+  }
+  return prior;
+}
+
 }  // namespace
 
 BiasPrior default_bias_prior() { return {{0.01, 0.02, 0.1, 0.0}, {}, {}, 0.02, 0.0}; }
@@ -55,11 +65,7 @@ BiasPrior learned_bias_prior(std::span<const BiasView> views) {
   std::map<int, int> states;  // numbered anew: each costs the same whether a view has it or not
   for (BiasView& view : some)
     if (view.state != kNoState) view.state = states.emplace(view.state, static_cast<int>(states.size())).first->second;
-  BiasPrior prior = wide_prior(static_cast<int>(states.size()));
-  for (int step = 0; step < kMostSteps; ++step) {
-    const BiasPrior before = std::exchange(prior, BiasLearner(some, prior).improved());
-    if (change(before, prior) < kEnoughChange) break;
-  }
+  BiasPrior prior = improved_until_still(some, wide_prior(static_cast<int>(states.size())), 0.0);
   for (BiasAmplitudes* amplitudes : {&prior.reference_px, &prior.camera_px, &prior.state_px})
     for (double& amplitude : *amplitudes)
       if (amplitude < kNegligible_px) amplitude = 0.0;
@@ -69,12 +75,7 @@ BiasPrior learned_bias_prior(std::span<const BiasView> views) {
 
 BiasPrior bias_prior_of(const BiasView& desk, const BiasPrior& thought) {
   constexpr double kDof = 5.0;  // as of errors of the prediction
-  BiasPrior prior = thought;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const BiasPrior before = std::exchange(prior, BiasLearner({&desk, 1}, prior).improved(kDof, thought));
-    if (change(before, prior) < kEnoughChange) break;
-  }
-  return prior;
+  return improved_until_still({&desk, 1}, thought, kDof);
 }
 
 BiasPrior BiasLearner::improved(double dof, const BiasPrior& thought) const {

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,6 +36,11 @@ struct BiasView {
 /// 1, column and row of the depth image, these from −1 to 1.
 inline Eigen::Vector3d plane_at(const Eigen::Vector2d& pixel_px) {
   return {1.0, pixel_px.x() / 320.0 - 1.0, pixel_px.y() / 240.0 - 1.0};
+}
+
+/// Of chance making a normal score as large as this, either way, in any of so many looks, at most.
+inline double p_of_looks(double sigmas, std::size_t looks) {
+  return std::min(1.0, static_cast<double>(looks) * std::erfc(std::abs(sigmas) / std::numbers::sqrt2));
 }
 
 /// The plane, as coefficients of plane_at(), that is nearest to a value of each cell; cells count by their pixels.

@@ -13,11 +13,7 @@ namespace {
 
 constexpr Eigen::Index kMapColumns = CellMap::ColsAtCompileTime, kMapRows = CellMap::RowsAtCompileTime;
 
-/// What a view of a desk has of its own: alike down the image's columns, and in patches. Of scenes that one Kinect saw
-/// from the same pose no size of rectangle differs by more than two such views, things on the desks apart
-/// (tests/diagnosis/unit/real_desks_test.cpp): squares of 64 px by 0.034 px, of 256 px by 0.015 px, and strips of 64 px
-/// that are 256 px tall by 0.034 px.
-constexpr double kOfColumns_px = 0.027, kOfPatches_px = 0.01, kReach_px = 30.0;
+constexpr double kReach_px = 30.0;                               ///< over which what a view has of its own is alike
 constexpr std::array<Eigen::Index, 4> kPartSides{4, 8, 16, 32};  ///< cells; smaller squares hold an edge now and then
 constexpr double kMostlySeen = 0.75;  ///< of as many cells as rectangles usually show: clouds may be thinned
 
@@ -57,7 +53,7 @@ double covariance_within(const CellMap& map, const Part& part) {
   for (const Eigen::Array2d& one : cells)
     for (const Eigen::Array2d& other : cells) {
       const Eigen::Array2d alike = (-0.5 * (kBiasCell_px / kReach_px * (one - other)).square()).exp();
-      sum += alike.x() * (kOfColumns_px * kOfColumns_px + kOfPatches_px * kOfPatches_px * alike.y());
+      sum += alike.x() * (kOwnOfColumns_px * kOwnOfColumns_px + kOwnOfPatches_px * kOwnOfPatches_px * alike.y());
     }
   return sum / static_cast<double>(cells.size() * cells.size());
 }

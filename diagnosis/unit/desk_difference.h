@@ -2,11 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
-#include <numbers>
 #include <vector>
 
 #include "diagnosis/unit/bias_view.h"
@@ -15,6 +12,12 @@ namespace fathom {
 
 /// A number for each square of kBiasCell_px of a depth image of 640 × 480; NaN where no desk was seen.
 using CellMap = Eigen::Array<double, 30, 40>;
+
+/// What a view of a desk has of its own: alike down the image's columns, and in patches. Of scenes that one Kinect saw
+/// from the same pose no size of rectangle differs by more than two such views, things on the desks apart
+/// (tests/diagnosis/unit/real_desks_test.cpp): squares of 64 px by 0.034 px, of 256 px by 0.015 px, and strips of 64 px
+/// that are 256 px tall by 0.034 px.
+inline constexpr double kOwnOfColumns_px = 0.027, kOwnOfPatches_px = 0.01;
 
 /// Disparity [px] in a session minus its mean in the others, planes taken off: the sensor's own bias is the same in all
 /// sessions and cancels, and its poses are planes. Views by session, with cells in each.
@@ -30,9 +33,7 @@ struct DeskDifference {
   std::size_t looks = 0;                          ///< rectangles that were looked at
 
   /// Of chance making as much in any of them, at most.
-  double p() const {
-    return std::min(1.0, static_cast<double>(looks) * std::erfc(std::abs(bias_px) / sigma_px / std::numbers::sqrt2));
-  }
+  double p() const { return p_of_looks(bias_px / sigma_px, looks); }
 };
 
 /// All rectangles of 64 to 512 px that are desk for the most part, each half over its neighbours. At least two views.

@@ -1,19 +1,20 @@
 #include "diagnosis/unit/local_bias.h"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
+
+#include "diagnosis/unit/desk_difference.h"
 
 namespace fathom {
 namespace {
 
 /// Wider ones are what biases are like; narrower ones are lost in a cell.
 constexpr std::array kBumps_px{20.0, 30.0, 45.0};
-/// What a view of a desk has of its own in squares of 64 px: a Kinect's, as desk_difference has it. A device with next
-/// to no bias has such places as well.
-constexpr double kOfView_px = 0.027;
 
 /// Of each cell of each view.
 std::vector<Eigen::VectorXd> bump_at(std::span<const BiasView> views, const Eigen::Vector2d& middle_px,
@@ -66,11 +67,7 @@ struct Candidate {
 
 std::optional<LocalBias> most_local_bias(const BiasLearner& learner, std::span<const BiasView> views) {
   constexpr std::size_t kExact = 12;  // likeliest bumps of each width whose σ is reckoned
-  std::vector<Eigen::VectorXd> errors;
-  for (const BiasView& view : views)
-    errors.push_back(
-        Eigen::Map<const Eigen::VectorXd>(view.errors_px.data(), static_cast<Eigen::Index>(view.errors_px.size())));
-  const std::vector<Eigen::VectorXd> weighted = learner.weighted(errors);
+  const std::vector<Eigen::VectorXd> weighted = learner.weighted();
   const std::vector<BiasCell> desk = cells_of(views);
   std::optional<LocalBias> most;
   std::size_t looks = 0;
@@ -91,8 +88,9 @@ std::optional<LocalBias> most_local_bias(const BiasLearner& learner, std::span<c
       const std::vector<Eigen::VectorXd> bump = bump_at(views, candidate.middle.pixel_px(), reach_px);
       const double precision = dot(bump, learner.weighted(bump));
       if (!(precision > 0.0)) continue;
+      // A device with next to no bias has places of its own as well, as large as a view of a desk has them.
       const LocalBias found{candidate.middle.pixel_px(), reach_px, dot(bump, weighted) / precision,
-                            std::hypot(1.0 / std::sqrt(precision), kOfView_px), candidate.middle.nearer_px};
+                            std::hypot(1.0 / std::sqrt(precision), kOwnOfColumns_px), candidate.middle.nearer_px};
       if (!most || std::abs(found.bias_px) / found.sigma_px > std::abs(most->bias_px) / most->sigma_px) most = found;
     }
   }

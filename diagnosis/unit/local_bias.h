@@ -2,10 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -24,13 +21,11 @@ struct LocalBias {
   std::size_t looks = 0;   ///< bumps that were looked at
 
   /// Of chance making as much anywhere, at most.
-  double p() const {
-    return std::min(1.0, static_cast<double>(looks) * std::erfc(std::abs(bias_px) / sigma_px / std::numbers::sqrt2));
-  }
+  double p() const { return p_of_looks(bias_px / sigma_px, looks); }
 };
 
-/// The bump of 20 to 45 px that stands out most, in σ, from the bias that the learner takes for usual, in all of its
-/// views alike. Nothing where no place off the image's edges has desk all around.
+/// The bump of 20 to 45 px that stands out most, in σ, from the bias that the learner takes for usual, alike in all of
+/// the views that it was made of. Nothing where no place off the image's edges has desk all around.
 std::optional<LocalBias> most_local_bias(const BiasLearner& learner, std::span<const BiasView> views);
 
 }  // namespace fathom
