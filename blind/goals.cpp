@@ -56,6 +56,7 @@ Goal mean(std::string metric, std::span<const Judged> judged, const Is& counts,
 
 bool has_gap(const Judged& one) { return one.answer.noise_floor > 0.0; }
 double behind_matched_filter(const Judged& one) { return one.matched_filter() - one.answer.detects_something(); }
+double behind_by_answer(const Judged& one) { return one.matched_filter_by_answer() - one.answer.detects_something(); }
 
 Is of_kind(const std::string& kind, double from = 0.0, double to = kForever) {
   return [=](const Judged& one) {
@@ -196,6 +197,9 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
       mean(
           "matched filter's power less detected share", judged, [](const Judged& one) { return one.is_single(); },
           behind_matched_filter, Want::at_most, 0.10),
+      mean(
+          "… of a filter that is given the diagnosis's covariance", judged,
+          [](const Judged& one) { return one.is_single(); }, behind_by_answer, Want::at_most, 0.10),
   };
   return goals;
 }

@@ -22,6 +22,21 @@ const std::map<std::string, std::vector<std::string>> kWords{{"label_swap", {"la
 
 double normal_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
+/// Of a filter that looks for one effect of strength s.
+double power_of(double s) {
+  constexpr double kFalseAlarm = 2.326;  // 1 %, one-sided
+  return normal_tail(kFalseAlarm - s);
+}
+
+/// s by the answer's covariance.
+double strength_by(const Answer& answer, const Truth& hidden) {
+  const auto errors = answer.size_errors.find(std::string(hidden.active.effect->name));
+  if (errors == answer.size_errors.end()) return hidden.strength;
+  const auto error = errors->second.find(std::string(hidden.active.effect->parameter));
+  if (error == errors->second.end() || !(error->second > 0.0)) return hidden.strength;
+  return std::abs(hidden.active.departure) / error->second;
+}
+
 std::string joined(const Names& names) { return fmt::format("{}", fmt::join(names, "+")); }
 
 }  // namespace
@@ -38,9 +53,12 @@ double Judged::strongest() const {
   return s;
 }
 
-double Judged::matched_filter() const {
-  constexpr double kFalseAlarm = 2.326;  // 1 %, one-sided
-  return normal_tail(kFalseAlarm - strongest());
+double Judged::matched_filter() const { return power_of(strongest()); }
+
+double Judged::matched_filter_by_answer() const {
+  double strongest = 0.0;
+  for (const Truth& hidden : truth.effects) strongest = std::max(strongest, strength_by(answer, hidden));
+  return power_of(strongest);
 }
 
 double Judged::filter_bank() const {

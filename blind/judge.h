@@ -21,6 +21,9 @@ struct Judged {
   bool is_single() const { return truth.kind == "single" && !truth.effects.empty(); }
   /// Power of a filter that knows the sensitivity of what is hidden and looks for nothing else, at 1 % false alarms.
   double matched_filter() const;
+  /// The same of one that is given the answer's covariance: it knows the effect's size as well as the answer says. By
+  /// the set's own s where the answer does not have the parameter whose truth is written down.
+  double matched_filter_by_answer() const;
   /// Power of such filters for all 38 effects of the registry and either sign, at 1 % false alarms of all together.
   double filter_bank() const;
 

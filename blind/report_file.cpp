@@ -47,6 +47,12 @@ void read_effects(const JsonReader& report, Answer& answer) {
   }
 }
 
+void read_size_errors(const JsonReader& report, Answer& answer) {
+  for (const JsonReader& error : report.items_or_none("size_errors"))
+    if (!error.has("liquid"))
+      answer.size_errors[error.text("name")][error.text("parameter")] = error.number("standard_error");
+}
+
 void read_ambiguity(const JsonReader& report, Answer& answer) {
   for (const JsonReader& item : report.items_or_none("ambiguity_set")) {
     Answer::Explanation explanation{{names_of(item.at("effects").value())}, {}, item.number("probability")};
@@ -101,6 +107,7 @@ Answer read_answer(const std::filesystem::path& folder) {
   const JsonReader report(json, file.string());
   answer.verdict = report.text("verdict");
   read_effects(report, answer);
+  read_size_errors(report, answer);
   read_ambiguity(report, answer);
   constexpr double kSignificant = 0.01;
   for (const JsonReader& where : report.items_or_none("where"))

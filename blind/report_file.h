@@ -22,6 +22,9 @@ struct Answer {
   std::string verdict;  ///< none, named, ambiguous, unknown, named+unknown, insufficient; "missing" without a report
   Names named;          ///< effects, without "@liquid"
   std::map<std::string, std::map<std::string, Estimated>> parameters;  ///< of each
+  /// Standard errors of its sizes, parameter by parameter, of effects of all liquids: what the measurement tells by its
+  /// own reckoning.
+  std::map<std::string, std::map<std::string, double>> size_errors;
   struct Explanation {
     std::vector<Names> sets;       ///< what it holds for one: itself first, then what cannot be told from it
     std::vector<Names> supersets;  ///< of them, which it leaves open

@@ -89,18 +89,14 @@ void add_trials(const std::vector<Observation>& observations, std::vector<Contra
 std::vector<Excess> scatter_beyond(const StatedScatter& stated, const ErrorBudget& errors) {
   std::vector<Excess> result;
   for (const ObservableErrors& of : errors.observables)
-    for (std::size_t k = 0; k < of.components.size(); ++k) {
-      const auto& [observable, level, variance, groups, scale] = of.components[k];
-      const double most = level == ErrorLevel::pour        ? stated.fill_mm
-                          : level == ErrorLevel::placement ? stated.placement_mm
-                                                           : StatedScatter::kAny;
-      const auto row = static_cast<Eigen::Index>(k);
-      if (observable != "height_mm" || !(most > 0.0 && std::isfinite(most)) || variance <= 0.0) continue;
-      const double of_variance = std::sqrt(of.covariance(row, row));
-      const double dof = std::clamp(2.0 * std::pow(variance / of_variance, 2.0), 1.0, groups.count - 1.0);
+    for (const VarianceComponent& component : of.components) {
+      const auto& [variance, of_variance] = component.found;
+      const double most = stated_sd(component, stated);
+      if (component.level == ErrorLevel::session || std::isinf(most) || variance <= 0.0) continue;
+      const double dof = std::clamp(2.0 * std::pow(variance / of_variance, 2.0), 1.0, component.groups.count - 1.0);
       const double p = chi_squared_tail(dof * (1.0 + variance / (most * most)), dof);
-      result.push_back(
-          {name_of(level), "", observable, "", std::sqrt(variance), 0.5 * of_variance / std::sqrt(variance), p});
+      result.push_back({name_of(component.level), "", component.observable, "", std::sqrt(variance),
+                        0.5 * of_variance / std::sqrt(variance), p});
     }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "diagnosis/predict/turbid_dots.h"
 #include "sim/optics/fresnel.h"
+#include "sim/optics/ray_differential.h"
 #include "sim/optics/snell.h"
 #include "sim/scene/cup.h"
 
@@ -20,10 +21,10 @@ struct Way {
   double n = 1.0;             ///< at the end
 };
 
-/// A way that is not attended to.
-struct NoLight {
-  void through(double /*absorption*/, double /*path*/) {}
-  void into(double /*cosine*/, double /*n_from*/, double /*n_to*/) {}
+/// Where a ray that goes down meets a layer's top.
+struct TopHit {
+  Eigen::Vector3d point;
+  SurfaceFrame frame;
 };
 
 /// What is left of light on its way down or up.
@@ -31,8 +32,21 @@ struct LightLeft {
   double transmittance = 1.0;
 
   void through(double absorption, double path) { transmittance *= fathom::transmittance(absorption, path); }
-  void into(double cosine, double n_from, double n_to) {
-    transmittance *= 1.0 - fresnel_reflectance(cosine, n_from, n_to);
+  void into(const Eigen::Vector3d& direction, const TopHit& top, double n_from, double n_to) {
+    transmittance *= 1.0 - fresnel_reflectance(-direction.dot(top.frame.normal), n_from, n_to);
+  }
+};
+
+/// The same, with the neighbours of its ray.
+struct LightBeam {
+  RayDifferential ray;
+  LightLeft left{};
+
+  void through(double absorption, double path) { left.through(absorption, path); }
+  void into(const Eigen::Vector3d& direction, const TopHit& top, double n_from, double n_to) {
+    left.into(direction, top, n_from, n_to);
+    advance(ray, top.point, top.frame.normal);
+    refract(ray, top.frame, n_from, n_to);
   }
 };
 
@@ -57,21 +71,29 @@ Eigen::Vector3d at_height(const Eigen::Vector3d& from, const Eigen::Vector3d& di
   return from + (height - from.z()) / direction.z() * direction;
 }
 
-struct TopHit {
-  Eigen::Vector3d point, normal;
-};
+/// At a place of a surface z = height(x, y), seen from above.
+SurfaceFrame frame_of(const LiquidTop::Height& top) {
+  const Eigen::Vector3d gradient(-top.gradient.x(), -top.gradient.y(), 1.0);
+  const double length = gradient.norm();
+  const Eigen::Vector3d normal = gradient / length;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  turn.topLeftCorner<2, 2>() = -top.hessian / length;
+  return {normal, turn - normal * (normal.transpose() * turn)};
+}
 
-/// Where a ray that goes down meets a layer's top, by Newton's method.
+/// By Newton's method.
 TopHit meet(const LiquidLayer& layer, const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
+  constexpr int kSteps = 8;
+  constexpr double kEnough = 1e-10;  // [m]
   Eigen::Vector3d point = at_height(from, direction, layer.at);
-  if (layer.level) return {point, Eigen::Vector3d::UnitZ()};
+  if (layer.level) return {point, {Eigen::Vector3d::UnitZ(), Eigen::Matrix3d::Zero()}};
   LiquidTop::Height top = layer.top.at(point.head<2>());
-  for (int i = 0; i < 8 && std::abs(top.z - point.z()) > 1e-12; ++i) {
+  for (int i = 0; i < kSteps && std::abs(top.z - point.z()) > kEnough; ++i) {
     const double slope = direction.z() - top.gradient.dot(direction.head<2>());
     point += (top.z - point.z()) / slope * direction;
     top = layer.top.at(point.head<2>());
   }
-  return {point, Eigen::Vector3d(-top.gradient.x(), -top.gradient.y(), 1.0).normalized()};
+  return {point, frame_of(top)};
 }
 
 /// Through the tops of all clear layers; the end is on the last of them, or where it started. `light` is told of what
@@ -89,9 +111,9 @@ std::optional<Way> go_down(const CupOptics& cup, const Eigen::Vector3d& from, co
     light.through(absorption, (hit.point - way.end).norm());
     way.end = hit.point;
     if (layer.opaque) return way;
-    const auto refracted = refract(way.direction, hit.normal, way.n, layer.n);
+    const auto refracted = refract(way.direction, hit.frame.normal, way.n, layer.n);
     if (!refracted) return std::nullopt;
-    light.into(-way.direction.dot(hit.normal), way.n, layer.n);
+    light.into(way.direction, hit, way.n, layer.n);
     way.direction = *refracted;
     way.n = layer.n;
     absorption = layer.absorption;
@@ -117,57 +139,33 @@ std::optional<Eigen::Vector3d> meet_bottom(const CupBody& cup, const Way& way) {
   return point;
 }
 
-/// The projector's light aimed at the height of `target`, refracted on its way there: by Newton's method with the
-/// derivative of where it lands, whose determinant is the spreading of the light. Below level tops that derivative
-/// hardly changes; waves and menisci bend it, so that it is taken anew at each step, and some places are not lit.
+/// The projector's light that lands on `target`, refracted on its way there: by Newton's method, with how the landing
+/// changes with the direction. The determinant of that is the spreading of the light. Waves and menisci leave some
+/// places without any.
 std::optional<LitPoint> light_bottom(const CupOptics& cup, const Eigen::Vector3d& target,
                                      const Eigen::Vector3d& projector, const Way& seen, double to_surface) {
-  const auto land = [&](const Eigen::Vector2d& aim, auto& light) -> std::optional<Way> {
-    const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
-    auto way = go_down(cup, projector, straight.normalized(), light);
+  constexpr int kSteps = 20;
+  constexpr double kEnough = 1e-9;  // [m]
+  Eigen::Vector3d direction = (target - projector).normalized();
+  for (int i = 0; i < kSteps; ++i) {
+    LightBeam down{ray_differential_from(projector, direction)};
+    const auto way = go_down(cup, projector, direction, down);
     if (!way || way->direction.z() >= 0.0) return std::nullopt;
     const Eigen::Vector3d end = at_height(way->end, way->direction, target.z());
-    light.through(last_absorption(cup), (end - way->end).norm());
-    way->end = end;
-    return way;
-  };
-  NoLight none;
-  const auto slope_at = [&](const Eigen::Vector2d& aim, const Way& way) -> std::optional<Eigen::Matrix2d> {
-    constexpr double kStep = 1e-5;  // [m]
-    Eigen::Matrix2d slope;
-    for (int axis = 0; axis < 2; ++axis) {
-      const auto beside = land(aim + kStep * Eigen::Vector2d::Unit(axis), none);
-      if (!beside) return std::nullopt;
-      slope.col(axis) = (beside->end - way.end).head<2>() / kStep;
+    advance(down.ray, end, Eigen::Vector3d::UnitZ());
+    const Eigen::Matrix2d landing = down.ray.d_origin.topRows<2>();
+    const Eigen::Vector2d off = (target - end).head<2>();
+    if (off.squaredNorm() < kEnough * kEnough) {
+      if (!passes_opening(cup.body, projector, direction)) return std::nullopt;
+      down.through(last_absorption(cup), (end - way->end).norm());
+      const double irradiance = 1.0 / std::abs(landing.determinant());
+      const double to_camera = to_surface * transmittance(last_absorption(cup), (target - seen.end).norm());
+      return LitPoint{target, direction,
+                      cup.body.albedo * irradiance * down.left.transmittance * to_camera / (seen.n * seen.n)};
     }
-    return slope;
-  };
-  constexpr int kSteps = 20;
-  constexpr double kEnough = 1e-10;  // [m]
-  Eigen::Vector2d aim = target.head<2>();
-  auto way = land(aim, none);
-  if (!way) return std::nullopt;
-  auto slope = slope_at(aim, *way);
-  const bool is_level = std::all_of(cup.layers.begin(), cup.layers.end(), [](const auto& l) { return l.level; });
-  for (int i = 0; slope; ++i) {
-    const Eigen::Vector2d off = (way->end - target).head<2>();
-    if (off.squaredNorm() < kEnough * kEnough) break;
-    if (i == kSteps) return std::nullopt;
-    aim -= slope->inverse() * off;
-    way = land(aim, none);
-    if (!way) return std::nullopt;
-    if (!is_level) slope = slope_at(aim, *way);
+    direction = (direction + perpendicular_to(direction) * (landing.inverse() * off)).normalized();
   }
-  if (!slope) return std::nullopt;
-  const Eigen::Vector3d straight = Eigen::Vector3d(aim.x(), aim.y(), target.z()) - projector;
-  const double distance = straight.norm();
-  const Eigen::Vector3d direction = straight / distance;
-  if (!passes_opening(cup.body, projector, direction)) return std::nullopt;
-  const double irradiance = -direction.z() / (distance * distance * std::abs(slope->determinant()));
-  LightLeft down;
-  land(aim, down);
-  const double to_camera = to_surface * transmittance(last_absorption(cup), (target - seen.end).norm());
-  return LitPoint{target, direction, cup.body.albedo * irradiance * down.transmittance * to_camera / (seen.n * seen.n)};
+  return std::nullopt;
 }
 
 /// An opaque liquid's light seems to be sent back from a depth (turbid_dots.h): it enters where the projector's ray to

@@ -81,10 +81,11 @@ Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::Ma
   for (const ObservableErrors& errors : covariance.errors.observables) {
     Eigen::MatrixXd shares(static_cast<Eigen::Index>(errors.components.size()), columns.cols());
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
-      const auto& [observable, level, variance, groups, scale] = errors.components[k];
-      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(groups.count, columns.cols());
+      const VarianceComponent& component = errors.components[k];
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(component.groups.count, columns.cols());
       for (Eigen::Index i = 0; i < weights.rows(); ++i)
-        if (const int group = groups.of[i]; group >= 0) sums.row(group) += scale[i] * weights.row(i);
+        if (const int group = component.groups.of[i]; group >= 0)
+          sums.row(group) += component.scale[i] * weights.row(i);
       shares.row(static_cast<Eigen::Index>(k)) = sums.colwise().squaredNorm().array() / total.transpose().array();
     }
     if (shares.rows() > 0)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "core/median.h"
 #include "diagnosis/statistics/mean_space.h"
@@ -69,19 +68,18 @@ void fit(std::vector<VarianceComponent> components, const std::vector<Eigen::Mat
   std::move(components.begin(), components.end(), std::back_inserter(errors.components));
 }
 
-/// Sessions differ by no more than the laboratory states: what is more is no error but a finding (excess.h).
-void limit_sessions(const Evidence& evidence, ObservableErrors& errors) {
+/// Sessions, pours and placements differ by no more than the laboratory states: what is more is no error but a finding
+/// (excess.h).
+void limit_to_stated(const StatedScatter& stated, ObservableErrors& errors) {
   for (std::size_t k = 0; k < errors.components.size(); ++k) {
     VarianceComponent& component = errors.components[k];
-    if (component.level != ErrorLevel::session) continue;
-    const double most = component.observable.ends_with("_mm")    ? evidence.stated.session_mm
-                        : component.observable.ends_with("_deg") ? evidence.stated.session_deg
-                                                                 : std::numeric_limits<double>::infinity();
-    if (component.variance <= most * most) continue;
     const auto row = static_cast<Eigen::Index>(k);
+    component.found = {component.variance, std::sqrt(errors.covariance(row, row))};
+    const double most = stated_sd(component, stated);
+    if (component.variance <= most * most) continue;
     errors.covariance.row(row).setZero();
     errors.covariance.col(row).setZero();
-    errors.covariance(row, row) = 2.0 / kStatedDof * std::pow(most, 4.0);  // stated, no longer estimated
+    errors.covariance(row, row) = 2.0 / kStatedDof * std::pow(most, 4.0);  // no longer estimated
     component.variance = most * most;
   }
 }
@@ -123,6 +121,18 @@ std::string name_of(ErrorLevel level) {
       return "model";
   }
   return {};
+}
+
+double stated_sd(const VarianceComponent& component, const StatedScatter& stated) {
+  const auto any_if_zero = [](double sd) { return sd > 0.0 ? sd : StatedScatter::kAny; };
+  if (component.level == ErrorLevel::session) {
+    if (component.observable.ends_with("_mm")) return stated.session_mm;
+    if (component.observable.ends_with("_deg")) return stated.session_deg;
+  } else if (component.observable == "height_mm") {
+    if (component.level == ErrorLevel::pour) return any_if_zero(stated.fill_mm);
+    if (component.level == ErrorLevel::placement) return any_if_zero(stated.placement_mm);
+  }
+  return StatedScatter::kAny;
 }
 
 Eigen::VectorXd errors_of_means(const std::vector<Observation>& observations, double pixels) {
@@ -208,7 +218,7 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
         contrasts.transpose() * known(rows, rows) * contrasts, errors);
     if (means.from_replicates && !unrepeated.empty())
       fit_unrepeated(evidence, rows, residual, known, std::move(unrepeated), errors);
-    limit_sessions(evidence, errors);
+    limit_to_stated(evidence.stated, errors);
     budget.observables.push_back(std::move(errors));
   }
   return budget;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/estimate.h"
 #include "diagnosis/statistics/evidence.h"
 #include "diagnosis/statistics/groups.h"
 
@@ -20,7 +21,11 @@ struct VarianceComponent {
   double variance = 0.0;  ///< in the observable's unit, squared
   Groups groups;          ///< -1 for other observables
   Eigen::VectorXd scale;  ///< of the error in each observation; 1 on the whole
+  Estimate found{};       ///< of the variance, which is taken to be no larger than the laboratory states
 };
+
+/// 1 σ that the laboratory states of a component's errors; of fills and places only where it is above 0.
+double stated_sd(const VarianceComponent& component, const StatedScatter& stated);
 
 /// Stated σ are estimates themselves: as if each came from 20 trials (they are wrong by a sixth).
 inline constexpr double kStatedDof = 20.0;

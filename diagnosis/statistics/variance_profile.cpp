@@ -15,9 +15,21 @@ constexpr double kLeastShare = 1e-4;
 constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr int kFirst = -4, kLast = 14;  // halves of powers of e: a from 0.14 to 1100
 
-/// Columns of 1 σ of a component's groups. A component of which nothing was found may be as large as its uncertainty.
-Eigen::MatrixXd columns_of(const VarianceComponent& component, double of_variance) {
-  const double variance = component.variance > 0.0 ? component.variance : std::sqrt(std::max(0.0, of_variance));
+/// A component of which nothing was found may be as large as its uncertainty. `of_variance` is its estimate's.
+double possible_variance(const VarianceComponent& component, double of_variance) {
+  return component.variance > 0.0 ? component.variance : std::sqrt(std::max(0.0, of_variance));
+}
+
+/// How well the variance of a component is known. Of what was found (Satterthwaite 1946) no better than the model's
+/// errors: a laboratory's pours differ between liquids and places, as devices do.
+double dof_of(const VarianceComponent& component, double variance, double of_variance) {
+  if (component.level == ErrorLevel::model) return kModelDof;
+  if (component.level == ErrorLevel::session || component.variance < component.found.value) return kStatedDof;
+  return of_variance > 0.0 ? std::min(2.0 * variance * variance / of_variance, kModelDof) : 0.0;
+}
+
+/// Columns of 1 σ of a component's groups.
+Eigen::MatrixXd columns_of(const VarianceComponent& component, double variance) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(component.scale.size(), component.groups.count);
   for (Eigen::Index i = 0; i < columns.rows(); ++i)
     if (const int group = component.groups.of[i]; group >= 0)
@@ -43,13 +55,12 @@ VarianceProfile::VarianceProfile(const Covariance& covariance) {
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
       const VarianceComponent& component = errors.components[k];
       const auto row = static_cast<Eigen::Index>(k);
-      const Eigen::MatrixXd columns = covariance.whiten(columns_of(component, errors.covariance(row, row)));
-      if (component.level == ErrorLevel::model)
-        add(columns, kModelDof, kMostOfModel);
-      else if (component.level == ErrorLevel::session)
-        add(columns, kStatedDof, kAny);
-      else if (component.level != ErrorLevel::observation)
-        add(columns, 0.0, kAny);
+      const double of_variance = errors.covariance(row, row);
+      const double variance = possible_variance(component, of_variance);
+      const Eigen::MatrixXd columns = covariance.whiten(columns_of(component, variance));
+      if (component.level != ErrorLevel::observation)
+        add(columns, dof_of(component, variance, of_variance),
+            component.level == ErrorLevel::model ? kMostOfModel : kAny);
       if (component.level == ErrorLevel::model || component.level == ErrorLevel::session) continue;
       singles.push_back(columns);
       count += columns.cols();

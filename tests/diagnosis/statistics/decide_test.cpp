@@ -200,6 +200,16 @@ TEST(Decide, SaysUnknownWhereNoCandidateExplains) {
   EXPECT_EQ(flagged, 4);  // at twice the escape that is to be flagged in 98 of 100
 }
 
+TEST(Decide, WhatOneLiquidsPoursShareIsNoScatterOfPours) {
+  const World world(once_poured_design());
+  Evidence evidence = world.measure({}, {}, 300);
+  for (Observation& o : evidence.observations)
+    if (o.factors.liquid == "water") o.value += 8.0 + 3.0 * std::sin(0.2 * o.factors.fill_mm);  // [mm]
+  evidence.stated.fill_mm = 0.5;
+  const Diagnosis diagnosis = decide(evidence, world.predict());
+  EXPECT_TRUE(diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown);
+}
+
 TEST(Decide, TakesADriftForNoScatterOfPours) {
   CampaignDesign design = small_design();
   design.turns_about = true;

@@ -62,6 +62,22 @@ TEST(VarianceComponents, OfPoursThatWereNotRepeatedAreFoundBetweenThem) {
   EXPECT_NEAR(mean, kPours * kPours + 0.08 * 0.08, 0.35 * kPours * kPours);
 }
 
+TEST(VarianceComponents, AreNoLargerThanTheLaboratoryStates) {
+  const World world(once_poured_design());
+  constexpr double kStated_mm = 0.2;
+  Evidence evidence = with_errors_of_pours(world.measure({}, {}, 300), 2.0, 900);
+  evidence.stated.fill_mm = kStated_mm;
+  const Covariance covariance = estimate_covariance(evidence, residual_of(evidence));
+  int pours = 0;
+  for (const VarianceComponent& component : covariance.errors.observables.front().components) {
+    if (component.level != ErrorLevel::pour) continue;
+    ++pours;
+    EXPECT_DOUBLE_EQ(component.variance, kStated_mm * kStated_mm);
+    EXPECT_GT(component.found.value, kStated_mm * kStated_mm);
+  }
+  EXPECT_EQ(pours, 1);
+}
+
 TEST(VarianceComponents, DoNotChangeWithAnEffectThatNothingSees) {
   const World world(once_poured_design());
   Evidence evidence = with_errors_of_pours(world.measure({}, {}, 300), 0.4, 900);
