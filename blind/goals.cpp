@@ -198,7 +198,7 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
           "matched filter's power less detected share", judged, [](const Judged& one) { return one.is_single(); },
           behind_matched_filter, Want::at_most, 0.10),
       mean(
-          "… of a filter that is given the diagnosis's covariance", judged,
+          "matched filter with the diagnosis's covariance: power less detected share", judged,
           [](const Judged& one) { return one.is_single(); }, behind_by_answer, Want::at_most, 0.10),
   };
   return goals;

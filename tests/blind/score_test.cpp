@@ -166,7 +166,8 @@ TEST(BlindScore, AFilterThatIsGivenTheAnswersErrorsKnowsNoMoreThanThose) {
       {"name": "refractive_index", "parameter": "index_change", "standard_error": 0.004729}]})";
   const auto goals = goals_of(std::vector<Judged>(2, {single("refractive_index", 0.011, 9.0), answer_of(silent)}));
   EXPECT_NEAR(goal(goals, "matched filter's power less detected share").value, 1.0, 1e-6);
-  EXPECT_NEAR(goal(goals, "… of a filter that is given the diagnosis's covariance").value, 0.5, 1e-3);  // s = 2.326
+  EXPECT_NEAR(goal(goals, "matched filter with the diagnosis's covariance: power less detected share").value, 0.5,
+              1e-3);  // s = 2.326
 }
 
 /// Aliased effects of which one is hidden, and what an answer proposes to tell them apart.
