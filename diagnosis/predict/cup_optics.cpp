@@ -73,12 +73,9 @@ Eigen::Vector3d at_height(const Eigen::Vector3d& from, const Eigen::Vector3d& di
 
 /// At a place of a surface z = height(x, y), seen from above.
 SurfaceFrame frame_of(const LiquidTop::Height& top) {
-  const Eigen::Vector3d gradient(-top.gradient.x(), -top.gradient.y(), 1.0);
-  const double length = gradient.norm();
-  const Eigen::Vector3d normal = gradient / length;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
-  turn.topLeftCorner<2, 2>() = -top.hessian / length;
-  return {normal, turn - normal * (normal.transpose() * turn)};
+  Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();
+  derivative.topLeftCorner<2, 2>() = -top.hessian;
+  return surface_frame({-top.gradient.x(), -top.gradient.y(), 1.0}, derivative);
 }
 
 /// By Newton's method.

@@ -6,6 +6,12 @@
 
 namespace fathom {
 
+SurfaceFrame surface_frame(const Eigen::Vector3d& normal, const Eigen::Matrix3d& derivative) {
+  const double length = normal.norm();
+  const Eigen::Vector3d unit = normal / length;
+  return {unit, (Eigen::Matrix3d::Identity() - unit * unit.transpose()) * derivative / length};
+}
+
 Matrix32d perpendicular_to(const Eigen::Vector3d& direction) {
   Matrix32d basis;
   basis.col(0) = direction.unitOrthogonal();

@@ -23,6 +23,9 @@ struct SurfaceFrame {
   Eigen::Matrix3d curvature;  ///< [1/m] d normal = curvature · d point, for d point in the tangent plane
 };
 
+/// From a normal of any length and how that changes with the place.
+SurfaceFrame surface_frame(const Eigen::Vector3d& normal, const Eigen::Matrix3d& derivative);
+
 /// Two unit vectors that make a right-handed frame with the unit vector `direction`.
 Matrix32d perpendicular_to(const Eigen::Vector3d& direction);
 

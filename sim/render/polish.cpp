@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "sim/optics/ray_differential.h"
+
 namespace fathom {
 namespace {
 
@@ -66,17 +68,11 @@ struct OutwardCurvature {
   unsigned triangle;
   const Eigen::Vector3d& point;
 
-  static Eigen::Matrix3d of_unit(const Eigen::Vector3d& normal, const Eigen::Matrix3d& derivative) {
-    const double length = normal.norm();
-    const Eigen::Vector3d unit = normal / length;
-    return (Eigen::Matrix3d::Identity() - unit * unit.transpose()) * derivative / length;
-  }
-
   Eigen::Matrix3d operator()(const Facets&) const { return Eigen::Matrix3d::Zero(); }
 
   Eigen::Matrix3d operator()(const VertexNormals& shape) const {
     const SmoothTriangle smooth(surface.mesh, shape, triangle, point);
-    return of_unit(smooth.normal, smooth.derivative);
+    return surface_frame(smooth.normal, smooth.derivative).curvature;
   }
 
   template <class Smooth>
@@ -85,7 +81,7 @@ struct OutwardCurvature {
     const Eigen::Vector3i& corner = surface.mesh.triangles[triangle];
     const Eigen::Vector3d& a = surface.mesh.vertices[corner[0]];
     const Eigen::Vector3d outward = (surface.mesh.vertices[corner[1]] - a).cross(surface.mesh.vertices[corner[2]] - a);
-    const Eigen::Matrix3d curvature = of_unit(at.gradient, at.hessian);
+    const Eigen::Matrix3d curvature = surface_frame(at.gradient, at.hessian).curvature;
     return at.gradient.dot(outward) < 0.0 ? Eigen::Matrix3d(-curvature) : curvature;
   }
 };
