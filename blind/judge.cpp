@@ -85,7 +85,9 @@ bool Judged::is_right() const {
   if (!truth.book_keeping.empty()) return finds_mistake();
   if (truth.effects.empty()) return answer.named.empty();
   if (is_true(answer.named)) return true;
-  return answer.named.empty() && !answer.ambiguity_set.empty() && is_true(answer.ambiguity_set.front().sets.front());
+  // What stands first under the verdict `none` was not found.
+  return answer.verdict == "ambiguous" && answer.named.empty() && !answer.ambiguity_set.empty() &&
+         is_true(answer.ambiguity_set.front().sets.front());
 }
 
 bool Judged::is_confidently_wrong() const {

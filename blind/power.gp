@@ -7,8 +7,8 @@ set output 'power.png'
 set logscale x
 set grid lc rgb 0xE4E4E4 lt 1
 set border 3; set tics nomirror
-set key bottom right
-set xrange [1:40]; set yrange [0:1.02]
+set key below maxrows 2
+set xrange [1:60]; set yrange [0:1.02]
 set xlabel 'strength s: norm of the whitened sensitivity after nuisances'
 set ylabel 'share of single effects, 95 % intervals'
 plot 'power.csv' using 's_mean':'detected':'detected_low95':'detected_high95' with yerrorlines lw 2 pt 7 lc rgb 0x0072B2 title 'detected', \

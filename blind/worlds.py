@@ -55,8 +55,7 @@ def strength(effect, errors):
 
 
 class Judged:
-    """An answer beside its truth, by the rules of blind/judge.cpp. One is stricter: what stands first under the verdict `none`
-    was not found."""
+    """An answer beside its truth, by the rules of blind/judge.cpp."""
 
     def __init__(self, truth, answer):
         self.kind, self.name = truth["class"], truth["set"]
@@ -145,7 +144,7 @@ def goals(judged):
         share("calls a null set unknown", of("null"), lambda one: one.unknown, 0.01, True),
         share("single effect first, s 5 to 8", strong("single", 5, 8), Judged.right, 0.90, False),
         share("single effect first, s ≥ 8", strong("single"), Judged.right, 0.97, False),
-        share("single effect first, or not told from what is", of("single"), lambda one: one.right() or one.first_holds_truth(), 0.99, False),
+        share("single effect in what is put first", of("single"), lambda one: one.right() or one.first_holds_truth(), 0.99, False),
         share("pair exact, both s ≥ 8", strong("pair"), Judged.right, 0.90, False),
         share("truth in the ambiguity set", of("single", "pair"), Judged.holds_truth, 0.99, False),
         share("unknown flagged", of("unknown"), lambda one: one.unknown, 0.97, False),
@@ -225,7 +224,7 @@ def by_hidden(pack, file):
     with open(file, encoding="utf-8") as table:
         rows = [row for row in csv.DictReader(table) if row["class"] != "null"]
     rows.sort(key=lambda row: (["single", "pair", "unknown"].index(row["class"]), row["hidden"]))
-    print(f"\n| {pack}: hidden | right | right, or not told from what is | s of the others | said in its place |\n|---|---|---|---|---|")
+    print(f"\n| {pack}: hidden | right | truth in what is put first | s of the others | said in its place |\n|---|---|---|---|---|")
     for (kind, hidden), group in itertools.groupby(rows, lambda row: (row["class"], row["hidden"])):
         group = list(group)
         missed = [row for row in group if row["not_told"] == "0"]

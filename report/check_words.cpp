@@ -100,7 +100,7 @@ constexpr std::array kTexts{
              "Another refractive index looks like fills that are off in proportion, and a sensor's errors like the "
              "cup's.",
              "Take two distances or more, 100 mm apart."},
-    LackText{Lack::laterals, "laterals", "All cups stand at one lateral.",
+    LackText{Lack::laterals, "laterals", "All cups have the same lateral position.",
              "What differs from left to right does not show.", "Take cups to the left and to the right as well."},
     LackText{Lack::sessions, "sessions", "There is one session.",
              "What changes when the sensor is set up anew does not show.", "Take a second session on another day."},
@@ -110,7 +110,7 @@ constexpr std::array kTexts{
              "Foam, scattering and absorption show in heights alone.",
              "Write the infrared image's values as the field intensity of the clouds."},
     LackText{Lack::stated_sigmas, "stated_sigmas",
-             "rig.json does not say how certain some values are; taken are {defaults}.",
+             "rig.json does not say how certain some values are. These standard deviations are used: {defaults}.",
              "If the rig is less certain than that, its errors are named as effects.",
              "State those of sensor and cup under sigma, the others as {beside}."},
 };

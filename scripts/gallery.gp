@@ -4,7 +4,7 @@ columns = ARGC - 1
 set terminal pngcairo size side + columns * tile, label + 4 * tile font "sans,10"
 set output ARG1
 width = side + columns * tile * 1.0; height = label + 4 * tile * 1.0
-array rows[4] = ["infrared image", "measured depth", "true depth", "difference, ±5 mm"]
+array rows[4] = ["infrared image", "measured depth", "apparent depth", "difference, ±5 mm"]
 array left[4] = [270, 910, 270, 910]   # of the cup, in each quarter of a preview
 array bottom[4] = [650, 650, 170, 170]
 set multiplot

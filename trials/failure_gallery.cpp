@@ -24,7 +24,7 @@ constexpr std::array<Kind, 5> kKinds{{{"merged", "The cup's segment holds other 
                                       {"false_cup", "Something else is taken for a cup"}}};
 
 constexpr const char* kHead = R"(<h1>What failed</h1>
-<p>Infrared image and measured depth; below them the true depth and the difference. Green: outlines of cups that were found, red: of those that
+<p>Infrared image and measured depth; below them the apparent depth (that of a device without errors) and the difference. Green: outlines of cups that were found, red: of those that
 were not; blue: circles of what was taken for a cup. <code>fathom capture NUMBER_KIND.json</code> shoots the scene again.</p>
 )";
 

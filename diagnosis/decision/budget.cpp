@@ -17,7 +17,7 @@ double of_model(const Covariance& covariance, const std::vector<Eigen::Index>& r
       if (component.level != ErrorLevel::model) continue;
       std::map<int, double> counts;
       for (const auto row : rows)
-        if (component.groups.of[row] >= 0) counts[component.groups.of[row]] += 1.0;
+        if (component.groups.of[row] >= 0) counts[component.groups.of[row]] += component.scale[row];
       for (const auto& [group, count] : counts) variance += component.variance * count * count;
     }
   return variance / std::pow(static_cast<double>(rows.size()), 2.0);

@@ -86,14 +86,14 @@ bool needs_unknown(const Shares& shares) {
   return shares.effects > kSure ? (1.0 - shares.unknown) * kAlarmOdds < shares.unknown : shares.unknown > 0.5;
 }
 
-Verdict verdict_of(const Case& c, const AmbiguitySet& set, const Shares& shares, bool is_excess, bool is_unknown,
-                   bool names_all, bool names_any) {
+Verdict verdict_of(const Case& c, const AmbiguitySet& set, const std::vector<int>& kinds, const Shares& shares,
+                   bool is_excess, bool is_unknown, bool names_all, bool names_any) {
   const Verdict with_unknown = names_any ? Verdict::named_and_unknown : Verdict::unknown;
   if (is_excess) return with_unknown;
   if (kAlarmOdds * shares.nothing > 1.0) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
   if (is_unknown) return with_unknown;
   const AmbiguityClass& first = set.classes.front();
-  const bool is_one = first.probability > kSure && first.options.size() == 1;
+  const bool is_one = first.probability > kSure && is_one_explanation(first, kinds, kSure);
   return names_all && is_one ? Verdict::named : Verdict::ambiguous;
 }
 
@@ -112,10 +112,12 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);
-  diagnosis.departures.excess = excess_of(evidence, c.covariance, rest.residual, rest.explained, settings.p_excess);
+  // What the likeliest explanation makes of sessions is no excess, even if others could stand for it.
+  const Rest likely = sure ? rest : rest_of(c, first_fit(c, posterior, set));
+  diagnosis.departures.excess = excess_of(evidence, c.covariance, likely.residual, likely.explained, settings.p_excess);
   const bool is_excess = !diagnosis.departures.excess.empty();
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
-  diagnosis.verdict = verdict_of(c, set, shares, is_excess, is_unknown, names_all, sure.has_value());
+  diagnosis.verdict = verdict_of(c, set, kinds, shares, is_excess, is_unknown, names_all, sure.has_value());
   if (is_excess) set.put_unknown_first();
   diagnosis.ambiguity_set = explanations(evidence, set);
   diagnosis.probability_of_none = shares.nothing;

@@ -25,7 +25,7 @@ std::vector<BySession> by_session(const std::vector<Observation>& observations) 
   std::vector<BySession> result;
   const Groups observables = group_by(observations, [](const Observation& o) {
     const bool is_stated = o.observable.ends_with("_mm") || o.observable.ends_with("_deg");
-    return o.only_names || !is_stated ? std::string() : o.observable;
+    return o.only_names || !is_stated || o.factors.within_mm ? std::string() : o.observable;
   });
   for (const auto& rows : observables.members()) {
     BySession own{observations[rows[0]].observable, {}, {}};
@@ -84,19 +84,16 @@ void add_trials(const std::vector<Observation>& observations, std::vector<Contra
                          true});
 }
 
-/// Pours and placements whose heights scatter beyond what is stated of them. The variance that was found comes on top
-/// of what the nuisances say.
-std::vector<Excess> scatter_beyond(const StatedScatter& stated, const ErrorBudget& errors) {
+/// Pours and placements whose heights scatter by more than they may.
+std::vector<Excess> scatter_beyond(const ErrorBudget& errors) {
   std::vector<Excess> result;
   for (const ObservableErrors& of : errors.observables)
     for (const VarianceComponent& component : of.components) {
       const auto& [variance, of_variance] = component.found;
-      const double most = stated_sd(component, stated);
-      if (component.level == ErrorLevel::session || std::isinf(most) || variance <= 0.0) continue;
-      const double dof = std::clamp(2.0 * std::pow(variance / of_variance, 2.0), 1.0, component.groups.count - 1.0);
-      const double p = chi_squared_tail(dof * (1.0 + variance / (most * most)), dof);
-      result.push_back({name_of(component.level), "", component.observable, "", std::sqrt(variance),
-                        0.5 * of_variance / std::sqrt(variance), p});
+      const bool has_repeats = component.level == ErrorLevel::placement || component.level == ErrorLevel::pour;
+      if (!has_repeats || std::isinf(component.most) || variance <= 0.0) continue;
+      result.push_back({name_of(component.coarsest), "", component.observable, "", std::sqrt(variance),
+                        0.5 * of_variance / std::sqrt(variance), component.p_beyond});
     }
   return result;
 }
@@ -116,7 +113,7 @@ std::vector<Excess> excess_of(const Evidence& evidence, const Covariance& covari
   std::vector<Contrast> contrasts;
   add_sessions(evidence.observations, contrasts);
   add_trials(evidence.observations, contrasts);
-  std::vector<Excess> looked_at = scatter_beyond(evidence.stated, covariance.errors);
+  std::vector<Excess> looked_at = scatter_beyond(covariance.errors);
   for (Excess& part : odd_parts(evidence.odd_desks)) looked_at.push_back(std::move(part));
   for (const Contrast& contrast : contrasts) {
     const Eigen::MatrixXd columns = without(covariance.whiten(contrast.columns), explained);

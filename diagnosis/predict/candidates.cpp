@@ -112,6 +112,12 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
                               : candidate_of(predictor, *effect, parts.liquid);
     if (parts.liquid.empty()) of_all = candidate;
     candidate.plausibility = plausibility_of(*effect, parts.liquid, liquids.size());
+    if (only.empty() && !parts.liquid.empty() && candidate.sensitivity == of_all->sensitivity) {
+      // It shows in no other liquid: of one or of all is the same.
+      candidates.all.back().plausibility += candidate.plausibility;
+      progress.step();
+      continue;
+    }
     const bool is_seen = moves_anything(candidate);
     if (!is_seen) candidate.sensitivity.setZero();
     if (!is_seen && parts.liquid.empty()) candidates.unseen.push_back(parts.id);

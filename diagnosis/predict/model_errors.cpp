@@ -190,7 +190,10 @@ std::vector<SharedError> model_errors(const std::vector<Observation>& observatio
   for (const ModelError& error : kModelErrors) {
     Groups groups = groups_of(error, observations);
     if (groups.count == 0) continue;
-    errors.push_back({std::string(error.observable), std::move(groups.of), error.sigma, error.of_pixels});
+    const bool is_by_condition =
+        error.shared_by == SharedBy::condition || error.shared_by == SharedBy::condition_region;
+    errors.push_back(
+        {std::string(error.observable), std::move(groups.of), error.sigma, error.of_pixels, is_by_condition});
   }
   for (SharedError& error : errors_of_views(observations, rig)) errors.push_back(std::move(error));
   return errors;

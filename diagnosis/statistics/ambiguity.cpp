@@ -35,6 +35,16 @@ void AmbiguitySet::put_unknown_first() {
                         [](const AmbiguityClass& one) { return one.options.front().has_unknown; });
 }
 
+bool is_one_explanation(const AmbiguityClass& one, const std::vector<int>& kinds, double sure) {
+  const Option& first = one.options.front();
+  double all = 0.0;
+  for (const Option& option : one.options) {
+    if (kinds_of(option, kinds) != kinds_of(first, kinds)) return false;
+    all += std::exp(option.log_posterior - first.log_posterior);
+  }
+  return 1.0 > sure * all;
+}
+
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta,
                            double doubt_of_unknown) {
   const double best = likeliest(options).log_posterior;

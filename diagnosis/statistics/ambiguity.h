@@ -31,6 +31,10 @@ struct AmbiguityClass {
   double alone = 0.0;                  ///< of the options
 };
 
+/// Whether no other effects are among the options, and the first has more than `sure` of their probability: in which
+/// liquids its effects are is known, too.
+bool is_one_explanation(const AmbiguityClass& one, const std::vector<int>& kinds, double sure);
+
 struct AmbiguitySet {
   std::vector<AmbiguityClass> classes;  ///< likeliest first
 

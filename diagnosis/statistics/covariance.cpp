@@ -30,12 +30,6 @@ Eigen::VectorXd numerical_variance(const Evidence& evidence) {
   return variance;
 }
 
-void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
-  for (const auto& members : component.groups.members())
-    for (const auto i : members)
-      for (const auto j : members) covariance(i, j) += component.variance * component.scale[i] * component.scale[j];
-}
-
 /// Most nuisances are of one pour or placement, and move few observations.
 Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& nuisances) { return nuisances.sparseView(); }
 
@@ -53,7 +47,7 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
   const Eigen::SparseMatrix<double> nuisance = sparse(covariance.nuisance);
   covariance.total = nuisance * nuisance.transpose();
   covariance.total.diagonal() += repeats + covariance.numerical_variance;
-  covariance.errors = estimate_errors(evidence, residual, covariance.total, repeats);
+  covariance.errors = estimate_errors(evidence, residual, covariance.total + expected_shared_errors(evidence), repeats);
   const auto add_all = [&](const std::vector<ObservableErrors>& observables) {
     for (const ObservableErrors& errors : observables)
       for (const VarianceComponent& component : errors.components) add(component, covariance.total);

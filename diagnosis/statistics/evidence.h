@@ -53,9 +53,10 @@ struct Nuisance {
 /// An error of the model that observations of one group have in common; how large it is, the data may say better.
 struct SharedError {
   std::string observable;
-  std::vector<int> group_of;  ///< of each observation, from 0; -1: of no group, or another observable
-  double sigma = 0.0;         ///< 1 σ, as large as it is thought to be
-  double of_pixels = 0.0;     ///< σ is that of a mean of so many pixels, and larger of fewer; 0: of all alike
+  std::vector<int> group_of;     ///< of each observation, from 0; -1: of no group, or another observable
+  double sigma = 0.0;            ///< 1 σ, as large as it is thought to be
+  double of_pixels = 0.0;        ///< σ is that of a mean of so many pixels, and larger of fewer; 0: of all alike
+  bool is_by_condition = false;  ///< each condition has an error of its own
 };
 
 struct Parameter {

@@ -34,7 +34,9 @@ Groups group_by(const std::vector<Observation>& observations,
 std::string session_key(const Observation& o) { return fmt::format("{}", o.factors.session); }
 
 std::string pour_of(const Factors& f) {
-  return f.liquid == "none" ? "" : fmt::format("{}/{} of {}, {} mm", f.session, f.pour, f.liquid, f.fill_mm);
+  return f.liquid == "none" || f.liquid == "empty"
+             ? ""
+             : fmt::format("{}/{} of {}, {} mm", f.session, f.pour, f.liquid, f.fill_mm);
 }
 
 std::string pour_key(const Observation& o) { return pour_of(o.factors); }
@@ -74,9 +76,14 @@ Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations) {
     const Factors& factors = observations[i].factors;
     x.row(i) << factors.fill_mm, factors.distance_mm, factors.lateral_mm;
   }
+  std::vector<Eigen::Index> cups;  // a bare desk is at no place
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (observations[i].factors.liquid != "none") cups.push_back(i);
+  if (cups.empty()) return Eigen::MatrixXd::Zero(n, 3);
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const double low = x.col(k).minCoeff(), range = x.col(k).maxCoeff() - low;
-    x.col(k) = (x.col(k).array() - low) / std::max(range, 1e-12);
+    const Eigen::VectorXd own = x(cups, k);
+    const double low = own.minCoeff(), range = own.maxCoeff() - low;
+    x.col(k) = ((x.col(k).array() - low) / std::max(range, 1e-12)).max(0.0).min(1.0);
   }
   return x;
 }

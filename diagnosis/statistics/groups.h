@@ -21,9 +21,10 @@ struct Groups {
 Groups group_by(const std::vector<Observation>& observations,
                 const std::function<std::string(const Observation&)>& key);
 
-/// One pour is one filling in one session, one placement one putting-down of it. Bare desks are never poured.
+/// One pour is one filling in one session, one placement one putting-down of it. Bare desks and empty cups are never
+/// poured.
 std::string session_key(const Observation& observation);
-/// Laboratories number pours anew for each filling, too. Empty for a bare desk.
+/// Laboratories number pours anew for each filling, too. Empty where nothing is poured.
 std::string pour_of(const Factors& factors);
 std::string pour_key(const Observation& observation);
 std::string placement_key(const Observation& observation);
@@ -36,7 +37,8 @@ std::string cell_key(const Observation& observation);
 const std::vector<std::string>& factor_names();
 std::string level(const Observation& observation, const std::string& factor);
 
-/// Fill, distance and lateral of every observation (n × 3), each from 0 to 1 over its range; 0 where all are the same.
+/// Fill, distance and lateral of every observation (n × 3), each from 0 to 1 over its range among cups; 0 where all are
+/// the same.
 Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations);
 
 /// Observables named so are heights: "height_mm", "desk_height_mm".

@@ -74,7 +74,7 @@ void add_drift(const std::vector<Observation>& observations, Span& means) {
   constexpr int kFewestFreePours = 8;
   add_parabola(observations, &Factors::stood_s, means);
   const Groups fillings = group_by(observations, [](const Observation& o) {
-    return o.factors.liquid == "none" ? "" : fmt::format("{}, {} mm", o.factors.liquid, o.factors.fill_mm);
+    return pour_key(o).empty() ? "" : fmt::format("{}, {} mm", o.factors.liquid, o.factors.fill_mm);
   });
   if (group_by(observations, pour_key).count - fillings.count >= kFewestFreePours)
     add_parabola(observations, &Factors::time_s, means);
@@ -158,7 +158,7 @@ MeanSpace mean_space(const Evidence& evidence, const std::vector<Eigen::Index>& 
     add_drift(observations, means);
     return {means.complement(), true};
   }
-  return {smooth_contrasts(observations, sensitivities_at(evidence, rows)), false};
+  return {smooth_contrasts(observations, common_directions(sensitivities_at(evidence, rows))), false};
 }
 
 CellMeans cell_means(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {

@@ -19,13 +19,18 @@ struct Slopes {
   Eigen::MatrixXd information;
 };
 
+Eigen::LLT<Eigen::MatrixXd> covariance_factor(const Eigen::MatrixXd& known, const std::vector<Eigen::MatrixXd>& shapes,
+                                              const Eigen::VectorXd& variances) {
+  Eigen::MatrixXd total = known;
+  for (Eigen::Index k = 0; k < variances.size(); ++k) total += variances[k] * shapes[k];
+  return Eigen::LLT<Eigen::MatrixXd>(total);
+}
+
 Slopes slopes(const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known,
               const std::vector<Eigen::MatrixXd>& shapes, const std::vector<VariancePrior>& priors,
               const Eigen::VectorXd& variances) {
   const Eigen::Index count = variances.size();
-  Eigen::MatrixXd V = known;
-  for (Eigen::Index k = 0; k < count; ++k) V += variances[k] * shapes[k];
-  const Eigen::LLT<Eigen::MatrixXd> factor(V);
+  const Eigen::LLT<Eigen::MatrixXd> factor = covariance_factor(known, shapes, variances);
   const Eigen::VectorXd solved = factor.solve(contrasts);
   std::vector<Eigen::MatrixXd> weighted(count);
   Slopes result{Eigen::VectorXd(count), Eigen::MatrixXd(count, count)};
@@ -47,6 +52,12 @@ Slopes slopes(const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known,
 }
 
 }  // namespace
+
+double restricted_log_likelihood(const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known,
+                                 const std::vector<Eigen::MatrixXd>& shapes, const Eigen::VectorXd& variances) {
+  const Eigen::LLT<Eigen::MatrixXd> factor = covariance_factor(known, shapes, variances);
+  return -factor.matrixLLT().diagonal().array().log().sum() - 0.5 * contrasts.dot(factor.solve(contrasts));
+}
 
 VarianceFit fit_variances(const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known,
                           const std::vector<Eigen::MatrixXd>& shapes, const std::vector<VariancePrior>& priors) {

@@ -16,6 +16,10 @@ struct VarianceFit {
   Eigen::MatrixXd covariance;  ///< of these estimates
 };
 
+/// Log of the restricted likelihood, up to a constant, of contrasts with the covariance known + Σ variance · shape.
+double restricted_log_likelihood(const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known,
+                                 const std::vector<Eigen::MatrixXd>& shapes, const Eigen::VectorXd& variances);
+
 /// Patterson & Thompson (1971), by Fisher scoring from `start`: `contrasts` of the data, which hold errors alone, have
 /// the covariance known + Σ variance · shape. Variances stay at 0 or above; those with a prior are modes of the
 /// posterior.

@@ -9,47 +9,43 @@ namespace fathom {
 
 namespace {
 
-/// Means of the cells (equal conditions, observable and region): nothing that follows tells a cell's members apart.
-struct Cells {
-  Eigen::MatrixXd means;  ///< cells × observations
-  std::vector<Eigen::Index> first;
+/// Means of one observable's cells (equal conditions and region), cells × observations.
+Eigen::MatrixXd means_of_cells(const std::vector<Observation>& observations, const std::string& observable) {
+  const std::vector<std::vector<Eigen::Index>> cells =
+      group_by(observations, [&](const Observation& o) {
+        return o.observable == observable ? cell_key(o) : std::string();
+      }).members();
+  Eigen::MatrixXd means =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(cells.size()), static_cast<Eigen::Index>(observations.size()));
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    for (const auto row : cells[cell])
+      means(static_cast<Eigen::Index>(cell), row) = 1.0 / static_cast<double>(cells[cell].size());
+  return means;
+}
 
-  explicit Cells(const Evidence& evidence, const std::vector<Eigen::Index>& rows) {
-    const Groups groups = group_by(evidence.observations, cell_key);
-    std::vector<std::vector<Eigen::Index>> members;
-    std::vector<int> number(groups.count, -1);
-    for (const auto row : rows) {
-      int& cell = number[groups.of[row]];
-      if (cell < 0) {
-        cell = static_cast<int>(members.size());
-        members.emplace_back();
-        first.push_back(row);
-      }
-      members[cell].push_back(row);
-    }
-    means = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(first.size()),
-                                  static_cast<Eigen::Index>(evidence.observations.size()));
-    for (std::size_t cell = 0; cell < members.size(); ++cell)
-      for (const auto row : members[cell])
-        means(static_cast<Eigen::Index>(cell), row) = 1.0 / static_cast<double>(members[cell].size());
-  }
-};
-
-/// How much of each group's error the rows have.
-Eigen::MatrixXd membership(const VarianceComponent& component, const std::vector<Eigen::Index>& rows) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), component.groups.count);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (const int group = component.groups.of[rows[i]]; group >= 0)
-      result(static_cast<Eigen::Index>(i), group) = component.scale[rows[i]];
-  return result;
+VarianceComponent component_of(const SharedError& shared, const std::vector<Observation>& observations) {
+  VarianceComponent component;
+  component.observable = shared.observable;
+  component.level = ErrorLevel::model;
+  component.variance = shared.sigma * shared.sigma;
+  component.groups = {shared.group_of, *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1};
+  component.scale = shared.of_pixels > 0.0 ? errors_of_means(observations, shared.of_pixels)
+                                           : Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
+  return component;
 }
 
 }  // namespace
 
+Eigen::MatrixXd expected_shared_errors(const Evidence& evidence) {
+  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  for (const SharedError& shared : evidence.shared_errors) add(component_of(shared, evidence.observations), covariance);
+  return covariance;
+}
+
 std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, const Eigen::VectorXd& residual,
                                                      const Eigen::MatrixXd& known) {
   std::vector<ObservableErrors> result;
-  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(residual.size());
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
     const std::string& observable = evidence.observations[rows[0]].observable;
@@ -57,29 +53,23 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     std::vector<VariancePrior> priors;
     for (const SharedError& shared : evidence.shared_errors) {
       if (shared.observable != observable) continue;
-      const int count = *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1;
-      errors.components.push_back(
-          {observable,
-           ErrorLevel::model,
-           0.0,
-           {shared.group_of, count},
-           shared.of_pixels > 0.0 ? errors_of_means(evidence.observations, shared.of_pixels) : alike});
+      errors.components.push_back(component_of(shared, evidence.observations));
       priors.push_back({shared.sigma * shared.sigma, kModelDof});
     }
     if (errors.components.empty()) continue;
-    const Cells cells(evidence, rows);
-    const Eigen::MatrixXd contrasts = free_of_candidates(evidence, cells.means);
+    const Eigen::MatrixXd means = means_of_cells(evidence.observations, observable);
+    const Eigen::MatrixXd weights = free_of_candidates(evidence, means).transpose() * means;
     std::vector<Eigen::MatrixXd> shapes;
     for (const VarianceComponent& component : errors.components) {
-      const Eigen::MatrixXd half = contrasts.transpose() * membership(component, cells.first);
+      const Eigen::MatrixXd half = weights * columns_of(component);
       shapes.push_back(half * half.transpose());
     }
-    const Eigen::MatrixXd weights = contrasts.transpose() * cells.means;
     const VarianceFit fit = fit_variances(weights * residual, weights * known * weights.transpose(), shapes, priors);
     Eigen::VectorXd shares(fit.variances.size());
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
       const double found = fit.variances[static_cast<Eigen::Index>(k)];
-      errors.components[k].variance = std::min(found, kMostOfModel * priors[k].variance);
+      errors.components[k].most = kMostOfModel * priors[k].variance;
+      errors.components[k].variance = std::min(found, errors.components[k].most);
       shares[static_cast<Eigen::Index>(k)] = found > 0.0 ? errors.components[k].variance / found : 1.0;
     }
     errors.covariance = shares.asDiagonal() * fit.covariance * shares.asDiagonal();

@@ -28,9 +28,10 @@ std::vector<VarianceComponent> candidates_of(const std::string& observable,
       if (o.observable != observable) return std::string();
       return level == ErrorLevel::observation ? std::to_string(row) : key(o);
     });
-    const bool is_known = !result.empty() && result.back().groups.count == groups.count;
-    if (groups.count >= 2 && !is_known)
-      result.push_back({observable, level, 0.0, std::move(groups),
+    if (!result.empty() && result.back().groups.count == groups.count)
+      result.back().coarsest = level;
+    else if (groups.count >= 2)
+      result.push_back({observable, level, level, 0.0, std::move(groups),
                         level == ErrorLevel::observation ? relative_errors(observations) : alike});
   };
   add(ErrorLevel::observation, cell_key);
@@ -50,37 +51,78 @@ Eigen::MatrixXd shared(const VarianceComponent& component, const std::vector<Eig
   return sums.transpose() * sums;
 }
 
+/// 1 σ that the laboratory states of what differs from one group of a level to the next.
+double stated_sd(ErrorLevel level, const std::string& observable, const StatedScatter& stated) {
+  const auto any_if_zero = [](double sd) { return sd > 0.0 ? sd : StatedScatter::kAny; };
+  if (level == ErrorLevel::session) {
+    if (observable.ends_with("_mm")) return stated.session_mm;
+    if (observable.ends_with("_deg")) return stated.session_deg;
+  } else if (observable == "height_mm") {
+    if (level == ErrorLevel::pour) return any_if_zero(stated.fill_mm);
+    if (level == ErrorLevel::placement) return any_if_zero(stated.placement_mm);
+  }
+  return StatedScatter::kAny;
+}
+
+/// What the laboratory states of all levels that have the component's groups, and how much a matcher's errors differ
+/// between conditions: a cup that was put down anew shows it other dots.
+double most_variance(const VarianceComponent& component, const Evidence& evidence) {
+  double most = 0.0;
+  for (int level = static_cast<int>(component.level); level <= static_cast<int>(component.coarsest); ++level)
+    most += std::pow(stated_sd(static_cast<ErrorLevel>(level), component.observable, evidence.stated), 2.0);
+  if (component.level != ErrorLevel::session)
+    for (const SharedError& error : evidence.shared_errors)
+      if (error.is_by_condition && error.observable == component.observable) most += error.sigma * error.sigma;
+  return most;
+}
+
 /// Whether two components can hardly be told apart: up to size, their covariances differ by less than a tenth.
 bool are_alike(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
   constexpr double kLeastCosine = 0.995;
   return one.cwiseProduct(other).sum() > kLeastCosine * one.norm() * other.norm();
 }
 
+/// p of a likelihood ratio: the k-th variance is at most so large, the others are what they are found to be then.
+double p_of_at_most(double most, std::size_t k, const VarianceFit& fit, const Eigen::VectorXd& contrasts,
+                    const Eigen::MatrixXd& known, const std::vector<Eigen::MatrixXd>& shapes) {
+  std::vector<Eigen::MatrixXd> others = shapes;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+  const Eigen::MatrixXd limited = known + most * shapes[k];
+  const VarianceFit beside = fit_variances(contrasts, limited, others, std::vector<VariancePrior>(others.size()));
+  const double ratio = restricted_log_likelihood(contrasts, known, shapes, fit.variances) -
+                       restricted_log_likelihood(contrasts, limited, others, beside.variances);
+  return 0.5 * std::erfc(std::sqrt(std::max(ratio, 0.0)));
+}
+
 /// Adds components that were estimated together, beside those that were before them.
 void fit(std::vector<VarianceComponent> components, const std::vector<Eigen::MatrixXd>& shapes,
-         const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known, ObservableErrors& errors) {
+         const Eigen::VectorXd& contrasts, const Eigen::MatrixXd& known, const Evidence& evidence,
+         ObservableErrors& errors) {
   const VarianceFit fit = fit_variances(contrasts, known, shapes, std::vector<VariancePrior>(shapes.size()));
-  for (std::size_t k = 0; k < components.size(); ++k)
-    components[k].variance = fit.variances[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    VarianceComponent& component = components[k];
+    component.variance = fit.variances[static_cast<Eigen::Index>(k)];
+    component.most = most_variance(component, evidence);
+    if (component.variance > component.most)
+      component.p_beyond = p_of_at_most(component.most, k, fit, contrasts, known, shapes);
+  }
   const Eigen::Index before = errors.covariance.rows(), more = fit.covariance.rows();
   errors.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(before + more, before + more));
   errors.covariance.bottomRightCorner(more, more) = fit.covariance;
   std::move(components.begin(), components.end(), std::back_inserter(errors.components));
 }
 
-/// Sessions, pours and placements differ by no more than the laboratory states: what is more is no error but a finding
-/// (excess.h).
-void limit_to_stated(const StatedScatter& stated, ObservableErrors& errors) {
+/// What is more than a component may be is no error but a finding (excess.h).
+void limit(ObservableErrors& errors) {
   for (std::size_t k = 0; k < errors.components.size(); ++k) {
     VarianceComponent& component = errors.components[k];
     const auto row = static_cast<Eigen::Index>(k);
     component.found = {component.variance, std::sqrt(errors.covariance(row, row))};
-    const double most = stated_sd(component, stated);
-    if (component.variance <= most * most) continue;
+    if (component.variance <= component.most) continue;
     errors.covariance.row(row).setZero();
     errors.covariance.col(row).setZero();
-    errors.covariance(row, row) = 2.0 / kStatedDof * std::pow(most, 4.0);  // no longer estimated
-    component.variance = most * most;
+    errors.covariance(row, row) = 2.0 / kStatedDof * std::pow(component.most, 2.0);  // no longer estimated
+    component.variance = component.most;
   }
 }
 
@@ -102,7 +144,7 @@ void fit_unrepeated(const Evidence& evidence, const std::vector<Eigen::Index>& r
     shapes.push_back(std::move(shape));
     return false;
   });
-  fit(std::move(components), shapes, contrasts.transpose() * residual(rows), covariance, errors);
+  fit(std::move(components), shapes, contrasts.transpose() * residual(rows), covariance, evidence, errors);
 }
 
 }  // namespace
@@ -123,16 +165,17 @@ std::string name_of(ErrorLevel level) {
   return {};
 }
 
-double stated_sd(const VarianceComponent& component, const StatedScatter& stated) {
-  const auto any_if_zero = [](double sd) { return sd > 0.0 ? sd : StatedScatter::kAny; };
-  if (component.level == ErrorLevel::session) {
-    if (component.observable.ends_with("_mm")) return stated.session_mm;
-    if (component.observable.ends_with("_deg")) return stated.session_deg;
-  } else if (component.observable == "height_mm") {
-    if (component.level == ErrorLevel::pour) return any_if_zero(stated.fill_mm);
-    if (component.level == ErrorLevel::placement) return any_if_zero(stated.placement_mm);
-  }
-  return StatedScatter::kAny;
+Eigen::MatrixXd columns_of(const VarianceComponent& component) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(component.scale.size(), component.groups.count);
+  for (Eigen::Index i = 0; i < columns.rows(); ++i)
+    if (const int group = component.groups.of[i]; group >= 0) columns(i, group) = component.scale[i];
+  return columns;
+}
+
+void add(const VarianceComponent& component, Eigen::MatrixXd& covariance) {
+  for (const auto& members : component.groups.members())
+    for (const auto i : members)
+      for (const auto j : members) covariance(i, j) += component.variance * component.scale[i] * component.scale[j];
 }
 
 Eigen::VectorXd errors_of_means(const std::vector<Observation>& observations, double pixels) {
@@ -215,10 +258,10 @@ ErrorBudget estimate_errors(const Evidence& evidence, const Eigen::VectorXd& res
     });
     ObservableErrors errors;
     fit(std::move(components), shapes, contrasts.transpose() * residual(rows),
-        contrasts.transpose() * known(rows, rows) * contrasts, errors);
+        contrasts.transpose() * known(rows, rows) * contrasts, evidence, errors);
     if (means.from_replicates && !unrepeated.empty())
       fit_unrepeated(evidence, rows, residual, known, std::move(unrepeated), errors);
-    limit_to_stated(evidence.stated, errors);
+    limit(errors);
     budget.observables.push_back(std::move(errors));
   }
   return budget;

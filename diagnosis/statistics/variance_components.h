@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,20 @@ std::string name_of(ErrorLevel level);
 struct VarianceComponent {
   std::string observable;
   ErrorLevel level = ErrorLevel::observation;
-  double variance = 0.0;  ///< in the observable's unit, squared
-  Groups groups;          ///< -1 for other observables
-  Eigen::VectorXd scale;  ///< of the error in each observation; 1 on the whole
-  Estimate found{};       ///< of the variance, which is taken to be no larger than the laboratory states
+  ErrorLevel coarsest = level;                            ///< of the levels that have the same groups
+  double variance = 0.0;                                  ///< in the observable's unit, squared
+  Groups groups;                                          ///< -1 for other observables
+  Eigen::VectorXd scale;                                  ///< of the error in each observation; 1 on the whole
+  double most = std::numeric_limits<double>::infinity();  ///< what the variance may be; more is a finding
+  Estimate found{};                                       ///< of the variance, before that
+  double p_beyond = 1.0;  ///< of scatter as large as is found where the variance is at most that
 };
 
-/// 1 σ that the laboratory states of a component's errors; of fills and places only where it is above 0.
-double stated_sd(const VarianceComponent& component, const StatedScatter& stated);
+/// Z (n × groups): how much of each group's error an observation has.
+Eigen::MatrixXd columns_of(const VarianceComponent& component);
+
+/// Adds variance · Z Zᵀ.
+void add(const VarianceComponent& component, Eigen::MatrixXd& covariance);
 
 /// Stated σ are estimates themselves: as if each came from 20 trials (they are wrong by a sixth).
 inline constexpr double kStatedDof = 20.0;

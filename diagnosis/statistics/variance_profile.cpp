@@ -28,15 +28,6 @@ double dof_of(const VarianceComponent& component, double variance, double of_var
   return of_variance > 0.0 ? std::min(2.0 * variance * variance / of_variance, kModelDof) : 0.0;
 }
 
-/// Columns of 1 σ of a component's groups.
-Eigen::MatrixXd columns_of(const VarianceComponent& component, double variance) {
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(component.scale.size(), component.groups.count);
-  for (Eigen::Index i = 0; i < columns.rows(); ++i)
-    if (const int group = component.groups.of[i]; group >= 0)
-      columns(i, group) = std::sqrt(variance) * component.scale[i];
-  return columns;
-}
-
 }  // namespace
 
 void VarianceProfile::add(const Eigen::MatrixXd& columns, double prior_dof, double most) {
@@ -57,10 +48,11 @@ VarianceProfile::VarianceProfile(const Covariance& covariance) {
       const auto row = static_cast<Eigen::Index>(k);
       const double of_variance = errors.covariance(row, row);
       const double variance = possible_variance(component, of_variance);
-      const Eigen::MatrixXd columns = covariance.whiten(columns_of(component, variance));
+      const Eigen::MatrixXd columns = covariance.whiten(std::sqrt(variance) * columns_of(component));
+      // An outlier that makes single observations' errors look large is weighed for itself.
       if (component.level != ErrorLevel::observation)
         add(columns, dof_of(component, variance, of_variance),
-            component.level == ErrorLevel::model ? kMostOfModel : kAny);
+            component.level == ErrorLevel::model ? component.most / variance : kAny);
       if (component.level == ErrorLevel::model || component.level == ErrorLevel::session) continue;
       singles.push_back(columns);
       count += columns.cols();

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """usage: tests/blind/smoke.py FATHOM
-Sixty blind measurements of a fixed seed, diagnosed by FATHOM: every one gets an answer, what must not happen happens no
+Twenty-four blind measurements of a fixed seed, diagnosed by FATHOM: every one gets an answer, what must not happen happens no
 more often than its bar allows, and what is plainly there is found. A share fails when its 95 % interval lies beyond the
 bar, which a diagnosis that just meets the bar does once in forty; the seed is fixed, so that it fails always or never."""
 import json
@@ -9,14 +9,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-SEED, SETS = 9001, 60
+SEED, SETS = 9001, 24
 # Of the goals those that a diagnosis keeps by being silent where it knows nothing.
 SILENCE = ["names something on a null set", "… whose noise is mis-scaled or heavy-tailed", "calls a null set unknown",
            "confidently wrong"]
 # What it loses by being silent always. The bars are the lower ends of the 95 % intervals that the 2,000 sets of seed 20007
-# gave, so that a diagnosis as good as that fails much less than once in forty. Too few are 6 of the 10 strong
-# single effects, 20 of the 27 sets with effects, 1 of the 5 unknown things, 1 of the 3 mistakes in the notes. One that is
-# silent always has none of any, and fails in all four.
+# gave, so that a diagnosis as good as that fails much less than once in forty. Too few are 0 of the 3 strong single effects,
+# 6 of the 11 sets with effects, 0 of the 3 unknown things. One that is silent always has none of any, and fails in all three.
 POWER = {"single effect first, s ≥ 8": 0.88, "truth in the ambiguity set": 0.89, "unknown flagged, escape ≥ 10": 0.75,
          "book-keeping found": 0.95}
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/rng.h"
+#include "diagnosis/statistics/groups.h"
 #include "tests/diagnosis/statistics/synthetic_campaign.h"
 
 namespace fathom {
@@ -28,7 +29,8 @@ inline CampaignDesign once_poured_design() {
 
 /// Heights of each pour are off together, by more than anybody stated.
 inline Evidence with_errors_of_pours(Evidence evidence, double sd, std::uint64_t seed) {
-  for (Observation& o : evidence.observations) o.value += sd * Rng(seed, o.factors.pour).normal();
+  for (Observation& o : evidence.observations)
+    if (!pour_key(o).empty()) o.value += sd * Rng(seed, o.factors.pour).normal();
   return evidence;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/dense.h"
 #include "core/rng.h"
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 
@@ -212,7 +213,7 @@ World::World(const CampaignDesign& design) {
       const Noise& noise = kNoise.at(a.observable);
       if (i == j) covariance_(i, j) += noise.repeat * noise.repeat / a.repeats + noise.observation * noise.observation;
       if (a.factors.placement == b.factors.placement) covariance_(i, j) += noise.placement * noise.placement;
-      if (a.factors.pour == b.factors.pour) covariance_(i, j) += noise.pour * noise.pour;
+      if (a.factors.pour == b.factors.pour && !pour_key(a).empty()) covariance_(i, j) += noise.pour * noise.pour;
       if (a.factors.session == b.factors.session) covariance_(i, j) += noise.session * noise.session;
     }
   factor_.compute(covariance_);
@@ -260,7 +261,7 @@ Evidence World::measure(const std::vector<EffectValue>& truth, const Errors& err
     const Noise& noise = kNoise.at(o.observable);
     o.value += noise.observation * draw() +
                common(o.observable + "/l" + std::to_string(o.factors.placement), noise.placement) +
-               common(o.observable + "/p" + std::to_string(o.factors.pour), noise.pour) +
+               common(o.observable + "/p" + std::to_string(o.factors.pour), pour_key(o).empty() ? 0.0 : noise.pour) +
                common(o.observable + "/s" + std::to_string(o.factors.session), noise.session);
     double mean = 0.0, squares = 0.0;
     for (int repeat = 0; repeat < o.repeats; ++repeat) {

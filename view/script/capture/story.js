@@ -43,7 +43,7 @@ function sentences(scene, pixel) {
     const error = scene.measuredDepth(pixel) - scene.apparentDepth(pixel);
     say("The device ", word("measured", `measured ${mm(scene.measured(pixel).z)} mm`),
         `: its depth is ${mm(Math.abs(error))} mm too ${error > 0 ? "far" : "near"} for rays that are straight. ` +
-        (scene.infrared ? "That is its own error: it compares blocks of the image with a few dots in each, in steps of 1/8 pixel."
+        (scene.infrared ? "That is its own error. It compares blocks of the image with a few dots in each, in steps of 1/8 pixel, and a unit has a smooth bias over the image."
                         : "This capture was made without images; what is left are the steps of its depths and the noise that was asked for."));
   } else {
     say("The device measured nothing here: the dots were too faint, or no block of the image fitted.");
@@ -92,7 +92,7 @@ function closeUp(scene, pixel) {
   const text = (px, py, said, attributes = {}) => svg.append(drawn("text", { x: px, y: py, ...attributes }, said));
   // Bold words that stay within the picture.
   const words = (px, py, said, attributes) => {
-    const long = 6.7 * said.length, starts = attributes["text-anchor"] === "end" ? px - long : px;
+    const long = 7.3 * said.length, starts = attributes["text-anchor"] === "end" ? px - long : px;
     const first = Math.min(Math.max(starts, left + 4), width - right - long);
     text(first, py, said, { ...attributes, "text-anchor": "start", "font-weight": 600 });
   };
@@ -132,7 +132,7 @@ function closeUp(scene, pixel) {
   const taken = [];
   const mark = (p, kind, said) => {
     svg.append(drawn("circle", { cx: x(along(p)), cy: y(p.z), r: 5, fill: COLOURS[kind], stroke: "#fff", "stroke-width": 1.5 }));
-    let py = y(p.z) + 4;
+    let py = y(p.z) + (kind === "true" ? 17 : 4);  // below the line of what is really there
     while (taken.some(other => Math.abs(other - py) < 14)) py += 2;
     taken.push(py);
     words(x(Math.max(0, along(p))) + 40, py, said, { fill: COLOURS[kind] });
