@@ -30,16 +30,15 @@ def truths():
                          "book_keeping": "", "left_out": "", "aliased": [], "escape": 0.0, "noise_scale": 1.0,
                          "heavy_tails": False, "strength_by_liquid": {}, **own})
 
-    add(15, "null")
-    add(3, "null", heavy_tails=True)
-    add(10, "single", effects=[hidden("fill_offset", 12.0)])
-    add(8, "single", effects=[hidden("sensor_height", 4.0)])
-    add(7, "pair", effects=[hidden("fill_offset", 5.0), hidden("sensor_height", 5.0)])
-    add(2, "triple", effects=[hidden("fill_offset", 5.0), hidden("sensor_height", 5.0), hidden("meniscus", 5.0)])
-    add(5, "unknown", effects=[hidden("baseline", 20.0)], left_out="baseline", escape=20.0)
-    add(4, "unknown", effects=[hidden("baseline", 5.0)], left_out="baseline", escape=5.0)
-    add(3, "aliased", effects=[hidden("fill_offset", 9.0)], aliased=["fill_offset", "cup_bottom_height"])
-    add(3, "book_keeping", book_keeping="label_swap")
+    add(7, "null")
+    add(3, "single", effects=[hidden("fill_offset", 12.0)])
+    add(4, "single", effects=[hidden("sensor_height", 4.0)])
+    add(3, "pair", effects=[hidden("fill_offset", 5.0), hidden("sensor_height", 5.0)])
+    add(1, "triple", effects=[hidden("fill_offset", 5.0), hidden("sensor_height", 5.0), hidden("meniscus", 5.0)])
+    add(3, "unknown", effects=[hidden("baseline", 20.0)], left_out="baseline", escape=20.0)
+    add(1, "unknown", effects=[hidden("baseline", 5.0)], left_out="baseline", escape=5.0)
+    add(1, "aliased", effects=[hidden("fill_offset", 9.0)], aliased=["fill_offset", "cup_bottom_height"])
+    add(1, "book_keeping", book_keeping="label_swap")
     assert len(sets) == smoke.SETS
     return sets
 
@@ -88,15 +87,16 @@ class Smoke(unittest.TestCase):
         self.assertEqual(scored(oracle), set())
 
     def test_who_is_silent_always_fails_wherever_something_is_there(self):
-        self.assertEqual(scored(lambda truth: report("insufficient")), set(smoke.POWER))
-        self.assertEqual(scored(lambda truth: report("none")), set(smoke.POWER))
+        all_but_one_set = set(smoke.POWER) - {"book-keeping found"}
+        self.assertEqual(scored(lambda truth: report("insufficient")), all_but_one_set)
+        self.assertEqual(scored(lambda truth: report("none")), all_but_one_set)
 
-    def test_who_misses_every_fourth_strong_effect_passes_and_every_second_fails(self):
+    def test_who_misses_every_third_single_effect_passes_and_all_of_them_fails(self):
         def misses(nth):
             return lambda truth: report("none") if truth["class"] == "single" and truth["set"] % nth == 0 else oracle(truth)
 
-        self.assertEqual(scored(misses(4)), set())
-        self.assertIn("single effect first, s ≥ 8", scored(misses(2)))
+        self.assertEqual(scored(misses(3)), set())
+        self.assertIn("single effect first, s ≥ 8", scored(misses(1)))
 
     def test_who_names_something_always_fails(self):
         failed = scored(lambda truth: report("named", ["fill_offset"]))
