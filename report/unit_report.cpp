@@ -37,7 +37,7 @@ void draw_unit(const std::filesystem::path& folder, const UnitCalibration& unit)
   write_table(folder / "unit_map.csv", table);
   draw(folder, "unit_map",
        fmt::format(R"(
-set title 'What this device’s disparities have too much'
+set title 'Bias of this device’s disparities'
 unset key; unset grid; set size ratio -1; set border 15 lc rgb ink
 set xrange [0:640]; set yrange [480:0]; set xlabel 'column [px]'; set ylabel 'row [px]'
 set cblabel 'measured − true [px]'; set palette defined (0 '#0072B2', 0.5 '#FFFFFF', 1 '#D55E00')

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""usage: blind/povray/make_pack.py --out PACK [--seed N] [--sets N] [--classes null:10,single:12,pair:3,unknown:5]
+"""usage: blind/povray/make_pack.py --out PACK [--seed N] [--sets N] [--classes null:10,single:12,pair:3,unknown:5] [--only NAME]
 Writes measurement directories of the world of POV-Ray and OpenCV (world.py), PACK/set_0000 and so on, and what is hidden in
 each to PACK.truth.jsonl. A set has 64 clouds (240 MB) and takes half a minute of one core. Same seed, same sets. Needs Debian's
 povray, python3-numpy, python3-scipy, python3-opencv."""
@@ -106,11 +106,12 @@ def scene_of(row, effects, nuisances, unit):
     return world.Scene(unit, sensor, cup, liquid)
 
 
-def write_set(folder, kind, seed, number):
-    """One measurement directory; returns its line of truth."""
+def write_set(folder, kind, seed, number, only=None):
+    """One measurement directory; returns its line of truth. `only`: the one thing of its class that may be hidden."""
     rng = np.random.default_rng([seed, number])
     rows = rows_of(rng)
     table = UNKNOWN if kind == "unknown" else EFFECTS
+    table = {name: ranges for name, ranges in table.items() if only in (None, name)}
     count = {"null": 0, "pair": 2}.get(kind, 1)
     effects = {name: drawn_parameters(table[name], rng) for name in rng.permutation(list(table))[:count].tolist()}
     sigma = RIG["sensor"]["sigma"] | RIG["cup"]["sigma"]
@@ -149,14 +150,18 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--sets", type=int, default=30)
     parser.add_argument("--classes", default=",".join(f"{name}:{weight}" for name, weight in CLASSES.items()))
+    parser.add_argument("--only", metavar="NAME", choices=[*EFFECTS, *UNKNOWN], help="hide nothing else")
     args = parser.parse_args()
     weights = {part.split(":")[0]: int((part.split(":") + ["1"])[1]) for part in args.classes.split(",")}
     if not set(weights) <= set(CLASSES):
         parser.error("classes are " + ", ".join(CLASSES))
+    own_class = "unknown" if args.only in UNKNOWN else "single"
+    if args.only and not set(weights) <= {"null", own_class}:
+        parser.error(f"--only {args.only} goes with --classes null, {own_class}")
     kinds = [name for name, weight in weights.items() for _ in range(weight)]
     for number in range(args.sets):
         folder = args.out / f"set_{number:04d}"
-        line = write_set(folder, kinds[number % len(kinds)], args.seed, number)
+        line = write_set(folder, kinds[number % len(kinds)], args.seed, number, args.only)
         with open(args.out.with_name(args.out.name + ".truth.jsonl"), "a") as truth:
             truth.write(json.dumps(line) + "\n")
 
