@@ -8,6 +8,8 @@ import xml.etree.ElementTree as xml
 
 def reason(test):
     """GoogleTest's line after "file:line: Skipped" or Python's after "skipped", else what ctest says."""
+    if test.get("status") == "disabled":
+        return "takes minutes, and runs only by hand (--gtest_also_run_disabled_tests)"
     output = test.findtext("system-out") or ""
     said = (re.search(r"^\S*:\d+: Skipped\n(.*)$", output, re.MULTILINE)
             or re.search(r"\.\.\. skipped ['\"](.*)['\"]$", output, re.MULTILINE))

@@ -17,6 +17,8 @@ add_test(python "/bin/sh" "-c" "echo \"test_rays (a.B) ... skipped 'POV-Ray is n
 set_tests_properties(python PROPERTIES SKIP_REGULAR_EXPRESSION "OK [(]skipped=")
 add_test(silent "/bin/sh" "-c" "exit 77")
 set_tests_properties(silent PROPERTIES SKIP_RETURN_CODE 77)
+add_test(long "/bin/sh" "-c" "true")
+set_tests_properties(long PROPERTIES DISABLED TRUE)
 """
 
 
@@ -31,11 +33,12 @@ class Skipped(unittest.TestCase):
 
     def test_each_is_counted_and_says_why(self):
         lines = self.summary(TESTS)
-        self.assertEqual(lines[0], "3 of 5 tests were skipped:")
+        self.assertEqual(lines[0], "4 of 6 tests were skipped:")
         self.assertIn("  scene.Povray: no povray in PATH", lines)
         self.assertIn("  python: POV-Ray is not installed", lines)
         self.assertTrue(any(line.startswith("  silent: ") for line in lines), lines)
-        self.assertEqual(len(lines), 4)
+        self.assertTrue(any(line.startswith("  long: takes minutes") for line in lines), lines)
+        self.assertEqual(len(lines), 5)
 
     def test_where_none_is_that_is_said(self):
         self.assertEqual(self.summary('add_test(passes "/bin/sh" "-c" "true")\n'), ["0 of 1 tests were skipped"])
@@ -63,7 +66,7 @@ class Skipped(unittest.TestCase):
             run = subprocess.run(["scripts/test"], cwd=root, check=False, capture_output=True, text=True)
             self.assertEqual(run.returncode, code, run.stdout + run.stderr)
             self.assertIn(closing, run.stdout)
-            self.assertEqual(run.stdout.splitlines()[-4], "3 of 5 tests were skipped:")
+            self.assertEqual(run.stdout.splitlines()[-5], "4 of 6 tests were skipped:")
 
 
 if __name__ == "__main__":
