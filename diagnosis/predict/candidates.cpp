@@ -56,6 +56,12 @@ bool moves_anything(const Candidate& candidate) {
   return most > kNothing;
 }
 
+/// Whether an effect in one liquid is all that the effect shows: of one liquid or of all is the same then.
+bool shows_only_there(const Candidate& of_liquid, Candidate of_all) {
+  of_all.sensitivity -= of_liquid.sensitivity;
+  return moves_anything(of_liquid) && !moves_anything(of_all);
+}
+
 /// Names of all that a campaign with these liquids could show.
 std::vector<std::string> names_of(const Effect& effect, const std::vector<std::string>& liquids) {
   std::vector<std::string> names{std::string(effect.id)};
@@ -112,8 +118,7 @@ Candidates candidates_of(const Predictor& predictor, const std::vector<std::stri
                               : candidate_of(predictor, *effect, parts.liquid);
     if (parts.liquid.empty()) of_all = candidate;
     candidate.plausibility = plausibility_of(*effect, parts.liquid, liquids.size());
-    if (only.empty() && !parts.liquid.empty() && candidate.sensitivity == of_all->sensitivity) {
-      // It shows in no other liquid: of one or of all is the same.
+    if (only.empty() && !parts.liquid.empty() && shows_only_there(candidate, *of_all)) {
       candidates.all.back().plausibility += candidate.plausibility;
       progress.step();
       continue;

@@ -90,6 +90,10 @@ TEST(Physics, RowsAreWhatTheModelPredicts) {
     EXPECT_EQ(candidate.sensitivity.rows(), evidence.predicted.size()) << candidate.effect;
   }
   EXPECT_TRUE(find(evidence, "fill_offset") && find(evidence, "fill_offset@milk"));
+  // What shows in water alone is no other effect there.
+  ASSERT_TRUE(find(evidence, "refractive_index"));
+  EXPECT_FALSE(find(evidence, "refractive_index@water"));
+  EXPECT_EQ(find(evidence, "refractive_index")->plausibility, 0.75);  // half for all liquids, a quarter for each of two
   for (const char* unseen : {"depth_wander", "absorption", "wall_albedo", "wall_multipath", "specular_ghost"})
     EXPECT_TRUE(std::count(physics.unseen.begin(), physics.unseen.end(), unseen)) << unseen;
 }

@@ -376,6 +376,21 @@ TEST(AmbiguitySet, WhatAddsToAnExplanationIsNoTwinOfIt) {
   EXPECT_EQ(set.classes[0].supersets.size(), 1U);
 }
 
+/// The same effect in other liquids leaves one explanation where these are much less likely, another effect never does.
+TEST(AmbiguitySet, IsOfOneExplanationWhereTheLiquidIsClear) {
+  const auto option = [](int effect, double log_posterior) {
+    return Option{{effect}, Eigen::VectorXd::Zero(1), false, log_posterior, Eigen::VectorXd::Constant(1, 9.0)};
+  };
+  const std::vector<int> kinds{0, 0, 1};
+  const auto is_one = [&](std::vector<Option> options) {
+    return is_one_explanation(ambiguity_set(std::move(options), kinds, 7.0).classes.front(), kinds, 0.95);
+  };
+  EXPECT_TRUE(is_one({option(0, 0.0)}));
+  EXPECT_TRUE(is_one({option(0, 0.0), option(1, -4.0)}));
+  EXPECT_FALSE(is_one({option(0, 0.0), option(1, -1.0)}));
+  EXPECT_FALSE(is_one({option(0, 0.0), option(2, -4.0)}));
+}
+
 TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationGoesWithIt) {
   const auto option = [](std::vector<int> effects, double log_posterior, double prediction) {
     const auto count = static_cast<Eigen::Index>(effects.size());
