@@ -14,6 +14,7 @@
 #include "diagnosis/predict/odd_pours.h"
 #include "diagnosis/predict/predictor.h"
 #include "diagnosis/predict/slope.h"
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {

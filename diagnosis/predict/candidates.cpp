@@ -9,6 +9,7 @@
 #include "core/progress.h"
 #include "diagnosis/predict/slope.h"
 #include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/groups.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {

@@ -1,11 +1,10 @@
 #include "diagnosis/predict/slope.h"
 
+#include "diagnosis/statistics/groups.h"
+
 #include <cmath>
 
 namespace fathom {
-
-bool has_cup(const Factors& factors) { return factors.liquid != "none"; }
-bool has_liquid(const Factors& factors) { return has_cup(factors) && factors.liquid != "empty"; }
 
 std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is) {
   std::vector<std::size_t> found;

@@ -5,9 +5,6 @@
 
 namespace fathom {
 
-bool has_cup(const Factors& factors);
-bool has_liquid(const Factors& factors);
-
 /// Indices of the predictor's conditions.
 std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is);
 

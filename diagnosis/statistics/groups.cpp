@@ -31,12 +31,13 @@ Groups group_by(const std::vector<Observation>& observations,
   return groups;
 }
 
+bool has_cup(const Factors& factors) { return factors.liquid != "none"; }
+bool has_liquid(const Factors& factors) { return has_cup(factors) && factors.liquid != "empty"; }
+
 std::string session_key(const Observation& o) { return fmt::format("{}", o.factors.session); }
 
 std::string pour_of(const Factors& f) {
-  return f.liquid == "none" || f.liquid == "empty"
-             ? ""
-             : fmt::format("{}/{} of {}, {} mm", f.session, f.pour, f.liquid, f.fill_mm);
+  return has_liquid(f) ? fmt::format("{}/{} of {}, {} mm", f.session, f.pour, f.liquid, f.fill_mm) : "";
 }
 
 std::string pour_key(const Observation& o) { return pour_of(o.factors); }
@@ -78,7 +79,7 @@ Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations) {
   }
   std::vector<Eigen::Index> cups;  // a bare desk is at no place
   for (Eigen::Index i = 0; i < n; ++i)
-    if (observations[i].factors.liquid != "none") cups.push_back(i);
+    if (has_cup(observations[i].factors)) cups.push_back(i);
   if (cups.empty()) return Eigen::MatrixXd::Zero(n, 3);
   for (Eigen::Index k = 0; k < 3; ++k) {
     const Eigen::VectorXd own = x(cups, k);

@@ -21,6 +21,10 @@ struct Groups {
 Groups group_by(const std::vector<Observation>& observations,
                 const std::function<std::string(const Observation&)>& key);
 
+/// Whether a cup stands on the desk, and whether something was poured into it.
+bool has_cup(const Factors& factors);
+bool has_liquid(const Factors& factors);
+
 /// One pour is one filling in one session, one placement one putting-down of it. Bare desks and empty cups are never
 /// poured.
 std::string session_key(const Observation& observation);
