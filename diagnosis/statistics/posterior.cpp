@@ -40,10 +40,20 @@ std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits
 }
 
 /// With the variances' uncertainty, which belongs to what a set leaves.
-Refit fitted(const Case& c, const Hypothesis& hypothesis) {
-  Refit fit = refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis);
+Refit with_variances(const Case& c, Refit fit) {
   fit.hypothesis.log_evidence += c.variances.log_factor(c.problem.residual - fit.prediction);
   return fit;
+}
+
+Refit fitted(const Case& c, const Hypothesis& hypothesis) {
+  return with_variances(c, refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
+}
+
+/// By the sensitivities alone. The screening gave it the leeway of one typical departure; this has that of its size.
+Refit unfitted(const Case& c, const Hypothesis& hypothesis) {
+  const Eigen::MatrixXd sensitivities = c.problem.sensitivities(Eigen::all, columns_of(c.problem, hypothesis.effects));
+  return with_variances(c, weighed(c.problem, hypothesis.effects, hypothesis.parameters,
+                                   sensitivities * hypothesis.parameters, sensitivities));
 }
 
 void sort_by_evidence(std::vector<Refit>& fits) {
@@ -195,11 +205,7 @@ void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, cons
   const std::vector<int> gone = vanished(c.problem, fits);
   for (const Hypothesis& h : hypotheses) {
     if (holds_any(h.effects, gone) || !known.insert(h.effects).second) continue;
-    Option option{h.effects, h.parameters, false, h.log_evidence,
-                  c.problem.sensitivities(Eigen::all, columns_of(c.problem, h.effects)) * h.parameters};
-    const Eigen::VectorXd rest = c.problem.residual - option.prediction;
-    option.log_posterior +=
-        c.variances.log_factor(rest - leeway_beside(c.problem, h.effects, h.parameters).share_in(rest));
+    Option option = option_of(unfitted(c, h));
     if (option.log_posterior > least) options.push_back(std::move(option));
   }
   for (const Refit& fit : fits)

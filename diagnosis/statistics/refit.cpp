@@ -14,6 +14,7 @@ constexpr int kSteps = 6;
 constexpr double kEnough = 1e-3;      // of the squared norm, in units of its error: nothing that a test would see
 constexpr double kDifference = 0.02;  // of a typical departure
 constexpr double kNoAnswer = 1e-6;    // errors per typical departure: rounding
+constexpr double kBent = 0.5;         // of a change, that the sensitivities say otherwise
 
 /// Of parameters in prior scales, none larger than the prior's.
 Eigen::VectorXd standard_errors(const Eigen::MatrixXd& jacobian) {
@@ -130,15 +131,25 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
       damping = std::max(4.0 * damping, 1e-2);
     }
   }
-  const Leeway there = leeway_beside(problem, start.effects, x);
-  const Eigen::MatrixXd slopes = there.whiten(jacobian);
+  // What is there as a whole as soon as there is any of it answers to its amount otherwise than to its beginning.
+  const Eigen::VectorXd straight = problem.sensitivities(Eigen::all, columns) * x;
+  if ((change - straight).norm() > kBent * change.norm())
+    jacobian = model.differences(x, change, jacobian, lower, upper);
+  Refit fit = weighed(problem, start.effects, x, std::move(change), std::move(jacobian));
+  fit.predictions = model.predictions();
+  return fit;
+}
+
+Refit weighed(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters,
+              Eigen::VectorXd change, Eigen::MatrixXd jacobian) {
+  const Leeway leeway = leeway_beside(problem, effects, parameters);
+  const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
   const Eigen::VectorXd rest = problem.residual - change;
-  const double gain = problem.residual.squaredNorm() - there.whiten(rest).squaredNorm() - there.log_det;
-  return {{start.effects, x, gain, log_evidence(problem, gain, start.effects, x, slopes.transpose() * slopes)},
-          change + there.share_in(rest),
-          change,
-          std::move(jacobian),
-          model.predictions()};
+  const double gain = problem.residual.squaredNorm() - leeway.whiten(rest).squaredNorm() - leeway.log_det;
+  return {{effects, parameters, gain, log_evidence(problem, gain, effects, parameters, slopes.transpose() * slopes)},
+          change + leeway.share_in(rest),
+          std::move(change),
+          std::move(jacobian)};
 }
 
 Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,

@@ -22,7 +22,11 @@ struct Refit {
 Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
             const Hypothesis& start);
 
-/// The same, with the Jacobian differenced at the solution: for intervals.
+/// What effects are worth that change the prediction by `change`, whitened, beside the leeway that they have there.
+Refit weighed(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters,
+              Eigen::VectorXd change, Eigen::MatrixXd jacobian);
+
+/// The same as `refit`, with the Jacobian differenced at the solution: for intervals.
 Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
                        const Problem& problem, Refit fit);
 

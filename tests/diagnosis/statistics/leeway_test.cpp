@@ -109,6 +109,18 @@ TEST(Leeway, KeepsATiltFromBeingCalledInForAFoamsHoles) {
   EXPECT_EQ(named(world, evidence), std::vector<std::string>{"foam"});
 }
 
+// What is left open, too, has only the leeway of its size: an effect of which next to nothing is there explains
+// nothing.
+TEST(Leeway, IsThatOfASizeForWhatWasNotRefitted) {
+  const World world(small_design());
+  Evidence evidence =
+      world.measure({world.at_strength("sensor_roll", 40.0, 1.0), world.at_strength("foam", 150.0, 1.0)}, {}, 11);
+  OwnErrors& leeway = evidence.candidates[world.candidate("surface_tilt")].leeway;
+  leeway.columns = holes(world, 5.0);
+  leeway.grow_from = 2.0;
+  EXPECT_EQ(named(world, evidence), (std::vector<std::string>{"sensor_roll", "foam"}));
+}
+
 TEST(Leeway, HidesNothingThatShowsElsewhere) {
   const World world(small_design());
   const Eigen::MatrixXd errors = holes(world, 0.5);
