@@ -172,6 +172,27 @@ void set_stood(std::vector<FrameRecord>& records) {
     if (!record.bare_desk()) record.stood_s = record.time_s - first_s.at(pour_of(record));
 }
 
+/// Nothing is put down on a bare desk that could be numbered: where its trials begin anew is another view, which gets a
+/// number of its own.
+void number_bare_desk_views(std::vector<FrameRecord>& records) {
+  std::vector<FrameRecord*> bare;
+  for (FrameRecord& record : records)
+    if (record.bare_desk()) bare.push_back(&record);
+  std::stable_sort(bare.begin(), bare.end(), [](const FrameRecord* a, const FrameRecord* b) {
+    return std::tie(a->session, a->time_s) < std::tie(b->session, b->time_s);
+  });
+  int view = 0;
+  std::optional<FrameRecord> before;
+  for (FrameRecord* record : bare) {
+    const bool is_same_session = before && before->session == record->session;
+    const bool is_same_view =
+        is_same_session && placement_of(*before) == placement_of(*record) && before->trial <= record->trial;
+    if (!is_same_view) view = is_same_session ? view + 1 : 0;
+    before = *record;
+    record->placement = view;
+  }
+}
+
 }  // namespace
 
 PlacementKey placement_of(const FrameRecord& f) {
@@ -196,6 +217,7 @@ std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& r
   }
   require_possible_heights(frames, records, rig);
   set_stood(records);
+  number_bare_desk_views(records);
   return records;
 }
 

@@ -34,11 +34,14 @@ bool has_whole_millimetres(const std::vector<Observation>& observations) {
 }
 
 /// What the placements of a session say of its desk: their mean, and as its error how they scatter. A single placement
-/// has none of its own; it has that of others.
+/// has none of its own; it has that of others. It is predicted for the placement in the middle of their times.
 Observation mean_over_placements(const std::vector<const Observation*>& placements) {
-  Mean values;
-  for (const Observation* placement : placements) values.add(placement->value);
-  Observation mean = *placements.front();
+  Mean values, times;
+  for (const Observation* placement : placements) values.add(placement->value), times.add(placement->factors.time_s);
+  const double middle_s = times.estimate().value;
+  Observation mean = **std::min_element(placements.begin(), placements.end(), [&](const auto* a, const auto* b) {
+    return std::abs(a->factors.time_s - middle_s) < std::abs(b->factors.time_s - middle_s);
+  });
   mean.repeats = static_cast<int>(placements.size());
   mean.repeat_sd = 0.0;
   if (mean.repeats > 1) {

@@ -30,9 +30,8 @@ std::vector<Condition> conditions_of(const LaboratoryRig& rig, const std::vector
   std::map<ConditionKey, Condition> found;
   for (std::size_t row = 0; row < observations.size(); ++row) {
     const Factors& f = observations[row].factors;
-    Condition& condition = found[key_of(f)];
-    condition.factors = f;
-    condition.rows.push_back(row);
+    // How a desk moves over a session is of no one time, and comes last: the time is that of what was seen at once.
+    found.try_emplace(key_of(f), Condition{f, {}, {}}).first->second.rows.push_back(row);
   }
   std::vector<Condition> conditions;
   for (auto& [key, condition] : found) {

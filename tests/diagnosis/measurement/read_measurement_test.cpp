@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "core/cloud_file.h"
@@ -308,6 +309,21 @@ TEST_F(MeasurementFolder, ABareDeskHasNoCup) {
   const Measurement measurement = read("0,0,0,0,0,0,none,0,0,0,clouds/a.pcd\n");
   EXPECT_TRUE(find(measurement, "desk_height_mm", "desk"));
   EXPECT_FALSE(find(measurement, "height_mm", "centre"));
+}
+
+/// Nothing is put down there that a laboratory would number.
+TEST_F(MeasurementFolder, ABareDeskIsViewedAnewWhereTrialsBeginAnew) {
+  double height = kHeight;
+  for (const char* cloud : {"clouds/c.pcd", "clouds/d.pcd", "clouds/e.pcd"})
+    write_pcd(folder / cloud, ideal_cloud(height += 0.0003, 0.020));
+  const Measurement measurement = read(
+      "0,0,0,0,0,10,none,0,0,0,clouds/a.pcd\n1,0,0,0,1,12,none,0,0,0,clouds/b.pcd\n"
+      "2,0,0,0,0,900,none,0,0,0,clouds/c.pcd\n3,0,0,0,1,902,none,0,0,0,clouds/d.pcd\n"
+      "4,1,0,5,0,10,none,0,0,0,clouds/e.pcd\n");
+  std::vector<std::tuple<int, int, double>> views;
+  for (const Observation& o : measurement.observations)
+    if (o.observable == "desk_height_mm") views.emplace_back(o.factors.session, o.factors.placement, o.factors.time_s);
+  EXPECT_EQ(views, (std::vector<std::tuple<int, int, double>>{{0, 0, 11.0}, {0, 1, 901.0}, {1, 0, 10.0}}));
 }
 
 TEST_F(MeasurementFolder, ATableOfHeightsWorksAndSaysWhatItLacks) {

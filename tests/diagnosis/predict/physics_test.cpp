@@ -54,6 +54,7 @@ TEST(Predictable, PlacementsAreRepeatsOfASessionsDesk) {
     o.observable = "desk_roll_deg";
     o.factors.liquid = "water";
     o.factors.placement = static_cast<int>(observations.size());
+    o.factors.time_s = 100.0 * o.factors.placement * o.factors.placement;
     o.value = roll;
     o.repeat_sd = 0.001;
     o.repeats = 5;
@@ -65,6 +66,7 @@ TEST(Predictable, PlacementsAreRepeatsOfASessionsDesk) {
   EXPECT_NEAR(kept[0].value, 0.2, 1e-12);
   EXPECT_NEAR(kept[0].repeat_sd, 0.1, 1e-12);  // of the placements, a hundred times that of a placement's trials
   EXPECT_EQ(kept[0].repeats, 3);
+  EXPECT_EQ(kept[0].factors.time_s, 400.0);  // of 100, 400 and 900 s nearest to their mean
   // One view of the bare desk cannot say how far another would be off. That of the others is taken for it.
   EXPECT_EQ(kept[1].repeats, 1);
   EXPECT_NEAR(repeat_variances(kept)[1], 0.01, 1e-12);
@@ -119,6 +121,16 @@ TEST(Predictor, SeesTimeWhereEffectsGoByItAndNowhereElse) {
     // All at once is as one by one.
     EXPECT_EQ(predictor.predict(change)[1], after) << effect.id;
   }
+}
+
+TEST(Predictor, SeesABareDeskAtItsTime) {
+  Observation desk{.observable = "desk_height_mm", .factors = {.liquid = "none", .region = "desk"}};
+  desk.factors.time_s = 2000.0;
+  // How the desk moves over the session has no time.
+  const Observation motion{.observable = "desk_wander_mm", .factors = {.liquid = "none", .region = "desk"}};
+  const Predictor predictor(paper_laboratory(), {desk, motion});
+  ASSERT_EQ(predictor.conditions().size(), 1u);
+  EXPECT_EQ(predictor.conditions()[0].factors.time_s, 2000.0);
 }
 
 TEST(Physics, NuisancesAreOnePerPourPlacementAndUncertainValue) {
