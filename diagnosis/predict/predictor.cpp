@@ -397,7 +397,8 @@ Change switch_on(const std::vector<EffectValue>& effects) {
     const Effect* effect = find_effect(name.id);
     if (!effect) throw Error("effects", unknown_name("effect", value.effect, effect_ids()));
     On on{effect, std::move(name.liquid), value.values};
-    on.values.resize(effect->parameters.size());
+    for (std::size_t i = on.values.size(); i < effect->parameters.size(); ++i)
+      on.values.push_back(effect->parameters[i].nominal);
     for (std::size_t i = 0; i < on.values.size(); ++i)
       on.values[i] = std::clamp(on.values[i], effect->parameters[i].lower, effect->parameters[i].upper);
     switched.push_back(std::move(on));

@@ -102,7 +102,9 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   Eigen::MatrixXd jacobian = problem.sensitivities(Eigen::all, columns);
   Eigen::VectorXd x = start.parameters, change = model.change(x);
   double value = objective(x, change), damping = 0.0;
-  bool is_differenced = false;
+  // What changes nothing where its effect is absent, such as the time of a warm-up, may change something here.
+  bool is_differenced = (jacobian.colwise().squaredNorm().array() == 0.0).any();
+  if (is_differenced) jacobian = model.differences(x, change, jacobian, lower, upper);
   for (int step = 0; step < kSteps; ++step) {
     const Leeway leeway = leeway_beside(problem, start.effects, x);
     const Eigen::MatrixXd slopes = leeway.whiten(jacobian);

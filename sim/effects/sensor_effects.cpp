@@ -138,15 +138,18 @@ std::vector<Effect> sensor_effects() {
        .sentence = "The sensor warms up: its disparities start too large and settle.",
        .more = "the sensor's disparities start {} larger than they settle, as it warms up",
        .less = "the sensor's disparities start {} smaller than they settle, as it warms up",
-       .parameters = {{"start_px", "too much when the session begins; falls to 1/e in 940 s", 0.0, 0.1, -3.0, 3.0},
+       .parameters = {{"start_px", "too much when the session begins", 0.0, 0.1, -3.0, 3.0},
                       {"settled_px", "too much ever after: the rig was measured before the sensor was warm", 0.0, 0.1,
-                       -3.0, 3.0}},
+                       -3.0, 3.0},
+                      {"settling_s", "time in which the first falls to 1/e, unless the rig's unit says it", 940.0,
+                       200.0, 200.0, 4000.0}},
        .citation = "one Kinect v1, measured: 8 mm in 6 min at 2.5 m; unit_model.h",
        .confounded = {"disparity_offset", "evaporation"},
        .discriminated_by = "the same bare desk at the beginning and the end of a session",
        .apply =
            [](Setup& setup, const EffectSetting& setting) {
              UnitModel& unit = setup.rig.sensor.unit;
+             if (unit.warm_up_px == 0.0) unit.warm_up_s = setting.values[2];
              unit.warm_up_px += setting.values[0];
              unit.on_for_s = setup.circumstances.time_s;
              unit.disparity_offset_px += setting.values[1];

@@ -12,6 +12,7 @@
 #include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/statistics/ambiguity.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/refit.h"
 #include "diagnosis/statistics/strata.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
@@ -244,6 +245,38 @@ TEST(Decide, SeesWhatGoesOnSinceAPourThoughNobodyKnowsOfIt) {
   const Diagnosis diagnosis = sunken(0.8);
   EXPECT_EQ(diagnosis.verdict, Verdict::unknown);
   EXPECT_EQ(diagnosis.departures.where.at(0).stratum, "time_since_pour=early");
+}
+
+/// A device that warms up: in what time it does makes no difference where it does not.
+TEST(Refit, FindsWhatHasNoSlopeWhereItsEffectIsAbsent) {
+  constexpr double kUsual_s = 940.0, kScale_s = 200.0;
+  const auto curve = [](double start, double settling_s, double time_s) {
+    return start * std::exp(-time_s / settling_s);
+  };
+  Evidence evidence;
+  for (int i = 0; i < 40; ++i) {
+    Observation& o = evidence.observations.emplace_back();
+    o.observable = "desk_height_mm";
+    o.factors.time_s = 50.0 * i;
+    o.value = curve(2.0, 600.0, o.factors.time_s);
+  }
+  evidence.predicted = Eigen::VectorXd::Zero(40);
+  evidence.numerical_sd = Eigen::VectorXd::Constant(40, 0.01);
+  Candidate warming{"warming", {{"start", 0.0, 1.0}, {"settling_s", kUsual_s, kScale_s}}, Eigen::MatrixXd::Zero(40, 2)};
+  for (int i = 0; i < 40; ++i) warming.sensitivity(i, 0) = curve(1.0, kUsual_s, 50.0 * i);
+  evidence.candidates = {warming};
+  const Predict predict = [&](const std::vector<EffectValue>& effects) {
+    Eigen::VectorXd values(40);
+    for (int i = 0; i < 40; ++i) values[i] = curve(effects[0].values[0], effects[0].values[1], 50.0 * i);
+    return values;
+  };
+  Covariance covariance;
+  covariance.total = 1e-4 * Eigen::MatrixXd::Identity(40, 40);
+  covariance.factor.compute(covariance.total);
+  const Problem problem = whitened_problem(evidence, covariance);
+  const Refit fit = refit(evidence, predict, covariance, problem, {{0}, Eigen::Vector2d(1.5, 0.0)});
+  EXPECT_NEAR(fit.hypothesis.parameters[0], 2.0, 0.02);
+  EXPECT_NEAR(kUsual_s + kScale_s * fit.hypothesis.parameters[1], 600.0, 10.0);
 }
 
 /// By its change near nothing it could never be as large, but it is as it grows.
