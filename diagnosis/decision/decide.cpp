@@ -90,7 +90,8 @@ Verdict verdict_of(const Case& c, const AmbiguitySet& set, const std::vector<int
                    bool is_excess, bool is_unknown, bool names_all, bool names_any) {
   const Verdict with_unknown = names_any ? Verdict::named_and_unknown : Verdict::unknown;
   if (is_excess) return with_unknown;
-  if (kAlarmOdds * shares.nothing > 1.0) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
+  if (shares.nothing > 1.0 - kSure) return c.evidence.mistakes.empty() ? Verdict::none : Verdict::named;
+  if (kAlarmOdds * shares.nothing > 1.0) return Verdict::ambiguous;
   if (is_unknown) return with_unknown;
   const AmbiguityClass& first = set.classes.front();
   const bool is_one = first.probability > kSure && is_one_explanation(first, kinds, kSure);

@@ -5,10 +5,10 @@
 
 namespace fathom {
 
-/// Probability at which one explanation is sure among others.
+/// Probability at which one explanation is sure among others, and at which it is sure that something is missing.
 inline constexpr double kSure = 0.95;
 /// Odds against a model in which nothing is missing turn up in one of as many campaigns at most where that is true
-/// (Markov's inequality): no more than one campaign in a hundred shall raise a false alarm.
+/// (Markov's inequality): no more than one campaign in a hundred shall name something, or call it unknown, falsely.
 inline constexpr double kAlarmOdds = 100.0;
 
 struct DecisionSettings {
