@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "core/units.h"
 #include "diagnosis/measurement/desk_bands.h"
 #include "diagnosis/measurement/variance_excess.h"
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {
@@ -36,9 +39,9 @@ struct Scatter {
 using Placements = std::vector<Scatter>;
 
 std::map<int, Placements> scatter_by_session(const std::vector<Observation>& observations) {
-  std::map<int, std::map<std::pair<int, double>, Scatter>> sessions;
+  std::map<int, std::map<std::pair<std::string, double>, Scatter>> sessions;
   for (const Observation& o : observations) {
-    Scatter& scatter = sessions[o.factors.session][{o.factors.placement, o.factors.time_s}];
+    Scatter& scatter = sessions[o.factors.session][{placement_key(o), o.factors.time_s}];
     scatter.time_s = o.factors.time_s;
     if (o.observable == "desk_height_mm") scatter.height_mm2 = o.repeat_sd * o.repeat_sd;
     if (o.observable == "desk_pitch_deg") scatter.pitch_deg2 = o.repeat_sd * o.repeat_sd;

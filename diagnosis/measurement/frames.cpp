@@ -172,12 +172,16 @@ void set_stood(std::vector<FrameRecord>& records) {
     if (!record.bare_desk()) record.stood_s = record.time_s - first_s.at(pour_of(record));
 }
 
-/// Nothing is put down on a bare desk that could be numbered: where its trials begin anew is another view, which gets a
-/// number of its own.
+/// Nothing is put down on a bare desk that could be numbered: where its trials begin anew, or a cup stood there
+/// meanwhile, is another view, which gets a number of its own.
 void number_bare_desk_views(std::vector<FrameRecord>& records) {
   std::vector<FrameRecord*> bare;
+  std::map<int, std::set<double>> times_of_cups;  // of each session
   for (FrameRecord& record : records)
-    if (record.bare_desk()) bare.push_back(&record);
+    if (record.bare_desk())
+      bare.push_back(&record);
+    else
+      times_of_cups[record.session].insert(record.time_s);
   std::stable_sort(bare.begin(), bare.end(), [](const FrameRecord* a, const FrameRecord* b) {
     return std::tie(a->session, a->time_s) < std::tie(b->session, b->time_s);
   });
@@ -185,8 +189,10 @@ void number_bare_desk_views(std::vector<FrameRecord>& records) {
   std::optional<FrameRecord> before;
   for (FrameRecord* record : bare) {
     const bool is_same_session = before && before->session == record->session;
-    const bool is_same_view =
-        is_same_session && placement_of(*before) == placement_of(*record) && before->trial <= record->trial;
+    const std::set<double>& cups = times_of_cups[record->session];
+    const bool is_same_view = is_same_session && placement_of(*before) == placement_of(*record) &&
+                              before->trial <= record->trial &&
+                              cups.upper_bound(before->time_s) == cups.lower_bound(record->time_s);
     if (!is_same_view) view = is_same_session ? view + 1 : 0;
     before = *record;
     record->placement = view;

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/predict/physics.h"
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {
@@ -22,13 +23,14 @@ struct Measured {
 
 Measured measured(const Measurement& measurement) {
   Measured found;
-  for (const FrameRecord& frame : measurement.frames) {
-    if (frame.bare_desk()) continue;
-    found.distances_mm.insert(mm_from_metres(frame.distance_m));
-    found.laterals_mm.insert(mm_from_metres(frame.lateral_m));
-    if (frame.liquid == "empty") continue;
-    found.liquids.insert(frame.liquid);
-    found.fills_mm[frame.liquid].insert(mm_from_metres(frame.fill_m));
+  for (const Observation& observation : measurement.observations) {
+    const Factors& f = observation.factors;
+    if (!has_cup(f) || f.within_mm) continue;
+    found.distances_mm.insert(f.distance_mm);
+    found.laterals_mm.insert(f.lateral_mm);
+    if (!has_liquid(f)) continue;
+    found.liquids.insert(f.liquid);
+    found.fills_mm[f.liquid].insert(f.fill_mm);
   }
   return found;
 }

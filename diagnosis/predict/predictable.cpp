@@ -42,6 +42,7 @@ Observation mean_over_placements(const std::vector<const Observation*>& placemen
   Observation mean = **std::min_element(placements.begin(), placements.end(), [&](const auto* a, const auto* b) {
     return std::abs(a->factors.time_s - middle_s) < std::abs(b->factors.time_s - middle_s);
   });
+  mean.is_of_session = true;
   mean.repeats = static_cast<int>(placements.size());
   mean.repeat_sd = 0.0;
   if (mean.repeats > 1) {

@@ -106,10 +106,7 @@ void Predictor::look_at_nominal() {
         std::make_shared<const SurrogateFrame>(surrogate_frame(setup(first), model_.laboratory, first.pixels));
     for (const std::size_t i : groups[group]) conditions_[i].nominal = frame;
   });
-  for (std::size_t i = 0; i < conditions_.size(); ++i) {
-    const auto [known, is_first] = desk_of_session_.try_emplace(conditions_[i].factors.session, i);
-    if (conditions_[i].factors.liquid == "none") known->second = i;
-  }
+  find_desks();
   if (unit_) nominal_bias_ = bias_by({});
   parallel_items(static_cast<int>(groups.size()), [&](int group) {
     const Condition& first = conditions_[groups[group].front()];
@@ -118,6 +115,14 @@ void Predictor::look_at_nominal() {
               : first.nominal->estimates;
     for (const std::size_t i : groups[group]) conditions_[i].nominal_estimates = estimates;
   });
+}
+
+void Predictor::find_desks() {
+  desk_of_session_.clear();
+  for (std::size_t i = 0; i < conditions_.size(); ++i) {
+    const auto [known, is_first] = desk_of_session_.try_emplace(conditions_[i].factors.session, i);
+    if (conditions_[i].factors.liquid == "none") known->second = i;
+  }
 }
 
 BiasField Predictor::bias_by(const Change& change) const {
@@ -282,6 +287,7 @@ void Predictor::keep(const std::vector<bool>& kept) {
   }
   std::erase_if(conditions_, [](const Condition& condition) { return condition.rows.empty(); });
   number_equals(conditions_);
+  find_desks();
 }
 
 std::optional<Predictor::Foreseen> Predictor::foresee(const Look& look, const Condition& condition,

@@ -101,6 +101,7 @@ class Predictor {
   };
 
   void look_at_nominal();
+  void find_desks();
   /// What would be learned of a unit without bias, were its desks as this change makes them.
   BiasField bias_by(const Change& change) const;
   /// Where some change leaves every session's desk as it is, nominal_bias_; else `own`.

@@ -39,7 +39,7 @@ void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, dou
       sum += sensed.weight * std::sin(std::numbers::pi * steps) / (std::numbers::pi * steps);
       weight += sensed.weight;
     }
-    return sum / weight;
+    return weight > 0.0 ? sum / weight : 0.0;
   };
   estimates.step_comb = strength(1) * direction_of(2.0 * std::numbers::pi * phase);
   for (std::size_t i = 0; i < kCoarseCombs.size(); ++i)
@@ -225,12 +225,32 @@ SampledPixels following(SampledPixels pixels, const LaboratoryRig& rig, const st
   return pixels;
 }
 
+/// What clouds show of a desk: its part of the image, clear of the cup, as estimate_frame() has it.
+std::vector<SensedPoint> seen_of(const std::vector<SensedPoint>& desk, const Plane& plane, const LaboratoryRig& rig,
+                                 const FrameView& looked_at) {
+  const Eigen::Isometry3d to_desk = desk_from_camera(plane);
+  const Eigen::Vector2d middle_px(0.5 * kImageWidth_px, 0.5 * kImageHeight_px);
+  std::vector<SensedPoint> seen;
+  for (const SensedPoint& sensed : desk) {
+    const Eigen::Vector3d point = sensed.point.cast<double>();
+    const Eigen::Vector2d pixel = rig.focal_px / point.z() * point.head<2>() + middle_px;
+    if (looked_at.desk_px && !looked_at.desk_px->contains(pixel)) continue;
+    if (looked_at.cup &&
+        ((to_desk * point).head<2>() - axis_from_camera(rig, *looked_at.cup)).norm() < clear_of_cup(rig))
+      continue;
+    seen.push_back(sensed);
+  }
+  return seen;
+}
+
 /// Of the frame's points, or what was made of them.
 std::optional<FrameEstimates> estimates_of(std::span<const SensedPoint> points, const SurrogateView& view,
                                            const std::vector<SensedPoint>& desk, const LaboratoryRig& rig,
                                            const FrameView& looked_at) {
   auto estimates = estimate_frame(points, rig, looked_at);
-  if (estimates) set_combs(desk, view.reader.rig().sensor, view.step_phase - DepthLaw().step_phase, *estimates);
+  if (estimates)
+    set_combs(seen_of(desk, estimates->desk, rig, looked_at), view.reader.rig().sensor,
+              view.step_phase - DepthLaw().step_phase, *estimates);
   return estimates;
 }
 

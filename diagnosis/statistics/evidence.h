@@ -38,6 +38,7 @@ struct Observation {
   double pixels = 0.0;            ///< of one repeat, that the value is the mean of; 0: of no certain number
   double rounding = 0.0;          ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
   std::vector<SeenPart> parts{};  ///< of the cup, of whose heights it is the sum; none: of something else, or not known
+  bool is_of_session = false;     ///< mean of a session's placements: liquid, fill and place are those of one of them
   bool has_all_errors = false;    ///< repeats are set-ups made anew, so that what they scatter by is all its error
   bool only_names =
       false;  ///< helps to name what makes a gap; that there is one, heights and shapes decide (decision/tiers.h)

@@ -47,6 +47,7 @@ std::string placement_key(const Observation& o) {
 }
 
 std::string condition_key(const Observation& o) {
+  if (o.is_of_session) return fmt::format("{}", has_cup(o.factors) ? "cups" : "bare desk");
   return fmt::format("{}, {} mm, at ({}, {}) mm", o.factors.liquid, o.factors.fill_mm, o.factors.lateral_mm,
                      o.factors.distance_mm);
 }
@@ -61,13 +62,13 @@ const std::vector<std::string>& factor_names() {
 }
 
 std::string level(const Observation& o, const std::string& factor) {
-  if (factor == "liquid") return o.factors.liquid;
   if (factor == "region") return o.factors.region;
-  if (o.factors.within_mm) return {};  // a mean over all of these
+  if (factor == "session" && !o.factors.within_mm) return session_key(o);
+  if (factor == "liquid") return o.is_of_session && has_cup(o.factors) ? std::string() : o.factors.liquid;
+  if (o.factors.within_mm || o.is_of_session) return {};  // a mean over all of these
   if (factor == "fill_mm") return fmt::format("{}", o.factors.fill_mm);
   if (factor == "distance_mm") return fmt::format("{}", o.factors.distance_mm);
-  if (factor == "lateral_mm") return fmt::format("{}", o.factors.lateral_mm);
-  return session_key(o);
+  return fmt::format("{}", o.factors.lateral_mm);
 }
 
 Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations) {
@@ -77,15 +78,16 @@ Eigen::MatrixXd places_in_ranges(const std::vector<Observation>& observations) {
     const Factors& factors = observations[i].factors;
     x.row(i) << factors.fill_mm, factors.distance_mm, factors.lateral_mm;
   }
-  std::vector<Eigen::Index> cups;  // a bare desk is at no place
+  std::vector<Eigen::Index> cups, others;  // a bare desk is at no place, nor is the mean of all placements
   for (Eigen::Index i = 0; i < n; ++i)
-    if (has_cup(observations[i].factors)) cups.push_back(i);
+    (has_cup(observations[i].factors) && !observations[i].is_of_session ? cups : others).push_back(i);
   if (cups.empty()) return Eigen::MatrixXd::Zero(n, 3);
   for (Eigen::Index k = 0; k < 3; ++k) {
     const Eigen::VectorXd own = x(cups, k);
     const double low = own.minCoeff(), range = own.maxCoeff() - low;
     x.col(k) = ((x.col(k).array() - low) / std::max(range, 1e-12)).max(0.0).min(1.0);
   }
+  x(others, Eigen::all).setZero();
   return x;
 }
 

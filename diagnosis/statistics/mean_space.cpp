@@ -130,7 +130,7 @@ Eigen::MatrixXd smooth_contrasts(const std::vector<Observation>& observations, c
                shapes.leftCols(1));
   add_products(indicators(places_of_fillings(observations)), shapes.leftCols(1));
   for (Eigen::Index k = 0; k < sensitivities.cols(); ++k) means.add(sensitivities.col(k));
-  add_products(indicators(group_by(observations, [](const Observation& o) { return o.factors.liquid; })), shapes);
+  add_products(indicators(group_by(observations, [](const Observation& o) { return level(o, "liquid"); })), shapes);
   add_products(indicators(group_by(observations,
                                    [](const Observation& o) { return o.factors.liquid + "/" + o.factors.region; })),
                shapes);

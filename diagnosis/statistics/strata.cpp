@@ -78,7 +78,7 @@ std::vector<Stratum> list_strata(const std::vector<Observation>& observations) {
     for (std::size_t i = 0; i < factors.size(); ++i)
       for (std::size_t j = i + 1; j < factors.size(); ++j)
         add(strata_by(observations, observable, {factors[i], factors[j]}), kFewestInPair);
-    if (observations[rows[0]].factors.within_mm) continue;
+    if (observations[rows[0]].factors.within_mm || observations[rows[0]].is_of_session) continue;
     // What drifts, and what evaporates.
     add(strata_by_time(observations, rows, "time", session_key, &Factors::time_s), kFewestInPair);
     add(strata_by_time(observations, rows, "time_since_pour", pour_key, &Factors::stood_s), kFewestInPair);

@@ -10,27 +10,23 @@
 namespace fathom {
 namespace {
 
-void add_observation(const char* observable, const char* region, Measurement& measurement) {
+void add_observation(const char* observable, const char* region, double distance_mm, Measurement& measurement) {
   Observation& observation = measurement.observations.emplace_back();
   observation.observable = observable;
-  observation.factors.region = region;
+  observation.factors = {.liquid = "milk", .fill_mm = 20.0, .distance_mm = distance_mm, .region = region};
 }
 
-/// Milk at two distances, 20 mm deep; to plan it is enough to know of what kinds its observations are.
+/// Milk at two distances, 20 mm deep; to plan it is enough to know of what kinds its observations are, and where.
 Measurement milk_alone() {
   Measurement measurement;
   measurement.rig = paper_laboratory();
   measurement.rig.liquids.erase("water");
-  for (const double distance_m : {0.2, 0.3}) {
-    FrameRecord& frame = measurement.frames.emplace_back();
-    frame.liquid = "milk";
-    frame.fill_m = 0.020;
-    frame.distance_m = distance_m;
+  for (const double distance_mm : {200.0, 300.0}) {
+    for (const char* region : {"centre", "near", "far", "left", "right"})
+      add_observation("height_mm", region, distance_mm, measurement);
+    for (const char* of_desk : {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg"})
+      add_observation(of_desk, "desk", distance_mm, measurement);
   }
-  for (const char* region : {"centre", "near", "far", "left", "right"})
-    add_observation("height_mm", region, measurement);
-  for (const char* of_desk : {"desk_height_mm", "desk_pitch_deg", "desk_roll_deg"})
-    add_observation(of_desk, "desk", measurement);
   return measurement;
 }
 
@@ -56,14 +52,14 @@ TEST(Designs, ClearWaterIsNewWhereItWasOnlyKnown) {
   Measurement measurement = milk_alone();
   measurement.rig.liquids["water"] = "water";
   EXPECT_NE(find(possible_plans(measurement), "clear water"), nullptr);
-  measurement.frames.back().liquid = "water";
+  measurement.observations.back().factors.liquid = "water";
   EXPECT_EQ(find(possible_plans(measurement), "clear water"), nullptr);
 }
 
 TEST(Designs, WhoWroteDownHeightsOnlyWillDoSoAgain) {
   Measurement measurement = milk_alone();
   measurement.observations.clear();
-  add_observation("height_mm", "interior", measurement);
+  for (const double distance_mm : {200.0, 300.0}) add_observation("height_mm", "interior", distance_mm, measurement);
   const std::vector<MeasurementPlan> plans = possible_plans(measurement);
   EXPECT_TRUE(design_of(*find(plans, "bare-desk"), measurement, {"sensor_height"}).evidence.observations.empty());
   const Design empty = design_of(*find(plans, "empty cup"), measurement, {"cup_bottom_height", "cup_placement"});
