@@ -114,7 +114,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const Refit& fit = sure ? *sure : posterior.fit_of({});
   const Rest rest = rest_of(c, fit);
   // What the likeliest explanation makes of sessions is no excess, even if others could stand for it.
-  const Rest likely = sure ? rest : rest_of(c, first_fit(c, posterior, set));
+  const Rest likely = rest_of(c, first_fit(c, posterior, set));
   diagnosis.departures.excess = excess_of(evidence, c.covariance, likely.residual, likely.explained, settings.p_excess);
   const bool is_excess = !diagnosis.departures.excess.empty();
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;

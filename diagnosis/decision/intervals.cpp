@@ -13,9 +13,15 @@ namespace fathom {
 
 namespace {
 
-/// Of the parameters in prior scales.
-Eigen::MatrixXd parameter_covariance(const Refit& fit) {
-  return pseudo_inverse(fit.jacobian.transpose() * fit.jacobian);
+/// Of the parameters in prior scales, beside the effects' leeway; what nothing shows is as uncertain as beforehand.
+Eigen::MatrixXd parameter_covariance(const Problem& problem, const Refit& fit) {
+  const Hypothesis& h = fit.hypothesis;
+  const Eigen::MatrixXd slopes = leeway_beside(problem, h.effects, h.parameters).whiten(fit.jacobian);
+  Eigen::MatrixXd precision = slopes.transpose() * slopes;
+  const Eigen::VectorXd prior = prior_precisions(h.parameters);
+  for (Eigen::Index k = 0; k < precision.rows(); ++k)
+    if (precision(k, k) < prior[k]) precision(k, k) += prior[k];
+  return pseudo_inverse(precision);
 }
 
 /// All that rounds to one value fits alike: a fit ends anywhere among them.
@@ -36,7 +42,7 @@ std::vector<std::vector<double>> covariance_in_units(const Case& c, const Refit&
   std::vector<double> scales;
   for (const int effect : fit.hypothesis.effects)
     for (const Parameter& parameter : c.evidence.candidates[effect].parameters) scales.push_back(parameter.prior_scale);
-  const Eigen::MatrixXd covariance = parameter_covariance(fit);
+  const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
   std::vector<std::vector<double>> rows(scales.size());
   for (std::size_t i = 0; i < scales.size(); ++i)
     for (std::size_t j = 0; j < scales.size(); ++j)
@@ -45,7 +51,7 @@ std::vector<std::vector<double>> covariance_in_units(const Case& c, const Refit&
 }
 
 std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
-  const Eigen::MatrixXd covariance = parameter_covariance(fit);
+  const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
   // Columns dual to the parameters: each estimate's weights on the data.
   const Eigen::VectorXd dofs = degrees_of_freedom(c.covariance, fit.jacobian * covariance);
   const std::vector<double> confirmed = confirmations(c.covariance, linear_fit(c.covariance, c.problem, fit),

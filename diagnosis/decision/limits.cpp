@@ -36,7 +36,7 @@ std::vector<UpperLimit> upper_limits(const Evidence& evidence, const Problem& pr
           information > kLeastInformation ? parameter.prior_scale * sensitivity.dot(residual) / information : 0.0;
       const double limit = std::abs(estimate) + 1.96 * sigma;
       const double threshold = std::sqrt(
-          std::max(0.0, 2.0 * (std::log(1.0 / (1.0 - kSure)) - problem.log_odds[effect]) + parameter_cost(information)));
+          std::max(0.0, 2.0 * (std::log(kAlarmOdds) - problem.log_odds[effect]) + parameter_cost(information)));
       if (!std::isfinite(limit)) continue;  // the observations do not see it at all
       result.push_back(
           {candidate.effect, parameter.name, widest > 0.0 ? std::min(limit, widest) : limit, threshold * sigma});

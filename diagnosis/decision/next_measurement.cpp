@@ -172,8 +172,8 @@ class Together {
   Together(const Old& old, const Design& design, const Eigen::MatrixXd& covariance, const Rival& holds)
       : added_(design.evidence), leeway_(holds.old_leeway) {
     std::map<std::string, Eigen::Index> of_old;
-    for (const Nuisance& nuisance : old.evidence.nuisances)
-      of_old.emplace(nuisance.name, static_cast<Eigen::Index>(of_old.size()));
+    for (std::size_t k = 0; k < old.evidence.nuisances.size(); ++k)
+      of_old.emplace(old.evidence.nuisances[k].name, static_cast<Eigen::Index>(k));
     const Eigen::Index added = added_.numerical_sd.size();
     Eigen::MatrixXd nuisances(added, static_cast<Eigen::Index>(added_.nuisances.size()));
     std::vector<Eigen::Index> shared_old, shared_new;

@@ -42,7 +42,7 @@ std::vector<Term> term_library(const std::vector<Observation>& observations) {
   const Groups observables =
       group_by(observations, [](const Observation& o) { return o.factors.within_mm ? std::string() : o.observable; });
   const Groups liquids = group_by(observations, [](const Observation& o) {
-    return o.factors.within_mm ? std::string() : o.observable + " of " + o.factors.liquid;
+    return o.factors.within_mm || o.is_of_session ? std::string() : o.observable + " of " + o.factors.liquid;
   });
   const auto add = [&](const std::string& where, const std::vector<Eigen::Index>& rows) {
     for (const Shape& shape : kShapes) {
@@ -89,14 +89,15 @@ std::string sparse_formula(const Evidence& evidence, const Covariance& covarianc
   return formula;
 }
 
-/// Of the parts of cups the one that departs by most errors.
-void set_part(const Evidence& evidence, const Covariance& covariance, UnknownShape& shape) {
+/// Of the parts of cups the one that departs by most errors; `departures` of all observations, what is named apart.
+void set_part(const Evidence& evidence, const Covariance& covariance, const Eigen::VectorXd& departures,
+              UnknownShape& shape) {
   double most = 0.0;
   for (std::size_t i = 0; i < evidence.observations.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const Observation& o = evidence.observations[i];
     if (!o.factors.within_mm) continue;
-    const double departure = o.value - evidence.predicted[row];
+    const double departure = departures[row];
     const double errors = std::abs(departure) / std::sqrt(covariance.total(row, row));
     if (errors <= most) continue;
     most = errors;
@@ -113,7 +114,7 @@ UnknownShape describe_unknown(const Evidence& evidence, const Covariance& covari
                               const Eigen::MatrixXd& explained) {
   UnknownShape shape;
   shape.formula = sparse_formula(evidence, covariance, residual, explained);
-  if (is_shape(discrepancy, residual)) set_part(evidence, covariance, shape);
+  if (is_shape(discrepancy, residual)) set_part(evidence, covariance, covariance.factor.matrixL() * residual, shape);
   const Eigen::MatrixXd sensitivities = without(problem.sensitivities, explained);
   const Eigen::VectorXd map = smooth_map(discrepancy, residual, explained);
   shape.map.assign(map.data(), map.data() + map.size());

@@ -1,5 +1,7 @@
 #include "diagnosis/statistics/discrepancy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +44,8 @@ std::vector<Place> places(const Evidence& evidence, const Eigen::VectorXd& error
   const auto& observations = evidence.observations;
   const Eigen::MatrixXd x = places_in_ranges(observations);
   const Groups observables = group_by(observations, [](const Observation& o) { return o.observable; });
-  const Groups liquids = group_by(observations, [](const Observation& o) { return "=" + o.factors.liquid; });
+  const Groups liquids =
+      group_by(observations, [](const Observation& o) { return fmt::format("={}", level(o, "liquid")); });
   const Groups regions = group_by(
       observations, [&](const Observation& o) { return o.factors.within_mm ? std::string() : "=" + o.factors.region; });
   std::vector<Place> result;
@@ -132,11 +135,6 @@ class Spectrum {
     return x - along_ * (less.asDiagonal() * (along_.transpose() * x));
   }
 
-  /// What the process's mean leaves of a residual.
-  Eigen::VectorXd errors(double size, const Eigen::VectorXd& residual) const {
-    return residual - along_ * (share(size) * (along_.transpose() * residual).array()).matrix();
-  }
-
   /// Of the columns, in the process's mean.
   Eigen::VectorXd weights(double size, const Eigen::VectorXd& residual) const {
     return to_weights_ * (share(size) * (along_.transpose() * residual).array()).matrix();
@@ -168,9 +166,8 @@ Beside beside(const Spectrum& columns, double size, const VarianceProfile& varia
     rest -= J * result.parameters;
   }
   result.gain = y.squaredNorm() - rest.squaredNorm();
-  const Eigen::VectorXd errors = columns.errors(size, effects.response - effects.jacobian * result.parameters);
   result.log_likelihood = 0.5 * (effects.response.squaredNorm() - y.squaredNorm()) - columns.half_log_det(size) +
-                          variances.log_factor(errors);
+                          variances.log_factor(rest);
   return result;
 }
 

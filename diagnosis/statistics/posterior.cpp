@@ -19,12 +19,21 @@ constexpr double kHopeless = 12.0;              // … unless that far below the
 constexpr std::size_t kRefitted = 8;            // … and refitted, likeliest first
 constexpr std::size_t kWithUnknown = 5;         // likeliest sets that are also considered beside a discrepancy
 
-/// Sets of effects by their sensitivities alone, likeliest first.
-std::vector<Hypothesis> screened(const Case& c) {
-  std::vector<Hypothesis> hypotheses = screen(c.problem, kKept);
-  std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence > b.log_evidence; });
-  return hypotheses;
+void sort_by_evidence(std::vector<Refit>& fits) {
+  std::stable_sort(fits.begin(), fits.end(), [](const Refit& a, const Refit& b) {
+    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
+  });
+}
+
+/// Sets of effects by their sensitivities alone, likeliest first, each with the leeway that it has at its size.
+std::vector<Refit> screened(const Case& c) {
+  std::vector<Refit> sets;
+  for (const Hypothesis& h : screen(c.problem, kKept)) {
+    const Eigen::MatrixXd sensitivities = c.problem.sensitivities(Eigen::all, columns_of(c.problem, h.effects));
+    sets.push_back(weighed(c.problem, h.effects, h.parameters, sensitivities * h.parameters, sensitivities));
+  }
+  sort_by_evidence(sets);
+  return sets;
 }
 
 /// Effects with leeway of which a refit left nothing: by their sensitivities alone they pass for what their leeway is.
@@ -41,25 +50,12 @@ std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits
 
 /// With the variances' uncertainty, which belongs to what a set leaves.
 Refit with_variances(const Case& c, Refit fit) {
-  fit.hypothesis.log_evidence += c.variances.log_factor(c.problem.residual - fit.prediction);
+  fit.hypothesis.log_evidence += c.variances.log_factor(fit.rest);
   return fit;
 }
 
 Refit fitted(const Case& c, const Hypothesis& hypothesis) {
   return with_variances(c, refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
-}
-
-/// By the sensitivities alone. The screening gave it the leeway of one typical departure; this has that of its size.
-Refit unfitted(const Case& c, const Hypothesis& hypothesis) {
-  const Eigen::MatrixXd sensitivities = c.problem.sensitivities(Eigen::all, columns_of(c.problem, hypothesis.effects));
-  return with_variances(c, weighed(c.problem, hypothesis.effects, hypothesis.parameters,
-                                   sensitivities * hypothesis.parameters, sensitivities));
-}
-
-void sort_by_evidence(std::vector<Refit>& fits) {
-  std::stable_sort(fits.begin(), fits.end(), [](const Refit& a, const Refit& b) {
-    return a.hypothesis.log_evidence > b.hypothesis.log_evidence;
-  });
 }
 
 bool is_known(const std::vector<Refit>& fits, const std::vector<int>& effects) {
@@ -123,20 +119,21 @@ void add_confusable(const Case& c, std::vector<Refit>& fits) {
 }
 
 /// The likeliest sets, the empty one among them.
-std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Hypothesis>& hypotheses) {
+std::vector<Refit> likeliest_fits(const Case& c, const std::vector<Refit>& sets) {
   Refit nothing;
   nothing.prediction = nothing.change = Eigen::VectorXd::Zero(c.problem.residual.size());
+  nothing.rest = c.problem.residual;
   nothing.jacobian.resize(c.problem.residual.size(), 0);
   nothing.hypothesis.log_evidence = c.variances.log_factor(c.problem.residual);
   std::vector<Refit> result{std::move(nothing)};
-  for (const Hypothesis& hypothesis : hypotheses) {
+  for (const Refit& set : sets) {
     const std::vector<int> gone = vanished(c.problem, result);
-    if (holds_any(hypothesis.effects, gone)) continue;
-    const auto best = std::find_if(hypotheses.begin(), hypotheses.end(),
-                                   [&](const Hypothesis& h) { return !holds_any(h.effects, gone); });
-    if (hypothesis.log_evidence > std::max(0.0, best->log_evidence) - kHopeless &&
+    if (holds_any(set.hypothesis.effects, gone)) continue;
+    const auto best = std::find_if(sets.begin(), sets.end(),
+                                   [&](const Refit& one) { return !holds_any(one.hypothesis.effects, gone); });
+    if (set.hypothesis.log_evidence > std::max(0.0, best->hypothesis.log_evidence) - kHopeless &&
         result.size() <= kRefitted + gone.size())
-      result.push_back(fitted(c, hypothesis));
+      result.push_back(fitted(c, set.hypothesis));
   }
   sort_by_evidence(result);
   add_without_one(c, result);
@@ -195,18 +192,37 @@ Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
   return option;
 }
 
+/// Of sets that were only screened, those that are neither fitted nor hold what a refit left nothing of.
+void keep_unfitted(const Problem& problem, const std::vector<Refit>& fits, std::vector<Refit>& sets) {
+  const std::vector<int> gone = vanished(problem, fits);
+  std::erase_if(sets, [&](const Refit& set) {
+    return holds_any(set.hypothesis.effects, gone) || is_known(fits, set.hypothesis.effects);
+  });
+}
+
+/// With the errors' uncertainty a set that was not worth a refit may be likelier than all that were. It is fitted as
+/// well: where sensitivities bend it may not be.
+void fit_likelier(const Case& c, std::vector<Refit>& sets, std::vector<Refit>& fits) {
+  for (Refit& set : sets) set = with_variances(c, std::move(set));
+  sort_by_evidence(sets);
+  for (std::size_t more = 0; more < kRefitted && !sets.empty(); ++more) {
+    if (sets.front().hypothesis.log_evidence <= fits.front().hypothesis.log_evidence) return;
+    fits.push_back(fitted(c, sets.front().hypothesis));
+    sort_by_evidence(fits);
+    keep_unfitted(c.problem, fits, sets);
+  }
+}
+
 /// What was not worth a refit may still not be excluded: sets by their sensitivities; then effects that do not show in
 /// these observations, or of which the likeliest amount is none, beside each fit.
-void add_unfitted(const Case& c, const std::vector<Hypothesis>& hypotheses, const std::vector<Refit>& fits,
+void add_unfitted(const Case& c, const std::vector<Refit>& sets, const std::vector<Refit>& fits,
                   std::vector<Option>& options) {
   const double least = likeliest(options).log_posterior - c.settings.delta;
   std::set<std::vector<int>> known;
   for (const Refit& fit : fits) known.insert(fit.hypothesis.effects);
-  const std::vector<int> gone = vanished(c.problem, fits);
-  for (const Hypothesis& h : hypotheses) {
-    if (holds_any(h.effects, gone) || !known.insert(h.effects).second) continue;
-    Option option = option_of(unfitted(c, h));
-    if (option.log_posterior > least) options.push_back(std::move(option));
+  for (const Refit& set : sets) {
+    if (set.hypothesis.log_evidence <= least || !known.insert(set.hypothesis.effects).second) continue;
+    options.push_back(option_of(set));
   }
   for (const Refit& fit : fits)
     for (int effect = 0; effect < static_cast<int>(c.problem.columns.size()); ++effect) {
@@ -224,8 +240,10 @@ const Refit& Posterior::fit_of(const std::vector<int>& effects) const {
 }
 
 Posterior posterior_of(const Case& c) {
-  const std::vector<Hypothesis> hypotheses = screened(c);
-  Posterior posterior{{}, likeliest_fits(c, hypotheses)};
+  std::vector<Refit> sets = screened(c);
+  Posterior posterior{{}, likeliest_fits(c, sets)};
+  keep_unfitted(c.problem, posterior.fits, sets);
+  fit_likelier(c, sets, posterior.fits);
   std::set<std::vector<int>> beside{{}};
   for (std::size_t k = 0; k < std::min(kWithUnknown, posterior.fits.size()); ++k)
     beside.insert(posterior.fits[k].hypothesis.effects);
@@ -234,11 +252,12 @@ Posterior posterior_of(const Case& c) {
     if (!is_known(posterior.fits, h.effects)) posterior.fits.push_back(fitted(c, h));
   }
   sort_by_evidence(posterior.fits);
+  keep_unfitted(c.problem, posterior.fits, sets);
   for (const Refit& fit : posterior.fits) {
     posterior.options.push_back(option_of(fit));
     if (beside.contains(fit.hypothesis.effects)) posterior.options.push_back(beside_unknown(c, fit));
   }
-  add_unfitted(c, hypotheses, posterior.fits, posterior.options);
+  add_unfitted(c, sets, posterior.fits, posterior.options);
   return posterior;
 }
 

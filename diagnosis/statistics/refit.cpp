@@ -49,25 +49,29 @@ class Model {
   Eigen::MatrixXd differences(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
                               const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& lower,
                               const Eigen::VectorXd& upper) {
-    const Eigen::VectorXd errors = standard_errors(jacobian);
     Eigen::MatrixXd slopes(change_at.size(), at.size());
-    for (Eigen::Index k = 0; k < at.size(); ++k) {
-      const double step = std::max(errors[k], kDifference);
-      double low = std::max(at[k] - step, lower[k]), high = std::min(at[k] + step, upper[k]);
-      if (low <= 0.0 && at[k] > 0.0) low = at[k];
-      if (high >= 0.0 && at[k] < 0.0) high = at[k];
-      if (low == high) (low > lower[k] ? low -= kDifference : high += kDifference);  // at a bound or next to absence
-      Eigen::VectorXd moved = at;
-      moved[k] = high;
-      slopes.col(k) = high == at[k] ? change_at : change(moved);
-      moved[k] = low;
-      slopes.col(k) -= low == at[k] ? change_at : change(moved);
-      slopes.col(k) /= high - low;
-      if (slopes.col(k).norm() > kNoAnswer || at[k] == 0.0) continue;
-      moved[k] = 0.0;
-      slopes.col(k) = (change_at - change(moved)) / at[k];
-    }
+    for (Eigen::Index k = 0; k < at.size(); ++k) slopes.col(k) = difference(k, at, change_at, jacobian, lower, upper);
     return slopes;
+  }
+
+  /// The same of one parameter.
+  Eigen::VectorXd difference(Eigen::Index k, const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
+                             const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& lower,
+                             const Eigen::VectorXd& upper) {
+    const double step = std::max(standard_errors(jacobian)[k], kDifference);
+    double low = std::max(at[k] - step, lower[k]), high = std::min(at[k] + step, upper[k]);
+    if (low <= 0.0 && at[k] > 0.0) low = at[k];
+    if (high >= 0.0 && at[k] < 0.0) high = at[k];
+    if (low == high) (low > lower[k] ? low -= kDifference : high += kDifference);  // at a bound or next to absence
+    Eigen::VectorXd moved = at;
+    moved[k] = high;
+    Eigen::VectorXd slope = high == at[k] ? change_at : change(moved);
+    moved[k] = low;
+    slope -= low == at[k] ? change_at : change(moved);
+    slope /= high - low;
+    if (slope.norm() > kNoAnswer || at[k] == 0.0) return slope;
+    moved[k] = 0.0;
+    return (change_at - change(moved)) / at[k];
   }
 
   int predictions() const { return predictions_; }
@@ -103,8 +107,9 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   Eigen::VectorXd x = start.parameters, change = model.change(x);
   double value = objective(x, change), damping = 0.0;
   // What changes nothing where its effect is absent, such as the time of a warm-up, may change something here.
-  bool is_differenced = (jacobian.colwise().squaredNorm().array() == 0.0).any();
-  if (is_differenced) jacobian = model.differences(x, change, jacobian, lower, upper);
+  for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
+    if (jacobian.col(k).isZero(0.0)) jacobian.col(k) = model.difference(k, x, change, jacobian, lower, upper);
+  bool is_differenced = false;
   for (int step = 0; step < kSteps; ++step) {
     const Leeway leeway = leeway_beside(problem, start.effects, x);
     const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
@@ -146,11 +151,12 @@ Refit weighed(const Problem& problem, const std::vector<int>& effects, const Eig
               Eigen::VectorXd change, Eigen::MatrixXd jacobian) {
   const Leeway leeway = leeway_beside(problem, effects, parameters);
   const Eigen::MatrixXd slopes = leeway.whiten(jacobian);
-  const Eigen::VectorXd rest = problem.residual - change;
-  const double gain = problem.residual.squaredNorm() - leeway.whiten(rest).squaredNorm() - leeway.log_det;
+  const Eigen::VectorXd left = problem.residual - change, rest = leeway.whiten(left);
+  const double gain = problem.residual.squaredNorm() - rest.squaredNorm() - leeway.log_det;
   return {{effects, parameters, gain, log_evidence(problem, gain, effects, parameters, slopes.transpose() * slopes)},
-          change + leeway.share_in(rest),
+          change + leeway.share_in(left),
           std::move(change),
+          rest,
           std::move(jacobian)};
 }
 

@@ -11,6 +11,7 @@ struct Refit {
   Hypothesis hypothesis;
   Eigen::VectorXd prediction;  ///< change against the nominal model, whitened, with the likeliest of its leeway
   Eigen::VectorXd change;      ///< the same without
+  Eigen::VectorXd rest;        ///< what it leaves, in units of errors and leeway together
   Eigen::MatrixXd jacobian;    ///< of it, whitened, n × parameters in prior scales
   int predictions = 0;         ///< asked for
 };
