@@ -312,18 +312,21 @@ TEST_F(MeasurementFolder, ABareDeskHasNoCup) {
 }
 
 /// Nothing is put down there that a laboratory would number.
-TEST_F(MeasurementFolder, ABareDeskIsViewedAnewWhereTrialsBeginAnew) {
+TEST_F(MeasurementFolder, ABareDeskIsViewedAnewWhereTrialsBeginAnewOrACupStoodThere) {
   double height = kHeight;
-  for (const char* cloud : {"clouds/c.pcd", "clouds/d.pcd", "clouds/e.pcd"})
-    write_pcd(folder / cloud, ideal_cloud(height += 0.0003, 0.020));
+  for (const char* cloud : {"clouds/c.pcd", "clouds/d.pcd", "clouds/e.pcd", "clouds/f.pcd"})
+    write_pcd(folder / cloud, ideal_cloud(height -= 0.0007, 0.020));
   const Measurement measurement = read(
       "0,0,0,0,0,10,none,0,0,0,clouds/a.pcd\n1,0,0,0,1,12,none,0,0,0,clouds/b.pcd\n"
       "2,0,0,0,0,900,none,0,0,0,clouds/c.pcd\n3,0,0,0,1,902,none,0,0,0,clouds/d.pcd\n"
-      "4,1,0,5,0,10,none,0,0,0,clouds/e.pcd\n");
+      "4,1,0,5,0,10,none,0,0,0,clouds/e.pcd\n5,1,0,0,0,20,empty,0,300,0,clouds/tilted.pcd\n"
+      "6,1,0,5,0,30,none,0,0,0,clouds/f.pcd\n");
   std::vector<std::tuple<int, int, double>> views;
   for (const Observation& o : measurement.observations)
-    if (o.observable == "desk_height_mm") views.emplace_back(o.factors.session, o.factors.placement, o.factors.time_s);
-  EXPECT_EQ(views, (std::vector<std::tuple<int, int, double>>{{0, 0, 11.0}, {0, 1, 901.0}, {1, 0, 10.0}}));
+    if (o.observable == "desk_height_mm" && o.factors.liquid == "none")
+      views.emplace_back(o.factors.session, o.factors.placement, o.factors.time_s);
+  EXPECT_EQ(views,
+            (std::vector<std::tuple<int, int, double>>{{0, 0, 11.0}, {0, 1, 901.0}, {1, 0, 10.0}, {1, 1, 30.0}}));
 }
 
 TEST_F(MeasurementFolder, ATableOfHeightsWorksAndSaysWhatItLacks) {

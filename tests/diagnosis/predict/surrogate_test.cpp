@@ -226,14 +226,14 @@ TEST(CupsOutline, TellsTheDesksScaleFromTheSensorsHeight) {
 }
 
 /// A shot of the bare desk, and what the surrogate makes of it.
-std::pair<FrameEstimates, FrameEstimates> desk_with(const Json& effects) {
+std::pair<FrameEstimates, FrameEstimates> desk_with(const Json& effects, const FrameView& view = {}) {
   const LaboratoryRig rig = paper_laboratory();
   Factors factors;
   factors.liquid = "none";
   const fathom::Setup setup = paper_setup(factors, effects);
   Camera camera(setup, CaptureMode::geometric, 1, 1);
-  const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, {});
-  const auto few = surrogate_frame(setup, rig, sample_pixels(rig, {})).estimates;
+  const auto frame = estimate_frame(points_of(camera.shoot(0).cloud), rig, view);
+  const auto few = surrogate_frame(setup, rig, sample_pixels(rig, view)).estimates;
   return {frame.value(), few.value()};
 }
 
@@ -250,6 +250,16 @@ TEST(Combs, TellHowCoarseTheStepsAre) {
     // Half a step has no code of its own: the device takes the farther one, half of 1/8 px or 0.7 mm behind.
     EXPECT_NEAR(mm_from_metres(few.desk.offset), mm_from_metres(frame.desk.offset), 0.1);
   }
+}
+
+/// Codes are wider far away, so that a comb is that of the part of the desk that clouds show.
+TEST(Combs, AreThoseOfTheDeskThatIsSeen) {
+  const Json law{{{"name", "depth_quantization"}, {"law", 1}}};
+  FrameView near;
+  near.desk_px = Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 280.0), Eigen::Vector2d(640.0, 480.0));
+  const auto [frame, few] = desk_with(law, near);
+  EXPECT_NEAR(few.step_comb.x(), frame.step_comb.x(), 0.1);
+  EXPECT_LT(few.step_comb.x(), desk_with(law).second.step_comb.x() - 0.1);
 }
 
 TEST(Combs, OfADeskInFewCodesAreNotLookedAt) {

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "core/rng.h"
+#include "diagnosis/statistics/box_least_squares.h"
 #include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/distributions.h"
+#include "diagnosis/statistics/strata.h"
 #include "tests/diagnosis/statistics/small_campaign.h"
 
 namespace fathom {
@@ -120,6 +122,29 @@ TEST(VarianceComponents, AreBlindToEffects) {
                    b = estimate_covariance(without, residual_of(without));
   // Equal conditions change equally: nothing but rounding may differ.
   EXPECT_LT((a.total - b.total).norm(), 1e-6 * b.total.norm());
+}
+
+/// A mean over a session's placements stands at the place of one of them, and is of no liquid, fill or place.
+TEST(Groups, SessionsAreRepeatsOfTheirMeans) {
+  std::vector<Observation> observations(2);
+  for (Observation& o : observations) o.observable = "desk_roll_deg", o.is_of_session = true;
+  observations[0].factors = {.session = 0, .liquid = "milk", .fill_mm = 20.0, .distance_mm = 300.0, .region = "desk"};
+  observations[1].factors = {.session = 1, .liquid = "water", .fill_mm = 30.0, .distance_mm = 200.0, .region = "desk"};
+  EXPECT_EQ(cell_key(observations[0]), cell_key(observations[1]));
+  std::vector<std::string> names;
+  for (const Stratum& stratum : list_strata(observations)) names.push_back(stratum.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"all", "session=0", "session=1"}));
+}
+
+TEST(BoxLeastSquares, FindsTheMinimumWhereFreeEffectsAreNearlyAlike) {
+  // Two effects 2 degrees apart, and a third that its bound holds.
+  Eigen::Matrix3d X;
+  X << 100.0, 100.0 * std::cos(0.035), 60.0, 0.0, 100.0 * std::sin(0.035), 50.0, 0.0, 0.0, 40.0;
+  const Eigen::Matrix3d G = X.transpose() * X;
+  const Eigen::Vector3d b = G * Eigen::Vector3d(2.0, -1.5, 1.5), lower(-10.0, -10.0, -1.0), upper(10.0, 10.0, 1.0);
+  const Eigen::Vector3d x = box_least_squares(G, b, lower, upper);
+  EXPECT_EQ(x[2], 1.0);
+  EXPECT_LT((b - G * x).head<2>().norm(), 1e-6 * b.norm());
 }
 
 TEST(Groups, KeepPoursApartThatAreNumberedAnewForEachFilling) {
