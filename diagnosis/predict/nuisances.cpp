@@ -30,12 +30,13 @@ Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& sensi
   return part;
 }
 
-/// A sensor that is set up anew stands and looks a little otherwise: by a part of what its pose is uncertain anyway.
+/// A sensor that is set up anew stands and looks a little otherwise: by a part of what its pose is uncertain anyway. A
+/// campaign of one session is set up once; what is planned beside it is not that session, but a later one.
 void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<Nuisance>& nuisances) {
   constexpr double kPart = 0.4;
   std::set<int> sessions;
   for (const Condition& condition : predictor.conditions()) sessions.insert(condition.factors.session);
-  if (sessions.size() < 2) return;
+  if (sessions == std::set{0}) return;
   for (const int session : sessions)
     nuisances.push_back(
         {fmt::format("{} of session {}", pose.name, session), kPart * pose.sigma,

@@ -81,6 +81,9 @@ TEST(Designs, TheBareDeskShowsTheSensorAndNoCup) {
   }
   ASSERT_EQ(design.evidence.candidates.size(), 1u);
   EXPECT_EQ(design.evidence.candidates[0].effect, "sensor_height");
+  // For it the sensor is set up anew, as it will not quite stand again.
+  EXPECT_TRUE(std::any_of(design.evidence.nuisances.begin(), design.evidence.nuisances.end(),
+                          [](const Nuisance& nuisance) { return nuisance.name == "height_mm of session 1"; }));
 }
 
 TEST(Designs, TheEmptyCupShowsItsBottomAndNoFill) {
