@@ -115,42 +115,6 @@ Eigen::MatrixXd shape_factor(const std::vector<Observation>& observations, const
   return factor;
 }
 
-/// The directions of some whitened columns, orthonormal, and the process's variance along each at size 1.
-class Spectrum {
- public:
-  explicit Spectrum(const Eigen::MatrixXd& columns) {
-    constexpr double kNothing = 1e-9;
-    const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
-    const Eigen::Index count = (eigen.values.array() > kNothing).count();
-    values_ = eigen.values.tail(count);
-    to_weights_ = eigen.vectors.rightCols(count) * values_.rsqrt().matrix().asDiagonal();
-    along_ = columns * to_weights_;
-  }
-
-  double half_log_det(double size) const { return 0.5 * (1.0 + size * size * values_).log().sum(); }
-
-  /// x in units of errors and process together.
-  Eigen::MatrixXd whiten(double size, const Eigen::MatrixXd& x) const {
-    const Eigen::VectorXd less = 1.0 - (1.0 + size * size * values_).rsqrt();
-    return x - along_ * (less.asDiagonal() * (along_.transpose() * x));
-  }
-
-  /// Of the columns, in the process's mean.
-  Eigen::VectorXd weights(double size, const Eigen::VectorXd& residual) const {
-    return to_weights_ * (share(size) * (along_.transpose() * residual).array()).matrix();
-  }
-
-  double log_evidence(double size, const Eigen::VectorXd& residual) const {
-    return 0.5 * (share(size) * (along_.transpose() * residual).array().square()).sum() - half_log_det(size);
-  }
-
- private:
-  Eigen::ArrayXd share(double size) const { return 1.0 - 1.0 / (1.0 + size * size * values_); }
-
-  Eigen::ArrayXd values_;
-  Eigen::MatrixXd along_, to_weights_;
-};
-
 /// A process of some columns at one size beside effects.
 Beside beside(const Spectrum& columns, double size, const VarianceProfile& variances, const LinearEffects& effects) {
   const Eigen::VectorXd y = columns.whiten(size, effects.response);
@@ -179,66 +143,86 @@ Eigen::ArrayXd squared_scores(const Eigen::MatrixXd& columns, const Eigen::Vecto
 
 /// The process and size that a residual makes likeliest.
 struct Likeliest {
-  std::optional<Spectrum> process;
-  bool is_shape = false;
+  const Spectrum* process = nullptr;
   double size = 0.0, log_evidence = -INFINITY;
 };
 
-Likeliest likeliest_of(const Discrepancy& discrepancy, const Eigen::VectorXd& residual) {
+/// `stratum`: of the clearest one, which has to live as long.
+Likeliest likeliest_of(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
+                       std::optional<Spectrum>& stratum) {
   Likeliest best;
-  const auto consider = [&](const Eigen::MatrixXd& columns, bool is_shape) {
-    Likeliest own{Spectrum(columns), is_shape};
+  const auto consider = [&](const Spectrum& process) {
     for (const double size : kSizes)
-      if (const double evidence = own.process->log_evidence(size, residual); evidence > own.log_evidence)
-        own.size = size, own.log_evidence = evidence;
-    if (own.log_evidence > best.log_evidence) best = std::move(own);
+      if (const double evidence = process.log_evidence(size, residual); evidence > best.log_evidence)
+        best = {&process, size, evidence};
   };
-  consider(discrepancy.smooth, false);
-  consider(discrepancy.apart, false);
-  if (discrepancy.shape.cols() > 0) consider(discrepancy.shape, true);
+  consider(discrepancy.of_smooth);
+  consider(discrepancy.of_apart);
+  if (!discrepancy.of_shape.is_empty()) consider(discrepancy.of_shape);
   const Eigen::ArrayXd z2 = squared_scores(discrepancy.strata, residual);
   if (Eigen::Index clearest = 0; z2.size() > 0) {
     z2.maxCoeff(&clearest);
-    consider(discrepancy.strata.col(clearest), false);
+    consider(stratum.emplace(discrepancy.strata.col(clearest)));
   }
   return best;
 }
 
 }  // namespace
 
+Spectrum::Spectrum(const Eigen::MatrixXd& columns) {
+  constexpr double kNothing = 1e-9;
+  const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
+  const Eigen::Index count = (eigen.values.array() > kNothing).count();
+  values_ = eigen.values.tail(count);
+  to_weights_ = eigen.vectors.rightCols(count) * values_.rsqrt().matrix().asDiagonal();
+  along_ = columns * to_weights_;
+}
+
+double Spectrum::half_log_det(double size) const { return 0.5 * (1.0 + size * size * values_).log().sum(); }
+
+Eigen::MatrixXd Spectrum::whiten(double size, const Eigen::MatrixXd& x) const {
+  const Eigen::VectorXd less = 1.0 - (1.0 + size * size * values_).rsqrt();
+  return x - along_ * (less.asDiagonal() * (along_.transpose() * x));
+}
+
+Eigen::VectorXd Spectrum::weights(double size, const Eigen::VectorXd& residual) const {
+  return to_weights_ * (share(size) * (along_.transpose() * residual).array()).matrix();
+}
+
+double Spectrum::log_evidence(double size, const Eigen::VectorXd& residual) const {
+  return 0.5 * (share(size) * (along_.transpose() * residual).array().square()).sum() - half_log_det(size);
+}
+
 Discrepancy discrepancy_of(const Evidence& evidence, const std::vector<Stratum>& strata, const Covariance& covariance) {
   const Eigen::VectorXd errors = typical_errors(evidence, covariance);
-  Discrepancy result;
   const std::vector<Place> at = places(evidence, errors);
-  result.smooth_factor = smooth_factor(at, 0.5);
-  result.smooth = covariance.whiten(result.smooth_factor);
-  result.apart = covariance.whiten(smooth_factor(at, 0.0));
-  result.shape = covariance.whiten(shape_factor(evidence.observations, errors));
+  Eigen::MatrixXd smooth_factor_of_all = smooth_factor(at, 0.5);
+  Eigen::MatrixXd smooth = covariance.whiten(smooth_factor_of_all);
   std::vector<const Stratum*> main;
   for (const Stratum& stratum : strata)
     if (stratum.is_main) main.push_back(&stratum);
-  result.strata = Eigen::MatrixXd::Zero(errors.size(), static_cast<Eigen::Index>(main.size()));
+  Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(errors.size(), static_cast<Eigen::Index>(main.size()));
   for (std::size_t k = 0; k < main.size(); ++k)
-    for (const Eigen::Index row : main[k]->rows) result.strata(row, static_cast<Eigen::Index>(k)) = errors[row];
-  result.strata = covariance.whiten(result.strata);
-  return result;
+    for (const Eigen::Index row : main[k]->rows) shifts(row, static_cast<Eigen::Index>(k)) = errors[row];
+  const Spectrum of_smooth(smooth), of_apart(covariance.whiten(smooth_factor(at, 0.0))),
+      of_shape(covariance.whiten(shape_factor(evidence.observations, errors)));
+  return {std::move(smooth_factor_of_all), std::move(smooth), of_smooth, of_apart, of_shape, covariance.whiten(shifts)};
 }
 
 std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, const VarianceProfile& variances,
                                               const LinearEffects& effects) {
   constexpr std::size_t kLikeliest = 6;  // strata: these stand for all
   std::vector<std::pair<double, Beside>> result;
-  const auto add = [&](const Eigen::MatrixXd& columns, double weight) {
-    const Spectrum spectrum(columns);
+  const auto add = [&](const Spectrum& spectrum, double weight) {
     for (const double size : kSizes)
       result.emplace_back(std::log(weight / static_cast<double>(kSizes.size())),
                           beside(spectrum, size, variances, effects));
   };
-  const bool has_shapes = discrepancy.shape.cols() > 0;
+  const bool has_shapes = !discrepancy.of_shape.is_empty();
   const double each = 0.5 / (has_shapes ? 3.0 : 2.0);
-  add(discrepancy.smooth, each);
-  add(discrepancy.apart, each);
-  if (has_shapes) add(discrepancy.shape, each);
+  add(discrepancy.of_smooth, each);
+  add(discrepancy.of_apart, each);
+  if (has_shapes) add(discrepancy.of_shape, each);
   const Eigen::MatrixXd explained = orthonormal(effects.jacobian);
   const Eigen::MatrixXd strata = without(discrepancy.strata, explained);
   const Eigen::ArrayXd z2 = squared_scores(strata, effects.response);
@@ -246,18 +230,21 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
   std::iota(order.begin(), order.end(), 0);
   const auto few = order.begin() + static_cast<std::ptrdiff_t>(std::min(kLikeliest, order.size()));
   std::partial_sort(order.begin(), few, order.end(), [&](auto a, auto b) { return z2[a] > z2[b]; });
-  for (auto k = order.begin(); k != few; ++k) add(discrepancy.strata.col(*k), 0.5 / static_cast<double>(order.size()));
+  for (auto k = order.begin(); k != few; ++k)
+    add(Spectrum(discrepancy.strata.col(*k)), 0.5 / static_cast<double>(order.size()));
   return result;
 }
 
 Eigen::MatrixXd whiten_beside(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,
                               const Eigen::MatrixXd& x) {
-  const Likeliest likeliest = likeliest_of(discrepancy, residual);
+  std::optional<Spectrum> stratum;
+  const Likeliest likeliest = likeliest_of(discrepancy, residual, stratum);
   return likeliest.process->whiten(likeliest.size, x);
 }
 
 bool is_shape(const Discrepancy& discrepancy, const Eigen::VectorXd& residual) {
-  return discrepancy.shape.cols() > 0 && likeliest_of(discrepancy, residual).is_shape;
+  std::optional<Spectrum> stratum;
+  return likeliest_of(discrepancy, residual, stratum).process == &discrepancy.of_shape;
 }
 
 Eigen::VectorXd smooth_map(const Discrepancy& discrepancy, const Eigen::VectorXd& residual,

@@ -12,6 +12,26 @@
 
 namespace fathom {
 
+/// A process by the directions of its whitened columns, orthonormal, and its variance along each at size 1.
+class Spectrum {
+ public:
+  explicit Spectrum(const Eigen::MatrixXd& columns);
+
+  bool is_empty() const { return values_.size() == 0; }
+  double half_log_det(double size) const;
+  /// x in units of errors and process together.
+  Eigen::MatrixXd whiten(double size, const Eigen::MatrixXd& x) const;
+  /// Of the columns, in the process's mean.
+  Eigen::VectorXd weights(double size, const Eigen::VectorXd& residual) const;
+  double log_evidence(double size, const Eigen::VectorXd& residual) const;
+
+ private:
+  Eigen::ArrayXd share(double size) const { return 1.0 - 1.0 / (1.0 + size * size * values_); }
+
+  Eigen::ArrayXd values_;
+  Eigen::MatrixXd along_, to_weights_;
+};
+
 /// Two kinds, equally likely beforehand: a smooth departure, over all places or within the cup, and a shift of one
 /// stratum (by one factor: a liquid, a session, a region, a time), each as likely as another. The size of either is a
 /// few errors of a single observation.
@@ -20,8 +40,9 @@ struct Discrepancy {
   /// the length of its range), half shared between liquids and between regions, apart for each observable. Pivoted
   /// Cholesky (Harbrecht, Peters & Schneider 2012), r ≤ 120. Not whitened, and whitened.
   Eigen::MatrixXd smooth_factor, smooth;
-  Eigen::MatrixXd apart;   ///< the same process with nothing shared, whitened
-  Eigen::MatrixXd shape;   ///< a smooth shape of what is seen in cups, whitened; no columns where none was measured
+  Spectrum of_smooth;      ///< of that
+  Spectrum of_apart;       ///< of the same process with nothing shared
+  Spectrum of_shape;       ///< of a smooth shape of what is seen in cups; empty where none was measured
   Eigen::MatrixXd strata;  ///< n × strata, of one error's size, whitened
 };
 
