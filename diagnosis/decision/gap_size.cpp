@@ -44,8 +44,8 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   for (std::size_t i = 0; i < c.evidence.observations.size(); ++i)
     if (c.evidence.observations[i].observable == compared) heights.push_back(static_cast<Eigen::Index>(i));
   if (heights.empty()) return;
-  const HeldOut other = held_out(c.covariance, linear_fit(c.covariance, c.problem, fit),
-                                 deal_folds(c.evidence.observations, c.settings.seed));
+  const HeldOut other =
+      held_out(linear_fit(c.covariance, c.problem, fit), deal_folds(c.evidence.observations, c.settings.seed));
   const auto train = [&](const std::vector<Eigen::Index>& rows) { return gap_size(before, after, errors, rows); };
   const auto held = [&](const std::vector<Eigen::Index>& rows) {
     return gap_size(before, other.residual, other.variance, rows);

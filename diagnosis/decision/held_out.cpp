@@ -35,7 +35,8 @@ struct Fold {
 // which has the covariance P_FF⁻¹; and x_Oᵀ Σ_OO⁻¹ y_O = xᵀ P y − (P x)_Fᵀ P_FF⁻¹ (P y)_F: one inverse serves all
 // folds.
 template <class Use>
-void for_each_fold(const Covariance& covariance, const LinearFit& fit, const std::vector<int>& folds, const Use& use) {
+void for_each_fold(const LinearFit& fit, const std::vector<int>& folds, const Use& use) {
+  const Covariance& covariance = fit.covariance;
   const Eigen::Index n = fit.residual.size(), parameters = fit.jacobian.cols();
   const Eigen::MatrixXd root = covariance.whiten(Eigen::MatrixXd::Identity(n, n));  // P = rootᵀ root
   Eigen::MatrixXd all(n, parameters + 1);
@@ -91,9 +92,9 @@ std::vector<int> deal_folds(const std::vector<Observation>& observations, std::u
   return folds;
 }
 
-HeldOut held_out(const Covariance& covariance, const LinearFit& fit, const std::vector<int>& folds) {
-  HeldOut result{Eigen::VectorXd::Zero(fit.residual.size()), covariance.total.diagonal()};
-  for_each_fold(covariance, fit, folds, [&](const Fold& fold) {
+HeldOut held_out(const LinearFit& fit, const std::vector<int>& folds) {
+  HeldOut result{Eigen::VectorXd::Zero(fit.residual.size()), fit.covariance.total.diagonal()};
+  for_each_fold(fit, folds, [&](const Fold& fold) {
     const Eigen::Index parameters = fold.parameters.size(), count = fold.left.rows();
     result.residual(fold.rows) = fold.left.col(parameters);
     if (parameters > 0) result.residual(fold.rows) -= fold.left.leftCols(parameters) * fold.parameters;
@@ -102,9 +103,9 @@ HeldOut held_out(const Covariance& covariance, const LinearFit& fit, const std::
   return result;
 }
 
-std::vector<double> confirmations(const Covariance& covariance, const LinearFit& fit, const std::vector<int>& folds) {
+std::vector<double> confirmations(const LinearFit& fit, const std::vector<int>& folds) {
   std::vector<double> sums(fit.columns.size(), 0.0), squares = sums, result;
-  for_each_fold(covariance, fit, folds, [&](const Fold& fold) {
+  for_each_fold(fit, folds, [&](const Fold& fold) {
     const Eigen::MatrixXd whitened = fold.precision.matrixU() * fold.left;
     for (std::size_t e = 0; e < sums.size(); ++e) {
       std::vector<Eigen::Index> others;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "diagnosis/decision/linear_fit.h"
-#include "diagnosis/statistics/covariance.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
@@ -23,10 +22,10 @@ struct HeldOut {
   Eigen::VectorXd residual;  ///< of every observation, by the fit of effects and nuisances to the other folds
   Eigen::VectorXd variance;  ///< that it should have
 };
-HeldOut held_out(const Covariance& covariance, const LinearFit& fit, const std::vector<int>& folds);
+HeldOut held_out(const LinearFit& fit, const std::vector<int>& folds);
 
 /// z of each effect in folds that had no part in finding its size: along what the other folds' fit predicts there, with
 /// the other effects free, all folds together by their information. Standard normal where the effect is absent.
-std::vector<double> confirmations(const Covariance& covariance, const LinearFit& fit, const std::vector<int>& folds);
+std::vector<double> confirmations(const LinearFit& fit, const std::vector<int>& folds);
 
 }  // namespace fathom

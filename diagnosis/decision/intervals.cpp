@@ -54,8 +54,8 @@ std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
   const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
   // Columns dual to the parameters: each estimate's weights on the data.
   const Eigen::VectorXd dofs = degrees_of_freedom(c.covariance, fit.jacobian * covariance);
-  const std::vector<double> confirmed = confirmations(c.covariance, linear_fit(c.covariance, c.problem, fit),
-                                                      deal_folds(c.evidence.observations, c.settings.seed));
+  const std::vector<double> confirmed =
+      confirmations(linear_fit(c.covariance, c.problem, fit), deal_folds(c.evidence.observations, c.settings.seed));
   std::vector<NamedEffect> result;
   Eigen::Index next = 0;
   for (const int effect : fit.hypothesis.effects) {

@@ -18,8 +18,7 @@ bool tell_all(const LinearFit& fit, const std::vector<Eigen::Index>& rows) {
 
 }  // namespace
 
-std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const Covariance& covariance,
-                                          const LinearFit& fit) {
+std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const LinearFit& fit) {
   std::vector<LeftOutLevel> result;
   const auto count = static_cast<Eigen::Index>(evidence.observations.size());
   const Eigen::VectorXd before = measured_minus_predicted(evidence);
@@ -39,7 +38,7 @@ std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const Covari
         else
           others.push_back(row);
       if (members.size() < 2 || !tell_all(fit, others)) continue;
-      const HeldOut other = held_out(covariance, fit, folds);
+      const HeldOut other = held_out(fit, folds);
       result.push_back({factor + "=" + name, gap_size(before, other.residual, other.variance, rows)});
     }
   }

@@ -17,6 +17,6 @@ struct LeftOutLevel {
 };
 
 /// Each liquid and each distance in turn, where the effects are seen at the others as well.
-std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const Covariance& covariance, const LinearFit& fit);
+std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const LinearFit& fit);
 
 }  // namespace fathom

@@ -7,9 +7,15 @@ LinearFit linear_fit(const Covariance& covariance, const Problem& problem, const
     if (x.cols() == 0) return x;  // Eigen's product would look at its first number
     return covariance.factor.matrixL() * x;
   };
-  LinearFit linear;
+  LinearFit linear{covariance, {}, {}, {}, {}};
+  const Leeway leeway = leeway_beside(problem, fit.hypothesis.effects, fit.hypothesis.parameters);
+  if (leeway.along.cols() > 0) {
+    const Eigen::MatrixXd own = unwhitened(leeway.along * leeway.variance.cwiseSqrt().asDiagonal());
+    linear.covariance.total += own * own.transpose();
+    linear.covariance.factor.compute(linear.covariance.total);
+  }
   linear.jacobian = unwhitened(fit.jacobian);
-  linear.residual = unwhitened(problem.residual - fit.prediction + fit.jacobian * fit.hypothesis.parameters);
+  linear.residual = unwhitened(problem.residual - fit.change + fit.jacobian * fit.hypothesis.parameters);
   linear.prior = prior_precisions(fit.hypothesis.parameters);
   Eigen::Index first = 0;
   for (const int effect : fit.hypothesis.effects) {

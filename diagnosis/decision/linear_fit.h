@@ -10,6 +10,7 @@ namespace fathom {
 
 /// Observations linearised at the fit, not whitened: residual ≈ jacobian · parameters + errors.
 struct LinearFit {
+  Covariance covariance;  ///< of errors, and of what comes with the effects and nobody predicts
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;                        ///< per prior scale
   Eigen::VectorXd prior;                           ///< precision of each parameter

@@ -24,16 +24,11 @@ std::vector<LeftOutLevel> left_out(const RayTracedEvidence& traced, const Diagno
   if (effects.empty()) return {};
   const Covariance covariance = estimate_covariance(traced.evidence, measured_minus_predicted(traced.evidence));
   const Problem problem = whitened_problem(traced.evidence, covariance);
-  Refit found;
-  found.hypothesis.parameters = parameters_of(traced.evidence, effects, values);
-  found.change = covariance.whiten(traced.predict(values) - traced.evidence.predicted);
-  found.prediction =
-      found.change +
-      leeway_beside(problem, effects, found.hypothesis.parameters).share_in(problem.residual - found.change);
-  found.jacobian = problem.sensitivities(Eigen::all, columns_of(problem, effects));
-  found.hypothesis.effects = std::move(effects);
+  Refit found = weighed(problem, effects, parameters_of(traced.evidence, effects, values),
+                        covariance.whiten(traced.predict(values) - traced.evidence.predicted),
+                        problem.sensitivities(Eigen::all, columns_of(problem, effects)));
   const Refit fit = with_differences(traced.evidence, traced.predict, covariance, problem, std::move(found));
-  return left_out_levels(traced.evidence, covariance, linear_fit(covariance, problem, fit));
+  return left_out_levels(traced.evidence, linear_fit(covariance, problem, fit));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace fathom {
 
 namespace {
 
-constexpr Eigen::Index kRank = 120;
+constexpr Eigen::Index kRank = 400;
 constexpr double kEnoughVariance = 1e-3;  // of the process's variance may be left out
 constexpr std::array<double, 8> kSizes{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};  // times the errors
 
@@ -171,6 +171,7 @@ Likeliest likeliest_of(const Discrepancy& discrepancy, const Eigen::VectorXd& re
 
 Spectrum::Spectrum(const Eigen::MatrixXd& columns) {
   constexpr double kNothing = 1e-9;
+  if (columns.cols() == 0) return;  // no decomposition is one of nothing
   const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
   const Eigen::Index count = (eigen.values.array() > kNothing).count();
   values_ = eigen.values.tail(count);

@@ -38,7 +38,7 @@ class Spectrum {
 struct Discrepancy {
   /// n × r, its square is the smooth process's covariance: squared exponential in fill, distance and lateral (each over
   /// the length of its range), half shared between liquids and between regions, apart for each observable. Pivoted
-  /// Cholesky (Harbrecht, Peters & Schneider 2012), r ≤ 120. Not whitened, and whitened.
+  /// Cholesky (Harbrecht, Peters & Schneider 2012), r ≤ 400. Not whitened, and whitened.
   Eigen::MatrixXd smooth_factor, smooth;
   Spectrum of_smooth;      ///< of that
   Spectrum of_apart;       ///< of the same process with nothing shared
