@@ -43,6 +43,7 @@ std::string pour_of(const Factors& f) {
 std::string pour_key(const Observation& o) { return pour_of(o.factors); }
 
 std::string placement_key(const Observation& o) {
+  if (!has_cup(o.factors)) return fmt::format("{}/bare desk", o.factors.session);
   return fmt::format("{}/{}/{}/{}", o.factors.session, o.factors.pour, o.factors.placement, condition_key(o));
 }
 

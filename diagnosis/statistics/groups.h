@@ -26,7 +26,7 @@ bool has_cup(const Factors& factors);
 bool has_liquid(const Factors& factors);
 
 /// One pour is one filling in one session, one placement one putting-down of it. Bare desks and empty cups are never
-/// poured.
+/// poured. Nothing is put down on a bare desk: all of its views in a session show the same dots at the same places.
 std::string session_key(const Observation& observation);
 /// Laboratories number pours anew for each filling, too. Empty where nothing is poured.
 std::string pour_of(const Factors& factors);

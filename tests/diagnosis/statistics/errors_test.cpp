@@ -136,6 +136,17 @@ TEST(Groups, SessionsAreRepeatsOfTheirMeans) {
   EXPECT_EQ(names, (std::vector<std::string>{"all", "session=0", "session=1"}));
 }
 
+/// Two views of it in one session show the same dots at the same places: they are no two samples of how placements
+/// scatter.
+TEST(Groups, ABareDeskIsPutDownOncePerSession) {
+  std::vector<Observation> views(3);
+  for (Observation& view : views) view.factors.liquid = "none";
+  views[1].factors.placement = 1;
+  views[2].factors.session = 1;
+  EXPECT_EQ(placement_key(views[0]), placement_key(views[1]));
+  EXPECT_NE(placement_key(views[0]), placement_key(views[2]));
+}
+
 TEST(BoxLeastSquares, FindsTheMinimumWhereFreeEffectsAreNearlyAlike) {
   // Two effects 2 degrees apart, and a third that its bound holds.
   Eigen::Matrix3d X;
