@@ -11,6 +11,7 @@
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/leeway.h"
 #include "diagnosis/statistics/problem.h"
+#include "diagnosis/statistics/shared_errors.h"
 
 namespace fathom {
 namespace {
@@ -47,9 +48,13 @@ class RepeatVariances {
   std::map<std::pair<std::string, std::string>, Mean> means_;
 };
 
-Groups groups_of(const std::vector<Observation>& observations, const VarianceComponent& component) {
+/// The same component in other observations.
+VarianceComponent component_in(const std::vector<Observation>& observations, VarianceComponent component) {
   int row = 0;
-  return group_by(observations, [&](const Observation& o) {
+  component.scale = component.level == ErrorLevel::observation
+                        ? relative_errors(observations)
+                        : Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
+  component.groups = group_by(observations, [&](const Observation& o) {
     ++row;
     if (o.observable != component.observable) return std::string();
     switch (component.level) {
@@ -66,6 +71,7 @@ Groups groups_of(const std::vector<Observation>& observations, const VarianceCom
     }
     return std::string();
   });
+  return component;
 }
 
 /// Of the model's shared errors, in their order among those of their observable: as large as they were found.
@@ -77,12 +83,6 @@ std::map<std::string, std::vector<double>> model_variances(const Covariance& cov
   return variances;
 }
 
-void add(const Groups& groups, double variance, Eigen::MatrixXd& total) {
-  for (const auto& members : groups.members())
-    for (const auto i : members)
-      for (const auto j : members) total(i, j) += variance;
-}
-
 /// Of the new observations, nuisances apart: numerical errors, repeats, and the components that the old ones show.
 Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covariance, const Evidence& added) {
   const auto n = static_cast<Eigen::Index>(added.observations.size());
@@ -92,15 +92,14 @@ Eigen::MatrixXd covariance_of_new(const Evidence& old, const Covariance& covaria
     total(i, i) = std::pow(added.numerical_sd[i], 2.0) + repeats(added.observations[i]) / added.observations[i].repeats;
   for (const ObservableErrors& errors : covariance.errors.observables)
     for (const VarianceComponent& component : errors.components)
-      add(groups_of(added.observations, component), component.variance, total);
+      add(component_in(added.observations, component), total);
   const std::map<std::string, std::vector<double>> found = model_variances(covariance);
   std::map<std::string, std::size_t> ordinals;
-  for (const SharedError& shared : added.shared_errors) {
-    const std::size_t ordinal = ordinals[shared.observable]++;
-    const auto known = found.find(shared.observable);
-    const bool was_found = known != found.end() && ordinal < known->second.size();
-    const int count = *std::max_element(shared.group_of.begin(), shared.group_of.end()) + 1;
-    add({shared.group_of, count}, was_found ? known->second[ordinal] : shared.sigma * shared.sigma, total);
+  for (VarianceComponent& component : expected_shared_errors(added)) {
+    const std::size_t ordinal = ordinals[component.observable]++;
+    const auto known = found.find(component.observable);
+    if (known != found.end() && ordinal < known->second.size()) component.variance = known->second[ordinal];
+    add(component, total);
   }
   return total;
 }

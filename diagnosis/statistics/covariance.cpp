@@ -47,7 +47,9 @@ Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& 
   const Eigen::SparseMatrix<double> nuisance = sparse(covariance.nuisance);
   covariance.total = nuisance * nuisance.transpose();
   covariance.total.diagonal() += repeats + covariance.numerical_variance;
-  covariance.errors = estimate_errors(evidence, residual, covariance.total + expected_shared_errors(evidence), repeats);
+  Eigen::MatrixXd known = covariance.total;
+  for (const VarianceComponent& component : expected_shared_errors(evidence)) add(component, known);
+  covariance.errors = estimate_errors(evidence, residual, known, repeats);
   const auto add_all = [&](const std::vector<ObservableErrors>& observables) {
     for (const ObservableErrors& errors : observables)
       for (const VarianceComponent& component : errors.components) add(component, covariance.total);

@@ -36,25 +36,26 @@ VarianceComponent component_of(const SharedError& shared, const std::vector<Obse
 
 }  // namespace
 
-Eigen::MatrixXd expected_shared_errors(const Evidence& evidence) {
-  const auto n = static_cast<Eigen::Index>(evidence.observations.size());
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  for (const SharedError& shared : evidence.shared_errors) add(component_of(shared, evidence.observations), covariance);
-  return covariance;
+std::vector<VarianceComponent> expected_shared_errors(const Evidence& evidence) {
+  std::vector<VarianceComponent> components;
+  for (const SharedError& shared : evidence.shared_errors)
+    components.push_back(component_of(shared, evidence.observations));
+  return components;
 }
 
 std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, const Eigen::VectorXd& residual,
                                                      const Eigen::MatrixXd& known) {
+  const std::vector<VarianceComponent> expected = expected_shared_errors(evidence);
   std::vector<ObservableErrors> result;
   const Groups observables = group_by(evidence.observations, [](const Observation& o) { return o.observable; });
   for (const auto& rows : observables.members()) {
     const std::string& observable = evidence.observations[rows[0]].observable;
     ObservableErrors errors;
     std::vector<VariancePrior> priors;
-    for (const SharedError& shared : evidence.shared_errors) {
-      if (shared.observable != observable) continue;
-      errors.components.push_back(component_of(shared, evidence.observations));
-      priors.push_back({shared.sigma * shared.sigma, kModelDof});
+    for (const VarianceComponent& component : expected) {
+      if (component.observable != observable) continue;
+      errors.components.push_back(component);
+      priors.push_back({component.variance, kModelDof});
     }
     if (errors.components.empty()) continue;
     const Eigen::MatrixXd means = means_of_cells(evidence.observations, observable);

@@ -11,8 +11,8 @@ namespace fathom {
 /// of the model is more than twice as large: what is larger is something that the model lacks.
 inline constexpr double kModelDof = 5.0, kMostOfModel = 4.0;  ///< the second of the variance
 
-/// The covariance that the evidence's shared errors are thought to make, before the data say how large they are.
-Eigen::MatrixXd expected_shared_errors(const Evidence& evidence);
+/// The evidence's shared errors, as large as they are thought to be before the data say it.
+std::vector<VarianceComponent> expected_shared_errors(const Evidence& evidence);
 
 /// The components of the evidence's shared errors, those of one observable together, by restricted maximum likelihood
 /// of what no candidate's sensitivity and no constant can change. `known` (n × n) is the covariance from all else.
