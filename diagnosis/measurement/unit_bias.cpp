@@ -134,7 +134,8 @@ BiasField UnitBias::learn(const std::map<int, DeskError>& desks) const {
   for (std::size_t i = 0; i < views_.views.size(); ++i) {
     const BiasView& view = views_.views[i];
     Eigen::VectorXd own = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(view.cells.size()));
-    if (const auto desk = desks.find(views_.sessions[i]); desk != desks.end())
+    const auto known = desks.find(views_.sessions[i]);
+    if (const auto desk = known != desks.end() ? known : desks.begin(); desk != desks.end())
       for (std::size_t cell = 0; cell < view.cells.size(); ++cell)
         own[static_cast<Eigen::Index>(cell)] = desk->second(view.cells[cell]).value_or(0.0);
     errors.push_back(std::move(own));

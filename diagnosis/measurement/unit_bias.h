@@ -33,7 +33,8 @@ class UnitBias {
 
   /// Without the plane that is nearest to it: of a plane nobody can say whether it is bias or pose.
   const BiasField& field() const { return field_; }
-  /// What would be learned from a model's desks, given by session: the same operator.
+  /// What would be learned from a model's desks, given by session: the same operator. The first one's stands for
+  /// sessions that it lacks.
   BiasField learn(const std::map<int, DeskError>& desks) const;
 
   /// Where sessions read their desk otherwise than the others, of one desk in all.

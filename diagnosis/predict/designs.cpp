@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
+#include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/statistics/groups.h"
 
@@ -207,10 +208,16 @@ Design design_of(const MeasurementPlan& plan, const Measurement& measurement, co
   for (const FrameRecord& frame : measurement.frames) last_session = std::max(last_session, frame.session);
   Measurement planned;
   planned.rig = measurement.rig;
+  planned.unit = measurement.unit;  // whose bias is taken off there as well, as far as it is known
   planned.observations = observations_of(plan, last_session + 1);
   erase_unlike(measurement.observations, planned.observations);
   planned.rig.liquids.insert(plan.media.begin(), plan.media.end());
-  return {plan.name, plan.minutes(), physics_of(planned, model_effects, file, effects).evidence};
+  Design design{plan.name, plan.minutes(), physics_of(planned, model_effects, file, effects).evidence};
+  // What is not known of the bias counts in these places as if it had nothing to do with the campaign's: patterns have
+  // numbers, not names.
+  for (Nuisance& nuisance : design.evidence.nuisances)
+    if (nuisance.name.starts_with(kUnitPattern)) nuisance.name += ", planned";
+  return design;
 }
 
 }  // namespace fathom

@@ -103,7 +103,7 @@ std::vector<Nuisance> nuisances_of(const Predictor& predictor) {
 std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vector<Observation>& observations) {
   std::vector<Nuisance> nuisances;
   for (Eigen::VectorXd& error : predictor.unit_errors())
-    nuisances.push_back({fmt::format("bias of the unit, pattern {}", nuisances.size() + 1), 1.0, std::move(error)});
+    nuisances.push_back({fmt::format("{} {}", kUnitPattern, nuisances.size() + 1), 1.0, std::move(error)});
   std::map<std::pair<double, double>, Nuisance> places;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Factors& f = observations[i].factors;

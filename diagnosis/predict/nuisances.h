@@ -9,6 +9,9 @@ namespace fathom {
 /// there are several, the fill of every pour, and the place of every placement.
 std::vector<Nuisance> nuisances_of(const Predictor& predictor);
 
+/// How the names of patterns of the unit's bias begin.
+inline constexpr std::string_view kUnitPattern = "bias of the unit, pattern";
+
 /// What is left to know of the unit's bias, once it was learned; of heights that a table holds the whole of it, at each
 /// place of the cup.
 std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vector<Observation>& observations);

@@ -53,7 +53,7 @@ void add_shapes(const Measurement& measurement, Predictor& predictor, Evidence& 
 
 std::vector<OddDesk> odd_desks(const Measurement& measurement) {
   std::vector<OddDesk> result;
-  if (!measurement.unit) return result;
+  if (!measurement.unit || measurement.frames.empty()) return result;  // nothing, or what is planned
   const LaboratoryRig& rig = measurement.rig;
   const double of_inverse = rig.focal_px * rig.baseline_m;  // [px m] disparity times depth
   const auto mm_per_px = [&](double nearer_px) {            // above the desk
