@@ -174,6 +174,15 @@ std::vector<SharedError> errors_of_views(const std::vector<Observation>& observa
                             std::pair("desk_pitch_deg", deg_from_radians(slope / height)),
                             std::pair("desk_roll_deg", deg_from_radians(slope / width))};
   std::vector<SharedError> errors;
+  // A plane that leans stands higher or lower below the camera; all of a session's views of one part of the desk lean
+  // alike.
+  const double ahead = rig.height_m / std::max(std::tan(rig.pitch_rad), kFlattest);
+  Groups parts = group_by(observations, [](const Observation& o) {
+    if (o.observable != "desk_height_mm") return std::string();
+    return session_key(o) + " " + (has_cup(o.factors) ? shared_key(o, SharedBy::place) : "bare desk");
+  });
+  if (parts.count > 0)
+    errors.push_back({"desk_height_mm", std::move(parts.of), mm_from_metres(ahead * slope / height)});
   for (const auto& [observable, sigma] : of_views) {
     std::vector<int> each;  // a group of its own
     int count = 0;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/rng.h"
+#include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/predictable.h"
 #include "diagnosis/statistics/variance_components.h"
@@ -121,6 +122,19 @@ TEST(Predictor, SeesTimeWhereEffectsGoByItAndNowhereElse) {
     // All at once is as one by one.
     EXPECT_EQ(predictor.predict(change)[1], after) << effect.id;
   }
+}
+
+TEST(ModelErrors, OfADesksHeightGoWithThePartThatIsSeen) {
+  // The bias of a part of the image turns the plane that is fitted there, and so lifts it below the camera.
+  const Measurement measurement = paper_measurement(true);
+  const auto is_by_part = [](const SharedError& error) {
+    return error.observable == "desk_height_mm" && std::set(error.group_of.begin(), error.group_of.end()).size() == 5;
+  };
+  const std::vector<SharedError> errors = model_errors(measurement.observations, measurement.rig);
+  const auto found = std::find_if(errors.begin(), errors.end(), is_by_part);
+  ASSERT_NE(found, errors.end());  // three places, the bare desk, and other observables
+  EXPECT_GT(found->sigma, 0.03);   // [mm]
+  EXPECT_LT(found->sigma, 0.3);
 }
 
 TEST(Predictor, SeesABareDeskAtItsTime) {
