@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "detector/plane.h"
 #include "diagnosis/measurement/cup_regions.h"
+#include "diagnosis/measurement/frame_estimates.h"
 
 namespace fathom {
 
@@ -28,17 +29,13 @@ std::vector<Eigen::Vector3d> foot_and_rim(const Eigen::Vector2d& cup, const Labo
   return points;
 }
 
-Eigen::Vector2d pixel(const Eigen::Vector3d& point, const LaboratoryRig& rig) {
-  return rig.focal_px / point.z() * point.head<2>() + 0.5 * Eigen::Vector2d(kImageWidth_px, kImageHeight_px);
-}
-
 }  // namespace
 
 Eigen::AlignedBox2d cup_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3d& point : foot_and_rim(cup, rig)) {
     if (point.z() <= 0.0) return {};
-    box.extend(pixel(point, rig));
+    box.extend(pixel_of(rig, point));
   }
   return box;
 }
@@ -47,7 +44,7 @@ double share_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
   const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(), Eigen::Vector2d(kImageWidth_px, kImageHeight_px));
   const std::vector<Eigen::Vector3d> points = foot_and_rim(cup, rig);
   const auto seen = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
-    return point.z() > 0.0 && image.contains(pixel(point, rig));
+    return point.z() > 0.0 && image.contains(pixel_of(rig, point));
   });
   return static_cast<double>(seen) / static_cast<double>(points.size());
 }

@@ -179,13 +179,11 @@ namespace {
 std::vector<SensedPoint> within(const Eigen::AlignedBox2d& part_px, std::span<const SensedPoint> points,
                                 const LaboratoryRig& rig, const std::optional<CupPlace>& cup) {
   const Eigen::Isometry3d to_desk = desk_from_camera(plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}));
-  const Eigen::Vector2d middle_px(0.5 * kImageWidth_px, 0.5 * kImageHeight_px);
   std::vector<SensedPoint> result;
   for (const SensedPoint& sensed : points) {
     const Eigen::Vector3d point = sensed.point.cast<double>();
     const bool is_about_cup = cup && ((to_desk * point).head<2>() - cup->centre).norm() < cup->clear_of_cup;
-    if (is_about_cup || part_px.contains(Eigen::Vector2d(rig.focal_px / point.z() * point.head<2>() + middle_px)))
-      result.push_back(sensed);
+    if (is_about_cup || part_px.contains(pixel_of(rig, point))) result.push_back(sensed);
   }
   return result;
 }

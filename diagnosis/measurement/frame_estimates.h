@@ -98,4 +98,9 @@ inline Eigen::Vector2d axis_from_camera(const LaboratoryRig& rig, const Eigen::V
   return cup + Eigen::Vector2d(0.5 * rig.baseline_m, 0.0);
 }
 
+/// Of a point in the camera's frame, in the image of 640 x 480.
+inline Eigen::Vector2d pixel_of(const LaboratoryRig& rig, const Eigen::Vector3d& point) {
+  return rig.focal_px / point.z() * point.head<2>() + 0.5 * Eigen::Vector2d(kImageWidth_px, kImageHeight_px);
+}
+
 }  // namespace fathom

@@ -229,12 +229,10 @@ SampledPixels following(SampledPixels pixels, const LaboratoryRig& rig, const st
 std::vector<SensedPoint> seen_of(const std::vector<SensedPoint>& desk, const Plane& plane, const LaboratoryRig& rig,
                                  const FrameView& looked_at) {
   const Eigen::Isometry3d to_desk = desk_from_camera(plane);
-  const Eigen::Vector2d middle_px(0.5 * kImageWidth_px, 0.5 * kImageHeight_px);
   std::vector<SensedPoint> seen;
   for (const SensedPoint& sensed : desk) {
     const Eigen::Vector3d point = sensed.point.cast<double>();
-    const Eigen::Vector2d pixel = rig.focal_px / point.z() * point.head<2>() + middle_px;
-    if (looked_at.desk_px && !looked_at.desk_px->contains(pixel)) continue;
+    if (looked_at.desk_px && !looked_at.desk_px->contains(pixel_of(rig, point))) continue;
     if (looked_at.cup &&
         ((to_desk * point).head<2>() - axis_from_camera(rig, *looked_at.cup)).norm() < clear_of_cup(rig))
       continue;
