@@ -33,6 +33,7 @@ EFFECTS = {
     "disparity_offset": {"delta_px": (0.2, 0.5, "+-")}, "radial_distortion": {"k1": (0.006, 0.03, "+-")},
     "thermal_drift": {"delta_px": (0.15, 0.4, "+-"), "tau_s": (600, 1500, "+")}, "cup_bottom_height": {"delta_mm": (1, 2.5, "+-")},
     "concave_bottom": {"sag_mm": (1.2, 3, "+")}, "surface_tilt": {"tilt_deg": (1, 2.5, "+"), "azimuth_deg": (0, 360, "+")},
+    "meniscus": {"rise_mm": (1.5, 3.5, "+")},
     "fill_offset": {"delta_mm": (1.2, 3, "+-")}, "fill_scale": {"relative": (0.06, 0.15, "+-")}, "evaporation": {"mm_per_hour": (3, 6, "+")},
 }
 UNKNOWN = {
@@ -102,7 +103,8 @@ def scene_of(row, effects, nuisances, unit):
             - of("evaporation", "mm_per_hour") * row["age_s"] / 3600)
     clear = row["liquid"] == "water"
     liquid = world.Liquid(cup.bottom_mm + max(fill, 0.5), (1.3281 + of("refractive_index", "delta_index")) if clear else 0,
-                          of("surface_tilt", "tilt_deg"), of("surface_tilt", "azimuth_deg"), 0.0031)
+                          of("surface_tilt", "tilt_deg"), of("surface_tilt", "azimuth_deg"), 0.0031,
+                          of("meniscus", "rise_mm"))
     return world.Scene(unit, sensor, cup, liquid)
 
 

@@ -5,7 +5,7 @@
 // Least, Most; HasCup, and with a cup CupMm, its foot; RimMm, BottomMm, InnerMm, OuterMm; SagMm, by how much the middle of
 // its bottom is lower than the edge; Bumps, objects that lie in it: x, y, z of the middle [mm, from CupMm] and the radius;
 // LevelMm of the liquid above the desk, 0 without one; Index of the liquid, 0 where it is as opaque as paint; TiltDeg and
-// AzimuthDeg of its surface.
+// AzimuthDeg of its surface; RiseMm, by how much it climbs the wall, and CapillaryMm, within which that falls to 1/e.
 //
 // Coordinates are those of the world, z up; what is handed over says left and right, so it matters nowhere that this frame
 // is right-handed and POV-Ray's is not.
@@ -62,7 +62,22 @@ plane { z, 0 texture { Position } }
     sphere { <Bumps[I].x, Bumps[I].y, Bumps[I].z>, Bumps[I].t translate CupMm texture { Position } }
   #end
   #if (LevelMm > 0)
-    #declare Surface = plane { z, 0 rotate TiltDeg * y rotate AzimuthDeg * z translate LevelMm * z };
+    #if (RiseMm > 0)
+      // A solid of revolution about y: down the axis, out, up the wall's middle, and back along the surface.
+      #declare Steps = 100;
+      #declare Flat = lathe {
+        linear_spline Steps + 5,
+        <0, -200>, <OuterMm + 5, -200>, <OuterMm + 5, RiseMm>
+        #for (I, 0, Steps)
+          , <InnerMm * (1 - I / Steps), RiseMm * exp(-InnerMm * I / Steps / CapillaryMm)>
+        #end
+        , <0, -200>
+        rotate 90 * x
+      };
+    #else
+      #declare Flat = plane { z, 0 };
+    #end
+    #declare Surface = object { Flat rotate TiltDeg * y rotate AzimuthDeg * z translate LevelMm * z };
     // The liquid reaches half-way into bottom and wall.
     object {
       intersection {

@@ -33,6 +33,7 @@ DOT_SIGMA_PX = 0.9  # in the infrared picture
 POWER_SPREAD, SPECKLE = 0.25, 0.3
 AMBIENT, WHITE, SHOT = 4.0, 130.0, 0.35  # grey levels: of the room, of a dot on the desk; noise per root of a level
 WINDOW_PX = 19  # of the infrared picture: nine of the depth's pixels
+CAPILLARY_MM = 2.7  # of water; the others' are not far from it
 SEARCH_PX = (-32, 192)  # least disparity and how many, in the infrared picture: from 2 m to 0.4 m
 
 
@@ -84,6 +85,7 @@ class Liquid:
     tilt_deg: float = 0.0
     azimuth_deg: float = 0.0
     absorption_per_mm: float = 0.0
+    rise_mm: float = 0.0  # by how much it climbs the cup's wall
 
 
 class Unit:
@@ -158,7 +160,7 @@ def positions(eye_mm, sensor, cup, liquid):
     bumps = cup.bumps or ((0, 0, -30.0, 1.0),)  # POV-Ray has no empty arrays: one below the desk
     lines |= {"HasCup": 1, "CupMm": pov([cup.x_mm, cup.y_mm, 0]), "RimMm": cup.rim_mm, "BottomMm": cup.bottom_mm, "InnerMm": cup.inner_mm,
               "OuterMm": cup.outer_mm, "SagMm": cup.sag_mm, "LevelMm": liquid.level_mm, "Index": liquid.index,
-              "TiltDeg": liquid.tilt_deg, "AzimuthDeg": liquid.azimuth_deg,
+              "TiltDeg": liquid.tilt_deg, "AzimuthDeg": liquid.azimuth_deg, "RiseMm": liquid.rise_mm, "CapillaryMm": CAPILLARY_MM,
               "Bumps": f"array[{len(bumps)}] {{{', '.join(pov(bump) for bump in bumps)}}}"}
     # The cup changes the part of the picture that shows the box around it.
     box = [[cup.x_mm + x * cup.outer_mm, cup.y_mm + y * cup.outer_mm, z * cup.rim_mm] for x in (-1, 1) for y in (-1, 1) for z in (0, 1)]

@@ -118,6 +118,19 @@ class PovRayAndOpenCv(unittest.TestCase):
         self.assertGreater(len(rows), 1000)
         self.assertLess(np.abs(seen[rows, columns] - expected).max(), 0.05)  # sixteen bits of 3 m are 0.046 mm
 
+    def test_a_meniscus_climbs_the_wall_and_leaves_the_middle(self):
+        import numpy as np
+        import world
+        sensor, cup, paint = world.Sensor(), world.Cup(y_mm=250), world.Liquid(47.0, rise_mm=3.0)
+        seen = world.positions(sensor.camera_mm(), sensor, cup, paint)
+        radius = np.hypot(seen[..., 0] - cup.x_mm, seen[..., 1] - cup.y_mm)
+        expected = paint.level_mm + paint.rise_mm * np.exp((radius - cup.inner_mm) / world.CAPILLARY_MM)
+        surface = (radius < cup.inner_mm - 0.1) & (seen[..., 2] > 30)
+        self.assertGreater(surface.sum(), 2000)
+        self.assertGreater((surface & (radius > cup.inner_mm - 2)).sum(), 50)
+        # Chords of 0.4 mm lie 0.02 mm above the curve at most; sixteen bits are 0.046 mm.
+        self.assertLess(np.abs(seen[..., 2] - expected)[surface].max(), 0.1)
+
     def test_the_desk_has_the_disparity_of_its_distance(self):
         import numpy as np
         import world
