@@ -108,14 +108,14 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   std::vector<std::string> names;
   for (const fs::path& folder : options.folders) names.push_back(folder.lexically_normal().string());
   const DiagnosedCampaign campaign{
-      .name = fmt::format("{}", fmt::join(names, " and ")),
+      .folders = names,
       .observations = whole.observations,
       .shots = shots_of(whole.observations, input.measurement, options.folders, common.output),
       .notes = whole.all_notes(),
       .diagnosis = whole.diagnosis,
       .ray_traced_html = whole.traced ? ray_traced_html(*whole.traced, whole.by_few_rays) : ""};
   const Json provenance = {{"fathom", FATHOM_VERSION},
-                           {"measurement", campaign.name},
+                           {"measurement", fmt::format("{}", fmt::join(names, " and "))},
                            {"model", options.model.string()},
                            {"without", options.without},
                            {"fidelity", options.fidelity},

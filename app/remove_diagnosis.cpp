@@ -21,12 +21,11 @@ struct TableFile {
   const char* name;
   std::string_view columns;
 };
-constexpr std::array kTables{TableFile{"map_desk.csv", "x,y,mean_mm"},
-                             TableFile{"map_cup.csv", "x,y,radius,from_deg"},
-                             TableFile{"map_unseen.csv", "x,y,radius,from_deg"},
-                             TableFile{"heights.csv", "number,before_mm"},
-                             TableFile{"shape.csv", "x,y,mean_mm"},
-                             TableFile{"residuals.csv", "observable,region"}};
+constexpr std::array kTables{
+    TableFile{"map_desk.csv", "x,y,mean_mm"},           TableFile{"map_cup.csv", "x,y,radius,from_deg"},
+    TableFile{"map_unseen.csv", "x,y,radius,from_deg"}, TableFile{"map_numbers.csv", "x,y,mean_mm"},
+    TableFile{"heights.csv", "number,before_mm"},       TableFile{"shape.csv", "x,y,mean_mm"},
+    TableFile{"residuals.csv", "observable,region"}};
 
 /// next_1.json and so on.
 bool is_campaign(const std::string& name) {

@@ -8,11 +8,13 @@
 #include <map>
 
 #include "core/table.h"
+#include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "report/fonts.h"
 #include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "report/heights_chart.h"
+#include "report/observable_words.h"
 
 namespace fathom {
 namespace {
@@ -34,9 +36,9 @@ LiquidMarks liquid_marks(const std::vector<Observation>& observations, const std
       return fmt::format("set label {} {} at {}, graph 0.96 center textcolor rgb ink noenhanced\n", number,
                          gnuplot_text(text), 0.5 * static_cast<double>(first + end - 1));
     };
-    const std::string drawable = drawable_text(liquid);
+    const std::string name = spaced(liquid), drawable = drawable_text(name);
     marks.commands += label(drawable);
-    if (drawable != liquid) marks.before_svg += label(liquid);
+    if (drawable != name) marks.before_svg += label(name);
     if (first > 0)
       marks.commands += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
                                     static_cast<double>(first) - 0.5);
@@ -118,11 +120,14 @@ plot 0 lc rgb ink notitle, \
   return true;
 }
 
-bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+MapPicture draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   const auto desk = means_by_region(campaign, "desk_residual_mm"), cup = means_by_region(campaign, "height_mm");
   constexpr double kBefore = 4.6, kDesk = 4.2;  // where the upper row begins, and the right column
-  double most = 1e-3;                           // [mm] of the colours' range
-  Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"}), unseen = sectors;
+  // [mm] of the colours' range: what errors make of a single height is no strong colour.
+  double most = std::max(campaign.diagnosis.gap.train.noise_floor_mm, 1e-3);
+  Table tiles({"x", "y", "mean_mm"}), sectors({"x", "y", "radius", "from_deg", "to_deg", "mean_mm"}),
+      unseen = sectors, numbers({"x", "y", "mean_mm"});
+  std::string grey_centres;
   for (const bool after : {false, true}) {
     const double bottom = after ? 0.0 : kBefore;
     const auto value = [after, &most](const Mean& mean) {
@@ -138,15 +143,28 @@ bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& camp
     for (const std::size_t i : {1U, 2U, 3U, 4U, 0U}) {
       const Tile& t = kCupTiles[i];
       const auto found = cup.find(std::string(kCupRegionNames[i]));
-      (found != cup.end() ? sectors : unseen)
-          .add({fmt::format("{}", t.x), fmt::format("{}", bottom + t.y), fmt::format("{}", t.radius),
-                fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg),
-                found != cup.end() ? value(found->second) : "0"});
+      const bool is_seen = found != cup.end();
+      // Grey sectors are drawn first, so those of the ring would cover a grey centre: it is an object of its own.
+      if (!is_seen && i == 0)
+        grey_centres += fmt::format(
+            "set object circle at {}, {} size {} front fillstyle solid border lc rgb ink "
+            "fillcolor rgb '#D0D0D0'\n",
+            t.x, bottom + t.y, t.radius);
+      else
+        (is_seen ? sectors : unseen)
+            .add({fmt::format("{}", t.x), fmt::format("{}", bottom + t.y), fmt::format("{}", t.radius),
+                  fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg), is_seen ? value(found->second) : "0"});
+      const double middle = i == 0 ? 0.0 : radians_from_deg(0.5 * (t.from_deg + t.to_deg));
+      const double out = i == 0 ? 0.0 : 0.75 * t.radius;
+      if (is_seen)
+        numbers.add({fmt::format("{:.3f}", t.x + out * std::cos(middle)),
+                     fmt::format("{:.3f}", bottom + t.y + out * std::sin(middle)), value(found->second)});
     }
   }
-  if (tiles.rows() == 0 || sectors.rows() == 0) return false;
+  if (tiles.rows() == 0 || sectors.rows() == 0) return {};
   write_table(folder / "map_desk.csv", tiles);
   write_table(folder / "map_cup.csv", sectors);
+  write_table(folder / "map_numbers.csv", numbers);
   if (unseen.rows() > 0) write_table(folder / "map_unseen.csv", unseen);
   const std::string sector = "using 'x':'y':'radius':'from_deg':'to_deg'";
   draw(folder, "map",
@@ -160,22 +178,24 @@ set label 'inside the cup, from above' at 1.5, 8.2 center; set label 'desk, by t
 set label 'before' at -1.3, 6.1 center rotate by 90; set label 'after' at -1.3, 1.5 center rotate by 90
 set label '↓ the sensor is on this side' at 1.5, 4.2 center; set label '↓ the sensor is on this side' at 1.5, -0.4 center
 set label 'near the sensor' at 5.7, 4.2 center; set label 'near the sensor' at 5.7, -0.4 center
-plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb ink fillcolor palette, \
-     {1}'map_cup.csv' {2}:'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette)",
+number(mm) = sprintf('%+.2f', mm)
+{3}plot 'map_desk.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb ink fillcolor palette, \
+     {1}'map_cup.csv' {2}:'mean_mm' with circles fillstyle solid border lc rgb ink fillcolor palette, \
+     'map_desk.csv' using 'x':'y':(number(column('mean_mm'))) with labels font ',11' textcolor rgb ink, \
+     'map_numbers.csv' using 'x':'y':(number(column('mean_mm'))) with labels font ',11' textcolor rgb ink)",
                    most,
                    unseen.rows() > 0
                        ? fmt::format("'map_unseen.csv' {} with circles fillstyle solid border lc rgb ink fillcolor rgb "
                                      "'#D0D0D0', ",
                                      sector)
                        : "",
-                   sector));
-  return true;
+                   sector, grey_centres));
+  return {true, unseen.rows() > 0 || !grey_centres.empty()};
 }
 
 bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   constexpr double kPanel = 6.0;  // a cell is one wide
-  const bool has_after = !campaign.diagnosis.effects.empty();
-  const double before_at = has_after ? 6.4 : 0.0;
+  constexpr double kBefore = 6.4;
   double width_mm = std::numeric_limits<double>::infinity();
   for (const Observation& o : campaign.observations)
     if (const auto& at = o.factors.within_mm)
@@ -190,11 +210,11 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
     const auto known = std::find(liquids.begin(), liquids.end(), f.liquid);
     const auto panel = static_cast<double>(known - liquids.begin());
     if (known == liquids.end()) liquids.push_back(f.liquid);
-    for (int after = 0; after <= static_cast<int>(has_after); ++after) {
+    for (const bool after : {false, true}) {
       const double shown = after ? campaign.diagnosis.residuals.after[i] : campaign.diagnosis.residuals.before[i];
       most = std::max(most, std::abs(shown));
       cells.add({fmt::format("{:.2f}", kPanel * panel + f.within_mm->x() / width_mm),
-                 fmt::format("{:.2f}", (after ? 0.0 : before_at) + f.within_mm->y() / width_mm),
+                 fmt::format("{:.2f}", (after ? 0.0 : kBefore) + f.within_mm->y() / width_mm),
                  fmt::format("{:.2f}", shown)});
     }
   }
@@ -202,32 +222,30 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
   write_table(folder / "shape.csv", cells);
   const auto label = [&](std::size_t panel, const std::string& text) {
     return fmt::format("set label {} {} at {}, {} center noenhanced\n", panel + 1, gnuplot_text(text),
-                       kPanel * static_cast<double>(panel), before_at + 3.2);
+                       kPanel * static_cast<double>(panel), kBefore + 3.2);
   };
   std::string labels, before_svg;
   for (std::size_t panel = 0; panel < liquids.size(); ++panel) {
-    const std::string drawable = drawable_text(liquids[panel]);
+    const std::string name = spaced(liquids[panel]), drawable = drawable_text(name);
     labels += label(panel, drawable);
-    if (drawable != liquids[panel]) before_svg += label(panel, liquids[panel]);
+    if (drawable != name) before_svg += label(panel, name);
+    for (const double middle : {0.0, kBefore})
+      labels += fmt::format("set object circle at {}, {} size 2.5 fillstyle empty border lc rgb pale\n",
+                            kPanel * static_cast<double>(panel), middle);
   }
   draw(folder, "shape",
        fmt::format(R"(
 set title 'Shape of what is seen in the cup, in mm: measured minus model'
-unset border; unset xtics; unset ytics; unset grid; unset key; unset colorbox
+unset border; unset xtics; unset ytics; unset grid; unset key
 set size ratio -1; set xrange [-4:{1}]; set yrange [-4:{2}]
-set palette defined (0 '#7DB9DC', 0.5 '#FFFFFF', 1 '#F0A57A'); set cbrange [-{0}:{0}]
-{5}
+set cblabel 'measured − model [mm]'; set palette defined (0 '#7DB9DC', 0.5 '#FFFFFF', 1 '#F0A57A'); set cbrange [-{0}:{0}]
+set label 100 'before' at -3.3, {5} center rotate by 90; set label 101 'after' at -3.3, 0 center rotate by 90
 set label 102 '↓ the sensor is on this side' at {3}, -3.4 center
 {4}
 plot 'shape.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle solid border lc rgb pale fillcolor palette, \
-     '' using 'x':'y':'mean_mm' with labels font ',8' textcolor rgb ink)",
-                   most, kPanel * static_cast<double>(liquids.size()) - 3.0, before_at + 4.2,
-                   0.5 * kPanel * static_cast<double>(liquids.size() - 1), labels,
-                   has_after
-                       ? fmt::format("set label 100 'before' at -3.3, {} center rotate by 90; set label 101 'after' "
-                                     "at -3.3, 0 center rotate by 90",
-                                     before_at)
-                       : ""),
+     '' using 'x':'y':'mean_mm' with labels font ',10' textcolor rgb ink)",
+                   most, kPanel * static_cast<double>(liquids.size()) - 3.0, kBefore + 4.2,
+                   0.5 * kPanel * static_cast<double>(liquids.size() - 1), labels, kBefore),
        before_svg);
   return true;
 }

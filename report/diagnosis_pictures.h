@@ -11,8 +11,12 @@ void write_residuals(const std::filesystem::path& folder, const DiagnosedCampaig
 /// heights.png: the heights' residuals over the campaign, liquid by liquid. False when there are no heights.
 bool draw_heights(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 
-/// map.png: mean residual in each region of the cup and of the desk. False when heights are all there is.
-bool draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+struct MapPicture {
+  bool is_drawn = false;
+  bool has_unseen = false;  ///< parts of the cup without a height, which are grey
+};
+/// map.png: mean residual in each region of the cup and of the desk. Not drawn when heights are all there is.
+MapPicture draw_map(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 
 /// shape.png: residuals of the shape of what is seen in the cup, liquid by liquid. False where none was measured.
 bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);

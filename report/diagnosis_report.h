@@ -1,5 +1,5 @@
-// report.html of a diagnosis: the sentence first, then where, before and after, what else it could be, what could still
-// hide, and what to measure next.
+// report.html of a diagnosis: what was found and what to do first, then where, before and after, which explanations are
+// possible, what to measure next, and what could still hide.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace fathom {
 
 struct DiagnosedCampaign {
-  std::string name;  ///< of its folder
+  std::vector<std::string> folders;  ///< that were measured
   std::vector<Observation> observations;
   ReportShots shots;               ///< of the observations; may be empty
   std::vector<std::string> notes;  ///< what limits the measurement or the model of it, one sentence each

@@ -21,12 +21,6 @@ bool compares(const Diagnosis& diagnosis, std::string_view observable) {
                      [&](const ConditionBudget& line) { return line.observable == observable; });
 }
 
-std::string spaced(std::string_view words) {
-  std::string text(words);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
 struct Unit {
   std::string_view ending, words;
 };
@@ -48,6 +42,19 @@ std::string joined(const std::vector<std::string>& words, std::string_view last)
   return text;
 }
 
+/// Digits behind the point that a value with this 95 % interval needs.
+int decimals_of(double low95, double high95) {
+  constexpr int kMost = 6;
+  const double half = 0.5 * std::abs(high95 - low95);
+  return half > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, kMost) : 2;
+}
+
+/// "98 %", "99.6 %" where whole per cent would hide that others are left, "over 99.9 %".
+std::string percent_words(double probability, bool are_others_left = false) {
+  if (probability >= 0.9995) return are_others_left ? "over 99.9 %" : "100 %";
+  return fmt::format("{:.{}f} %", 100 * probability, are_others_left && probability >= 0.995 ? 1 : 0);
+}
+
 /// "time=early" → "in the first third of the session"; nothing of what is no time.
 std::string third_words(std::string_view stratum) {
   struct Words {
@@ -62,20 +69,53 @@ std::string third_words(std::string_view stratum) {
   return {};
 }
 
-/// "Where liquid is milk tea, the height in the cup is 1.4 mm lower than the model has it.": where the gap is largest.
+/// "liquid=milk_tea" → "in milk tea", "lateral_mm=-60" → "60 mm to the left".
+std::string factor_words(std::string_view factor) {
+  const std::size_t equals = factor.find('=');
+  if (equals == std::string_view::npos) return std::string(factor);
+  const std::string_view key = factor.substr(0, equals), value = factor.substr(equals + 1);
+  if (key == "liquid") return value == "empty" ? "in the empty cup" : fmt::format("in {}", spaced(value));
+  if (key == "fill_mm") return fmt::format("at a fill of {} mm", value);
+  if (key == "distance_mm") return fmt::format("{} mm away", value);
+  if (key == "lateral_mm" && value == "0") return "in the middle";
+  if (key == "lateral_mm" && value.starts_with('-')) return fmt::format("{} mm to the left", value.substr(1));
+  if (key == "lateral_mm") return fmt::format("{} mm to the right", value);
+  if (key == "region")
+    return value.find(" mm ") != std::string_view::npos ? std::string(value) : fmt::format("in its {} part", value);
+  if (key == "session") return fmt::format("in session {}", value);
+  const auto [name, unit] = without_unit(key);
+  return fmt::format("where {} is {}{}", name, spaced(value), unit);
+}
+
+/// Whether a departure of the desk says the same as an effect that was named.
+bool says_effect(const GapLocation& where, const Diagnosis& diagnosis) {
+  constexpr std::pair<std::string_view, std::string_view> kSame[] = {
+      {"desk_height_mm", "sensor_height"}, {"desk_pitch_deg", "sensor_pitch"}, {"desk_roll_deg", "sensor_roll"}};
+  return std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(), [&](const NamedEffect& effect) {
+    return std::find(std::begin(kSame), std::end(kSame),
+                     std::pair<std::string_view, std::string_view>(where.observable, effect.name)) != std::end(kSame);
+  });
+}
+
+/// "In milk tea, the height in the cup is 1.4 mm lower than the model has it.": where the gap is largest.
 std::string where_sentence(const Diagnosis& diagnosis) {
   if (diagnosis.departures.where.empty()) return {};
   const GapLocation& where = diagnosis.departures.where.front();
   // Of a shape that nothing explains, unknown_sentence() says where it is.
   if (where.observable == "content_shape_mm" && !diagnosis.unknown.part.empty()) return {};
+  if (says_effect(where, diagnosis)) return {};
+  const std::vector<Excess>& excess = diagnosis.departures.excess;  // excess_sentences() says those
+  if (!excess.empty() && excess.front().level == "session" && excess.front().observable == where.observable &&
+      where.stratum == fmt::format("session={}", excess.front().group))
+    return {};
   const ObservableWords words = observable_words(where.observable);
   const std::string place = place_words(where.stratum);
   // What differs from place to place may have a mean of nothing where it differs most.
   const bool is_of_itself = where.departure * where.mean > 0.5 * where.mean * where.mean;
   const double size = is_of_itself ? where.departure : where.mean;
-  return capitalised(fmt::format("{}the {} is {:.2g}{} {}{} than the model has it. ", place.empty() ? "" : place + ", ",
-                                 words.name, std::abs(size), words.unit, size < 0 ? words.less : words.more,
-                                 is_of_itself ? "" : ", beside the rest,"));
+  return capitalised(fmt::format("{}{}the {} is {:.2g}{} {} than the model has it. ", place.empty() ? "" : place + ", ",
+                                 is_of_itself ? "" : "compared with the rest, ", words.name, std::abs(size), words.unit,
+                                 size < 0 ? words.less : words.more));
 }
 
 /// "15 % (13 to 17 %)": the size of a parameter's departure from nominal, whichever way it goes, with its 95 %
@@ -89,17 +129,20 @@ std::string size_words(const NamedParameter& found, const EffectParameter& param
   const double most = factor * ((factor < 0.0 ? parameter.lower : parameter.upper) - parameter.nominal);
   if (size >= most * (1.0 - 1e-6))
     return fmt::format("at least {:.3g}{} ({:.3g}{} is the most that is considered)", low, unit, most, unit);
-  return fmt::format("{:.3g}{} ({:.3g} to {:.3g}{})", size, unit, low, high, unit);
+  return fmt::format("{:.{}f}{} ({:.{}f} to {:.{}f}{})", size, decimals_of(low, high), unit, low,
+                     decimals_of(low, high), high, decimals_of(low, high), unit);
 }
 
 std::string named_sentence(const Diagnosis& diagnosis) {
   std::vector<std::string> clauses;
   for (const NamedEffect& effect : diagnosis.effects) clauses.push_back(effect_clause(effect));
+  const bool is_one = clauses.size() == 1;
+  for (std::size_t i = 0; !is_one && i < clauses.size(); ++i) clauses[i] = fmt::format("({}) {}", i + 1, clauses[i]);
   const GapSize& gap = diagnosis.gap.train;
   return fmt::format(
-      "Best explanation: {}. With that in the model the {} differ by {:.2f} mm instead of {:.2f} mm; errors of the "
-      "measurement make {:.2f} mm. ",
-      fmt::join(clauses, "; besides, "), heights_words(diagnosis), gap.after_rms_mm, gap.before_rms_mm,
+      "Best explanation: {}. With {} in the model the {} differ by {:.2f} mm (rms) instead of {:.2f} mm; errors alone "
+      "make {:.2f} mm. ",
+      joined(clauses, "and"), is_one ? "that" : "these", heights_words(diagnosis), gap.after_rms_mm, gap.before_rms_mm,
       gap.noise_floor_mm);
 }
 
@@ -135,21 +178,21 @@ std::string next_sentences(const std::vector<NextMeasurement>& all) {
   text += fmt::format("No measurement that was tried in simulation tells {}. ", joined(open, "or"));
   for (const std::string& name : unsettled)
     if (const Effect* effect = find_effect(effect_name(name).id))
-      text += fmt::format("A check for {}: {}. ", effect_words(name), effect->discriminated_by);
+      text += fmt::format("Check {} by {}. ", effect_words(name), effect->discriminated_by);
   return text;
 }
 
 /// "foam, cup bottom height or fill offset (98 %)": an explanation and what cannot be told from it.
-std::string rival_words(const Explanation& explanation) {
+std::string rival_words(const Explanation& explanation, bool are_others_left) {
   constexpr std::size_t kMost = 3;
   if (explanation.is_too_small)
-    return fmt::format("something too small to show ({:.0f} %)", 100 * explanation.probability);
+    return fmt::format("something too small to show ({})", percent_words(explanation.probability, are_others_left));
   std::vector<std::string> alike{effects_words(explanation.effects)};
   for (const std::vector<std::string>& other : explanation.alternatives)
     if (alike.size() < kMost) alike.push_back(effects_words(other));
   const std::size_t more = 1 + explanation.alternatives.size() - alike.size();
-  return fmt::format("{}{} ({:.0f} %)", joined(alike, "or"), more > 0 ? fmt::format(", or {} like these", more) : "",
-                     100 * explanation.probability);
+  return fmt::format("{}{} ({})", joined(alike, "or"), more > 0 ? fmt::format(", or {} like these", more) : "",
+                     percent_words(explanation.probability, are_others_left));
 }
 
 std::string ambiguous_sentence(const Diagnosis& diagnosis) {
@@ -157,14 +200,13 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   constexpr std::size_t kMost = 4;
   const std::vector<Explanation>& set = diagnosis.ambiguity_set;
   if (set.size() == 1 && set.front().alternatives.empty())
-    return fmt::format("It may well be {}, but that is not sure. ", effects_words(set.front().effects)) +
-           next_sentences(diagnosis.next);
+    return fmt::format("It may well be {}, but that is not sure. ", effects_words(set.front().effects));
   std::vector<std::string> rivals;
   std::size_t others = 0;
   double probability_of_others = 0.0;
   for (const Explanation& explanation : set) {
     if (explanation.probability >= kWorthNaming && rivals.size() < kMost) {
-      rivals.push_back(rival_words(explanation));
+      rivals.push_back(rival_words(explanation, set.size() > 1));
       continue;
     }
     others += 1 + explanation.alternatives.size();
@@ -172,9 +214,9 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
   }
   std::string text = fmt::format("These would explain it, likeliest first: {}. ", fmt::join(rivals, "; "));
   if (others > 0)
-    text += fmt::format("{} more {} {:.{}f} % together. ", others, others == 1 ? "has" : "have",
+    text += fmt::format("{} {:.{}f} %. ", others == 1 ? "One more has" : fmt::format("{} more together have", others),
                         100 * probability_of_others, probability_of_others < 0.01 ? 1 : 0);
-  return text + next_sentences(diagnosis.next);
+  return text;
 }
 
 /// "In session 1 the height in the cup is 1.9 mm higher than in the others (16 σ). ": of each session the clearest.
@@ -218,32 +260,42 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
   std::string text = fmt::format("{} is there that no effect in the list explains",
                                  diagnosis.effects.empty() ? "Something" : "Something else");
   if (diagnosis.departures.excess.empty())
-    text += fmt::format(" (probability {:.3g})", diagnosis.probability_of_unknown);
+    text += fmt::format(" (probability {})", percent_words(diagnosis.probability_of_unknown, true));
   if (!unknown.part.empty())
     return text +
            fmt::format(": in {}, what is seen {} is {:.2g} mm {}, beside the rest of the cup, than the model has it. ",
                        unknown.liquid == "empty" ? "the empty cup" : spaced(unknown.liquid),
                        unknown.part == "middle" ? "in the middle" : unknown.part, std::abs(unknown.higher_mm),
                        unknown.higher_mm < 0.0 ? "lower" : "higher");
-  if (!unknown.formula.empty()) text += fmt::format("; it goes as {}", unknown.formula);
-  constexpr double kAlike = 0.5;
+  constexpr double kAlike = 0.8;  // cosine
   if (!unknown.most_similar.empty() && unknown.similarity >= kAlike)
-    text +=
-        fmt::format(", and is most like {} (cosine {:.2f})", effect_words(unknown.most_similar), unknown.similarity);
+    text += fmt::format("; it looks most like {}", effect_words(unknown.most_similar));
   return text + ". ";
+}
+
+/// What is too unsure to be called, but likelier than a slip.
+std::string what_may_be_besides(const Diagnosis& diagnosis) {
+  constexpr double kWorthAWord = 0.2;
+  if (diagnosis.probability_of_unknown < kWorthAWord) return {};
+  return fmt::format("Something {} may be there (probability {}). ",
+                     diagnosis.effects.empty() ? "that is not in the list" : "else",
+                     percent_words(diagnosis.probability_of_unknown, true));
 }
 
 std::string agreement(const Diagnosis& diagnosis) {
   constexpr double kLikely = 0.5;
-  const double sure_percent = 100 * diagnosis.probability_of_none;
+  const std::string sure = percent_words(diagnosis.probability_of_none);
   const std::string agree =
       diagnosis.probability_of_none < kLikely
           ? fmt::format(
-                "Nothing is sure enough to be named, but that model and measurement agree is only {:.0f} % sure",
-                sure_percent)
-          : fmt::format("Model and measurement agree within their errors ({:.0f} % sure)", sure_percent);
-  return fmt::format("{}: the {} differ by {:.2f} mm, {:.2f} mm are to be expected.", agree, heights_words(diagnosis),
-                     diagnosis.gap.train.after_rms_mm, diagnosis.gap.train.noise_floor_mm);
+                "No effect is sure enough to be named, but the probability that nothing is missing is only {}. ",
+                sure) +
+                what_may_be_besides(diagnosis)
+          : fmt::format("Model and measurement agree within their errors (probability that nothing is missing: {}). ",
+                        sure);
+  return agree + fmt::format("The {} differ by {:.2f} mm (rms), where errors alone make {:.2f} mm.",
+                             heights_words(diagnosis), diagnosis.gap.train.after_rms_mm,
+                             diagnosis.gap.train.noise_floor_mm);
 }
 
 /// Where cups are seen, but nothing in them.
@@ -253,14 +305,24 @@ std::string what_is_not_compared(const Diagnosis& diagnosis) {
   return "No height in a cup could be compared: what a liquid does to heights is not seen here.";
 }
 
-/// What is too unsure to be called, but likelier than a slip.
-std::string what_may_be_besides(const Diagnosis& diagnosis) {
-  constexpr double kWorthAWord = 0.2;
-  if (diagnosis.probability_of_unknown < kWorthAWord) return {};
-  return fmt::format("Something else may be there as well (probability {:.2g}). ", diagnosis.probability_of_unknown);
+/// Where to look for the cause of something that no effect in the list explains.
+std::string look_words(const Departures& departures) {
+  const std::string level = departures.excess.empty() ? "" : departures.excess.front().level;
+  if (level == "session")
+    return "Look at what changed between the sessions: the sensor's place and calibration, the cup, the ruler. Then "
+           "measure a condition of another session again.";
+  if (level == "trial") return "See that the sensor and the desk stand still, and measure again.";
+  if (level == "unit") return "Clean the lens, clear the desk, and take views of the bare desk again.";
+  if (!level.empty())
+    return fmt::format(
+        "Pour and place with more care, or state in rig.json by how much a {} may be off (fill_sigma_mm, "
+        "placement_sigma_mm).",
+        level);
+  return "Look at the cup and the sensor where measurement and model differ. If you find the cause, an effect of your "
+         "own can be added to the list in one file.";
 }
 
-std::string answer_of_physics(const Diagnosis& diagnosis) {
+std::string finding_of_physics(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::none:
       return agreement(diagnosis);
@@ -314,11 +376,17 @@ std::string effect_words(const std::string& name) {
   return spaced(effect.id) + (effect.liquid.empty() ? "" : " of " + spaced(effect.liquid));
 }
 
-std::string effects_words(const std::vector<std::string>& effects) {
-  if (effects.empty()) return "nothing";
+std::string effect_list(const std::vector<std::string>& effects, std::string_view last) {
   std::vector<std::string> words;
   for (const std::string& effect : effects) words.push_back(effect_words(effect));
-  return joined(words, "and");
+  return joined(words, last);
+}
+
+std::string effects_words(const std::vector<std::string>& effects) {
+  if (effects.empty()) return "no effect";
+  std::vector<std::string> words;
+  for (const std::string& effect : effects) words.push_back(effect_words(effect));
+  return fmt::format("{}", fmt::join(words, " + "));
 }
 
 std::string place_words(std::string_view stratum) {
@@ -328,20 +396,14 @@ std::string place_words(std::string_view stratum) {
     const std::size_t comma = stratum.find(", ");
     const std::string_view factor = stratum.substr(0, comma);
     stratum = comma == std::string_view::npos ? "" : stratum.substr(comma + 2);
-    const std::size_t equals = factor.find('=');
-    if (equals == std::string_view::npos) {
-      factors.emplace_back(factor);
-      continue;
-    }
-    const auto [name, unit] = without_unit(factor.substr(0, equals));
-    factors.push_back(fmt::format("{} is {}{}", name, spaced(factor.substr(equals + 1)), unit));
+    factors.push_back(factor_words(factor));
   }
-  return factors.empty() ? "" : fmt::format("where {}", fmt::join(factors, " and "));
+  return fmt::format("{}", fmt::join(factors, ", "));
 }
 
 std::string stratum_words(const GapLocation& where) {
   const std::string place = place_words(where.stratum);
-  return fmt::format("{}{}{}", observable_words(where.observable).name, place.empty() ? "" : " ", place);
+  return fmt::format("{}{}{}", observable_words(where.observable).name, place.empty() ? "" : ", ", place);
 }
 
 std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {
@@ -353,10 +415,15 @@ std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {
   return shown;
 }
 
+std::string parameter_name(std::string_view parameter) { return without_unit(parameter).first; }
+
+std::string_view parameter_unit(std::string_view parameter) { return without_unit(parameter).second; }
+
 std::string parameter_words(const NamedParameter& parameter) {
   const auto [name, unit] = without_unit(parameter.name);
-  return fmt::format("{} = {:.3g}{} (95 %: {:.3g} to {:.3g})", name, parameter.value, unit, parameter.low95,
-                     parameter.high95);
+  const int decimals = decimals_of(parameter.low95, parameter.high95);
+  return fmt::format("{} = {:.{}f}{} (95 %: {:.{}f} to {:.{}f})", name, parameter.value, decimals, unit,
+                     parameter.low95, decimals, parameter.high95, decimals);
 }
 
 std::string beside_words(const Departures& departures) {
@@ -375,14 +442,46 @@ std::string beside_words(const Departures& departures) {
   return text;
 }
 
-std::string answer(const Diagnosis& diagnosis) {
+std::string finding(const Diagnosis& diagnosis) {
   std::string text;
   for (const Mistake& mistake : diagnosis.data.mistakes) text += mistake.sentence + " ";
   if (!text.empty()) text += "With that put right: ";
-  text += answer_of_physics(diagnosis);
+  text += finding_of_physics(diagnosis);
   while (text.ends_with(' ')) text.pop_back();
   const std::string not_compared = what_is_not_compared(diagnosis);
   return not_compared.empty() ? text : text + " " + not_compared;
+}
+
+std::vector<std::string> advice(const Diagnosis& diagnosis) {
+  std::vector<std::string> steps;
+  const auto add = [&](std::string step) {
+    while (step.ends_with(' ')) step.pop_back();
+    if (!step.empty()) steps.push_back(std::move(step));
+  };
+  const bool is_unknown = diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown;
+  if (is_unknown) add(look_words(diagnosis.departures));
+  for (const NamedEffect& named : diagnosis.effects)
+    if (const Effect* effect = find_effect(effect_name(named.name).id))
+      add(fmt::format("Check {} by {}.", effect_words(named.name), effect->discriminated_by));
+  if (!diagnosis.effects.empty())
+    add("Where a check confirms an effect, correct what was written down of the rig or the shots, and diagnose again. "
+        "Where nothing can be corrected, --model model.json takes the effect into the model.");
+  if (diagnosis.verdict == Verdict::ambiguous) {
+    add(next_sentences(diagnosis.next));
+    const bool has_plan = std::any_of(diagnosis.next.begin(), diagnosis.next.end(),
+                                      [](const NextMeasurement& next) { return next.settles(); });
+    if (has_plan) add("next_1.json holds the plan of the first of these measurements.");
+  }
+  if (diagnosis.verdict == Verdict::none && diagnosis.data.mistakes.empty())
+    add("Nothing: no further measurement is needed.");
+  return steps;
+}
+
+std::string answer(const Diagnosis& diagnosis) {
+  std::string text = finding(diagnosis);
+  if (diagnosis.verdict == Verdict::ambiguous) text += fmt::format(" {}", next_sentences(diagnosis.next));
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
 }
 
 }  // namespace fathom

@@ -66,7 +66,8 @@ std::string words_of(const DiagnosedCampaign& campaign, std::size_t row) {
   const Factors& f = o.factors;
   const ReportShot* shot = shot_of(campaign, row);
   return fmt::format(
-      "{}, {} of the cup\nsession {}, pour {}, placement {}{}\nmeasured {:.2f} mm; less the model {:+.2f} mm before, "
+      "{}, {} of the cup\nsession {}, pour {}, placement {}{}\nmeasured {:.2f} mm; measured − model: {:+.2f} mm "
+      "before, "
       "{:+.2f} mm after, ± {:.2f} mm (1 σ)",
       condition_words(f), f.region, f.session, f.pour, f.placement, shot ? ", frame " + shot->frame : "", o.value,
       campaign.diagnosis.residuals.before[row], campaign.diagnosis.residuals.after[row],
@@ -100,7 +101,7 @@ std::string liquids_svg(const std::vector<Observation>& observations, const std:
     while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
     const double left = kLeft + step * static_cast<double>(first), right = kLeft + step * static_cast<double>(end);
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + right),
-                       kTop - 10.0, html_escaped(liquid));
+                       kTop - 10.0, html_escaped(spaced(liquid)));
     if (first > 0)
       svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#ccc\"/>\n", left, kTop,
                          kBottom);
@@ -158,11 +159,11 @@ std::string heights_chart(const DiagnosedCampaign& campaign) {
          fmt::format(
              "<text x=\"{}\" y=\"{}\">measured − model [mm], by liquid, fill and place: "
              "<tspan fill=\"#D55E00\">● before</tspan> <tspan fill=\"#0072B2\">● after, with 1 σ</tspan></text>\n"
-             "</svg>\n<p>Hold the pointer over a point to read its condition{}.</p>\n",
+             "</svg>\n<p>Point at or tap a dot to read its condition{}.</p>\n",
              kLeft, kHeight - 8.0,
              shots.empty() ? ""
-             : has_images  ? "; click it for its cloud and its infrared image"
-                           : "; click it for its cloud") +
+             : has_images  ? "; click it for its point cloud (.pcd) and its infrared image"
+                           : "; click it for its point cloud (.pcd)") +
          shots_html(campaign.shots);
 }
 

@@ -20,7 +20,7 @@ constexpr std::array kWords{
     ObservableWords{"cup_x_mm", "sideways place of the cup", " mm", "further right", "further left"},
     ObservableWords{"cup_y_mm", "distance of the cup", " mm", "larger", "smaller"},
     ObservableWords{"cup_radius_mm", "radius of the cup", " mm", "larger", "smaller"},
-    ObservableWords{"desk_height_mm", "height of the camera above the desk", " mm", "higher", "lower"},
+    ObservableWords{"desk_height_mm", "height of the camera above the desk", " mm", "larger", "smaller"},
     ObservableWords{"desk_pitch_deg", "pitch of the camera", "°", "steeper", "flatter"},
     ObservableWords{"desk_roll_deg", "roll of the camera", "°", "larger", "smaller"},
     ObservableWords{"desk_residual_mm", "height of the desk above its plane", " mm", "higher", "lower"},
@@ -46,8 +46,14 @@ ObservableWords observable_words(std::string_view id) {
   return known != kWords.end() ? *known : ObservableWords{id, id, "", "larger", "smaller"};
 }
 
+std::string spaced(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 std::string condition_words(const Factors& f) {
-  return fmt::format("{}{}, cup at ({:g}, {:g}) mm", f.liquid,
+  return fmt::format("{}{}, cup at ({:g}, {:g}) mm", spaced(f.liquid),
                      f.fill_mm > 0.0 ? fmt::format(", {:g} mm", f.fill_mm) : "", f.lateral_mm, f.distance_mm);
 }
 

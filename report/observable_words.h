@@ -17,6 +17,7 @@ struct ObservableWords {
 ObservableWords observable_words(std::string_view id);
 
 /// "water, 20 mm, cup at (80, 200) mm"
+std::string spaced(std::string_view name);  ///< "milk_tea" → "milk tea"
 std::string condition_words(const Factors& factors);
 
 }  // namespace fathom

@@ -129,9 +129,10 @@ WholeDiagnosis diagnose(const DiagnosisInput& input, bool quiet) {
   if (std::string beside = beside_words(whole.diagnosis.departures); !beside.empty())
     whole.notes.push_back(std::move(beside));
   if (!physics.unseen.empty())
-    whole.not_covered.push_back(fmt::format("These measurements cannot show {}.", effects_words(physics.unseen)));
+    whole.not_covered.push_back(
+        fmt::format("These measurements neither show nor exclude {}.", effect_list(physics.unseen, "or")));
   if (!input.not_looked_for.empty())
-    whole.not_covered.push_back(fmt::format("Not looked for: {}.", effects_words(input.not_looked_for)));
+    whole.not_covered.push_back(fmt::format("Not looked for: {}.", effect_list(input.not_looked_for, "and")));
   return whole;
 }
 

@@ -30,7 +30,8 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   diagnosis.data.warnings = hygiene_warnings(c.evidence);
   if (!c.covariance.errors.from_replicates)
     diagnosis.data.warnings.emplace_back(
-        "hardly any condition was poured or placed anew: errors are taken from what a smooth model leaves");
+        "Hardly any condition was poured or placed anew, so errors are taken from what a smooth curve through the "
+        "conditions leaves. Repeat some conditions with new pours and placements.");
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
   diagnosis.limits.confusable = confusable_pairs(c.evidence, c.problem);
   diagnosis.limits.near_null = near_null_directions(c.evidence, c.problem);

@@ -22,15 +22,16 @@ TEST(DiagnosisWords, AgreementThatHardlyHoldsIsSaidLessRoundly) {
   EXPECT_TRUE(says(agreement(0.9), "agree within their errors"));
   EXPECT_FALSE(says(agreement(0.2), "agree within their errors"));
   EXPECT_TRUE(says(agreement(0.2),
-                   "Nothing is sure enough to be named, but that model and measurement agree is only 20 % sure"));
+                   "No effect is sure enough to be named, but the probability that nothing is missing is only 20 %."));
 }
 
 TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {
-  EXPECT_EQ(stratum_words({"height_mm", "time=early"}), "height in the cup in the first third of the session");
+  EXPECT_EQ(stratum_words({"height_mm", "time=early"}), "height in the cup, in the first third of the session");
   EXPECT_EQ(stratum_words({"height_mm", "time_since_pour=late"}),
-            "height in the cup in the last third of the time since the pour");
+            "height in the cup, in the last third of the time since the pour");
   EXPECT_EQ(stratum_words({"height_mm", "liquid=milk_tea, fill_mm=20"}),
-            "height in the cup where liquid is milk tea and fill is 20 mm");
+            "height in the cup, in milk tea, at a fill of 20 mm");
+  EXPECT_EQ(place_words("distance_mm=300, lateral_mm=-60"), "300 mm away, 60 mm to the left");
 }
 
 TEST(DiagnosisWords, OfManyPairsThatNothingTellsApartTheLikeliestAreNamed) {
@@ -47,9 +48,33 @@ TEST(DiagnosisWords, WhereIsSaidByThePlainMeanOfWhatDeparts) {
   Diagnosis diagnosis = agreement(0.001);
   diagnosis.verdict = Verdict::unknown;
   diagnosis.departures.where = {{"height_mm", "liquid=milk", 2.5, 0.3, 0.8, 1e-6, 3.3}};
-  EXPECT_TRUE(says(diagnosis, "Where liquid is milk, the height in the cup is 3.3 mm higher than the model has it."));
+  EXPECT_TRUE(says(diagnosis, "In milk, the height in the cup is 3.3 mm higher than the model has it."));
   diagnosis.departures.where.front().departure = 0.1;
-  EXPECT_TRUE(says(diagnosis, "the height in the cup is 2.5 mm higher, beside the rest, than the model has it."));
+  EXPECT_TRUE(says(diagnosis,
+                   "In milk, compared with the rest, the height in the cup is 2.5 mm higher than the model has it."));
+}
+
+TEST(DiagnosisWords, WhatAnEffectSaysIsNotSaidOfItsDepartureAsWell) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::named;
+  diagnosis.effects = {{"sensor_height", {{"height_mm", 6.0, 4.5, 7.5}}}};
+  diagnosis.departures.where = {{"desk_height_mm", "all", 6.2, 0.8, 1.0, 1e-6, 6.5}};
+  EXPECT_TRUE(answer(diagnosis).starts_with("Best explanation: the sensor stands 6.0 mm (4.5 to 7.5 mm) higher"));
+  diagnosis.departures.where.front().observable = "height_mm";
+  EXPECT_TRUE(answer(diagnosis).starts_with("The height in the cup is 6.5 mm higher"));
+}
+
+TEST(DiagnosisWords, EachVerdictSaysWhatToDo) {
+  EXPECT_EQ(advice(agreement(0.9)).size(), 1u);
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::named;
+  diagnosis.effects = {{"fill_scale", {{"relative", 0.1, 0.08, 0.12}}}};
+  EXPECT_EQ(advice(diagnosis).front(), "Check fill scale by weighing the cup at two fills.");
+  diagnosis.effects.clear();
+  diagnosis.verdict = Verdict::unknown;
+  EXPECT_EQ(advice(diagnosis).size(), 1u);
+  diagnosis.departures.excess = {{"session", "1", "height_mm", "", 2.3, 0.3, 1e-6}};
+  EXPECT_TRUE(advice(diagnosis).front().starts_with("Look at what changed between the sessions"));
 }
 
 TEST(DiagnosisWords, ASizeAtItsBoundIsSaidToBeAtLeastThat) {
@@ -58,7 +83,7 @@ TEST(DiagnosisWords, ASizeAtItsBoundIsSaidToBeAtLeastThat) {
   diagnosis.effects = {{"disparity_offset", {{"offset_px", -3.0, -3.0, -2.32}}}};
   EXPECT_TRUE(says(diagnosis, "all disparities at least 2.32 px (3 px is the most that is considered) too small"));
   diagnosis.effects = {{"disparity_offset", {{"offset_px", -1.0, -1.2, -0.8}}}};
-  EXPECT_TRUE(says(diagnosis, "all disparities 1 px (0.8 to 1.2 px) too small"));
+  EXPECT_TRUE(says(diagnosis, "all disparities 1.00 px (0.80 to 1.20 px) too small"));
 }
 
 }  // namespace
