@@ -138,7 +138,7 @@ std::string Goal::verdict() const {
   if (trials == 0) return "no sets";
   if (want == Want::between) {
     if (low >= bar && high <= bar_high) return "met";
-    return high < bar || low > bar_high ? "missed" : "open";
+    return value >= bar && value <= bar_high ? "open" : "missed";
   }
   const bool least = want == Want::at_least;
   if (least ? low >= bar : high <= bar) return "met";

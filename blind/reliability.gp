@@ -9,6 +9,6 @@ set border 3; set tics nomirror
 set key bottom right
 set xrange [0:1]; set yrange [0:1.02]
 set xlabel 'probability of what is put first'
-set ylabel 'share of which it is true, 95 % intervals'
-plot x with lines dt 2 lc rgb 0x555555 title 'true probabilities', \
+set ylabel 'share that was true, 95 % intervals'
+plot x with lines dt 2 lc rgb 0x555555 title 'perfectly calibrated', \
      'reliability.csv' using 'said':'true':'low95':'high95' with yerrorlines lw 2 pt 7 lc rgb 0x0072B2 title 'answers'

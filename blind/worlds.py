@@ -4,7 +4,7 @@
 Judges the diagnosis in a world that is not Fathom's own: has WORLD write one measurement after the other, diagnoses each,
 removes its clouds, and scores the answers. WORLD is povray (POV-Ray's rays, OpenCV's matches) or second_laboratory, which
 needs the programs of ../shared/second_world. out/blind/WORLD-SEED/ holds truth, answers and score; it goes on where it was
-stopped. `page` prints the scores of several worlds as one table, the worst on its first line, and of each what was found by what was hidden.
+stopped. `page` prints the scores of several packs side by side, the worst first, and of each other world what was found by what was hidden.
 Needs Debian's python3-numpy, python3-scipy; the world of POV-Ray also povray and python3-opencv."""
 import argparse
 import collections
@@ -205,18 +205,31 @@ def score(pack, world):
     print(f"Look at {pack / 'score'}")
 
 
+def beside(scores):
+    """Packs as columns, the one that misses most goals first, and goals as rows; what is missed is bold. Of our own world's
+    goals those that other worlds have as well."""
+    scores = sorted(scores, key=lambda one: -sum(goal["verdict"] == "missed" for goal in one["goals"]))
+    by_metric = [{goal["metric"]: goal for goal in one["goals"]} for one in scores]
+    print("| goal | bar | " + " | ".join(one["pack"] for one in scores) + " |\n|" + "---|" * (len(scores) + 2))
+    print("| measurements |  | " + " | ".join(str(one["sets"]) for one in scores) + " |")
+    for metric in list(dict.fromkeys(goal["metric"] for goal in goals([]) if goal["metric"] != "answered")):
+        known = [of.get(metric) for of in by_metric]
+        if not any(goal and goal["trials"] for goal in known):
+            continue
+        one = next(goal for goal in known if goal)
+        cells = ["" if not goal or not goal["trials"] else ("**{}**" if goal["verdict"] == "missed" else "{}").format(
+            f"{goal['value']:.2f}" if metric.startswith("matched filter") else f"{goal['hits']}/{goal['trials']}") for goal in known]
+        at_most = metric.startswith(("names", "calls", "confidently", "matched"))
+        print(f"| {metric} | {'≤' if at_most else '≥'} {one['bar']:g} | " + " | ".join(cells) + " |")
+
+
 def page(files):
-    """Worlds as rows: the one that misses most bars first."""
-    scores = [json.loads(Path(file).read_text()) for file in files]
-    scores.sort(key=lambda one: -sum(goal["verdict"] == "missed" for goal in one["goals"]))
-    metrics = [goal["metric"] for goal in scores[0]["goals"]]
-    print("| world | " + " | ".join(metrics) + " |\n|" + "---|" * (len(metrics) + 1))
-    for one in scores:
-        cells = {goal["metric"]: f"{goal['hits']}/{goal['trials']}" if "hits" in goal else f"{goal['value']:.2f}"
-                 for goal in one["goals"] if goal["trials"]}
-        print(f"| {one['pack']} | " + " | ".join(cells.get(metric, "") for metric in metrics) + " |")
-    for file, one in zip(files, map(json.loads, (Path(file).read_text() for file in files))):
-        by_hidden(one["pack"], Path(file).with_name("sets.csv"))
+    """Tables of several packs' scores: all goals side by side, then of each other world what was found by what was hidden."""
+    scores = [{"pack": Path(file).resolve().parent.parent.name} | json.loads(Path(file).read_text()) for file in files]
+    beside(scores)
+    for file, one in zip(files, scores):
+        if one.get("world"):
+            by_hidden(one["pack"], Path(file).with_name("sets.csv"))
 
 
 def by_hidden(pack, file):

@@ -7,8 +7,9 @@ namespace fathom {
 
 /// Probability at which one explanation is sure among others, and at which it is sure that something is missing.
 inline constexpr double kSure = 0.95;
-/// Odds against a model in which nothing is missing turn up in one of as many campaigns at most where that is true
-/// (Markov's inequality): no more than one campaign in a hundred shall name something, or call it unknown, falsely.
+/// Odds against a model in which nothing is missing. Beforehand they are 2, so where nothing is missing they rise to
+/// this in one campaign of fifty at most (Markov's inequality): no more shall name something, or call it unknown,
+/// falsely.
 inline constexpr double kAlarmOdds = 100.0;
 
 struct DecisionSettings {

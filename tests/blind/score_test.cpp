@@ -53,6 +53,14 @@ TEST(BlindScore, ARightAnswerScoresEverywhere) {
   EXPECT_EQ(goal(goals, "single effect first, s ≥ 8").verdict(), "open") << "two sets prove nothing";
 }
 
+TEST(BlindScore, AValueOutsideOfItsTwoLimitsIsMissed) {
+  Goal goal{
+      .value = 0.915, .low = 0.8, .high = 0.976, .trials = 47, .want = Want::between, .bar = 0.93, .bar_high = 0.97};
+  EXPECT_EQ(goal.verdict(), "missed");
+  goal.value = 0.95;
+  EXPECT_EQ(goal.verdict(), "open");
+}
+
 TEST(BlindScore, AWrongAnswerIsConfidentlyWrong) {
   const std::vector<Judged> judged{{single("meniscus", -20.0, 9.0), answer_of(kIndexNamed)},
                                    {SetTruth{.kind = "null", .design = "full"}, answer_of(kIndexNamed)}};
