@@ -14,7 +14,6 @@
 #include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "report/heights_chart.h"
-#include "report/observable_words.h"
 
 namespace fathom {
 namespace {
@@ -36,9 +35,9 @@ LiquidMarks liquid_marks(const std::vector<Observation>& observations, const std
       return fmt::format("set label {} {} at {}, graph 0.96 center textcolor rgb ink noenhanced\n", number,
                          gnuplot_text(text), 0.5 * static_cast<double>(first + end - 1));
     };
-    const std::string name = spaced(liquid), drawable = drawable_text(name);
+    const std::string drawable = drawable_text(liquid);
     marks.commands += label(drawable);
-    if (drawable != name) marks.before_svg += label(name);
+    if (drawable != liquid) marks.before_svg += label(liquid);
     if (first > 0)
       marks.commands += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb pale\n",
                                     static_cast<double>(first) - 0.5);
@@ -226,9 +225,9 @@ bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& ca
   };
   std::string labels, before_svg;
   for (std::size_t panel = 0; panel < liquids.size(); ++panel) {
-    const std::string name = spaced(liquids[panel]), drawable = drawable_text(name);
+    const std::string drawable = drawable_text(liquids[panel]);
     labels += label(panel, drawable);
-    if (drawable != name) before_svg += label(panel, name);
+    if (drawable != liquids[panel]) before_svg += label(panel, liquids[panel]);
     for (const double middle : {0.0, kBefore})
       labels += fmt::format("set object circle at {}, {} size 2.5 fillstyle empty border lc rgb pale\n",
                             kPanel * static_cast<double>(panel), middle);

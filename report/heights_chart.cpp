@@ -101,7 +101,7 @@ std::string liquids_svg(const std::vector<Observation>& observations, const std:
     while (end < rows.size() && observations[rows[end]].factors.liquid == liquid) ++end;
     const double left = kLeft + step * static_cast<double>(first), right = kLeft + step * static_cast<double>(end);
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + right),
-                       kTop - 10.0, html_escaped(spaced(liquid)));
+                       kTop - 10.0, html_escaped(liquid));
     if (first > 0)
       svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#ccc\"/>\n", left, kTop,
                          kBottom);
