@@ -10,6 +10,7 @@
 
 #include "core/files.h"
 #include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/groups.h"
 #include "report/diagnosis_pictures.h"
 #include "report/diagnosis_words.h"
 #include "report/heights_chart.h"
@@ -330,15 +331,15 @@ std::string count_words(std::size_t count, std::string_view name) {
 
 /// What was measured, in a sentence.
 std::string facts_words(const std::vector<Observation>& observations) {
-  std::set<int> sessions, pours, placements;
-  std::set<std::string> liquids;
+  std::set<int> sessions;
+  std::set<std::string> pours, placements, liquids;
   for (const Observation& o : observations) {
     const Factors& f = o.factors;
     sessions.insert(f.session);
     if (o.observable != "height_mm") continue;
-    placements.insert(f.placement);
+    placements.insert(placement_key(o));
     liquids.insert(f.liquid == "empty" ? "empty cups" : spaced(f.liquid));
-    if (f.liquid != "empty") pours.insert(f.pour);
+    if (has_liquid(f)) pours.insert(pour_of(f));
   }
   std::vector<std::string> parts;
   for (std::string part : {count_words(sessions.size(), "session"), count_words(pours.size(), "pour"),

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <tuple>
 
 #include "core/input_policy.h"
+#include "core/units.h"
 #include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/frame_cloud.h"
@@ -66,14 +70,21 @@ ReportShot shot_of(const FrameRecord& frame, const LaboratoryRig& rig, const fs:
 ReportShots shots_of(const std::vector<Observation>& observations, const Measurement& measurement,
                      const std::vector<fs::path>& folders, const fs::path& report) {
   ReportShots result{{}, std::vector<int>(observations.size(), -1)};
-  using Key = std::tuple<int, int, int, std::string>;
+  // Numbers of pours and placements may start anew with each filling and place.
+  using Key = std::tuple<int, int, int, std::string, std::int64_t, std::int64_t, std::int64_t>;
+  const auto key_of = [](const auto& f, double fill_mm, double distance_mm, double lateral_mm) {
+    const auto micrometres = [](double mm) { return static_cast<std::int64_t>(std::llround(1000.0 * mm)); };
+    return Key(f.session, f.pour, f.placement, f.liquid, micrometres(fill_mm), micrometres(distance_mm),
+               micrometres(lateral_mm));
+  };
   std::map<Key, const FrameRecord*> first;
   for (const FrameRecord& f : measurement.frames)
-    if (!f.cloud.empty()) first.emplace(Key(f.session, f.pour, f.placement, f.liquid), &f);
+    if (!f.cloud.empty())
+      first.emplace(key_of(f, mm_from_metres(f.fill_m), mm_from_metres(f.distance_m), mm_from_metres(f.lateral_m)), &f);
   std::map<const FrameRecord*, int> numbers;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Factors& f = observations[i].factors;
-    const auto found = first.find({f.session, f.pour, f.placement, f.liquid});
+    const auto found = first.find(key_of(f, f.fill_mm, f.distance_mm, f.lateral_mm));
     if (observations[i].observable != "height_mm" || found == first.end()) continue;
     const auto [number, is_new] = numbers.emplace(found->second, static_cast<int>(result.shots.size()));
     if (is_new)

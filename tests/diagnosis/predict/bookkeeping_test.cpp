@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -38,9 +39,16 @@ TEST(Bookkeeping, RightNotesAreLeftAlone) {
 TEST(Bookkeeping, FillsInCentimetresAreFound) {
   Measurement measurement = measured();
   for (Observation& o : measurement.observations) o.factors.fill_mm *= 0.1;
+  const auto poured = std::find_if(measurement.observations.begin(), measurement.observations.end(),
+                                   [](const Observation& o) { return o.factors.fill_mm > 0.0; });
+  FrameRecord frame;
+  frame.liquid = poured->factors.liquid, frame.fill_m = metres_from_mm(poured->factors.fill_mm);
+  const double written_m = frame.fill_m;
+  measurement.frames.push_back(frame);
   put_right(measurement);
   ASSERT_EQ(measurement.mistakes.size(), 1u);
   EXPECT_EQ(measurement.mistakes[0].id, "unit_error");
+  EXPECT_NEAR(measurement.frames.back().fill_m, 10.0 * written_m, 1e-12);
   const Measurement truth = measured();
   for (std::size_t i = 0; i < truth.observations.size(); ++i)
     EXPECT_NEAR(measurement.observations[i].factors.fill_mm, truth.observations[i].factors.fill_mm, 1e-9);
@@ -99,9 +107,11 @@ TEST(Bookkeeping, ExchangedLabelsAreFound) {
       o.factors.liquid = "milk";
     else if (o.factors.liquid == "milk")
       o.factors.liquid = "water";
+  measurement.frames.emplace_back().liquid = "milk";
   put_right(measurement);
   ASSERT_EQ(measurement.mistakes.size(), 1u);
   EXPECT_EQ(measurement.mistakes[0].id, "label_swap");
+  EXPECT_EQ(measurement.frames.back().liquid, "water") << "a report leads from a height to its shot";
   const Measurement truth = measured();
   for (std::size_t i = 0; i < truth.observations.size(); ++i)
     EXPECT_EQ(measurement.observations[i].factors.liquid, truth.observations[i].factors.liquid);
