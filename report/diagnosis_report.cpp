@@ -76,7 +76,7 @@ std::vector<int> percents_of(const std::vector<double>& shares) {
 
 /// A value and its σ with the same digits: two of the σ.
 std::string value_words(double value, double sigma, std::string_view unit) {
-  const int decimals = sigma > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6) : 2;
+  const int decimals = decimals_of(-sigma, sigma);
   return fmt::format("{:+.{}f} ± {:.{}f}{}", value, decimals, sigma, decimals, unit);
 }
 
