@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/detector_options.h"
-#include "app/number_option.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/error.h"

@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "app/choice_option.h"
 #include "app/commands.h"
+#include "app/options.h"
 #include "app/output_size.h"
 #include "app/print.h"
 #include "app/scene_doubts.h"

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands.h"
-#include "app/measurement_folder.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/error.h"

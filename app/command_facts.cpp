@@ -44,8 +44,8 @@ OptionFacts facts_of(const CLI::Option& option) {
 bool OptionFacts::names_folder() const { return value.ends_with("DIR"); }
 
 bool OptionFacts::is_number() const {
-  constexpr std::array<std::string_view, 8> kNumbers{"INT", "UINT", "FLOAT", "FLOAT,…", "FLOAT|inf", "MM", "DEG", "PX"};
-  return value == "S" || std::find(kNumbers.begin(), kNumbers.end(), value) != kNumbers.end();
+  constexpr std::array kNumbers{"INT", "UINT", "FLOAT", "FLOAT,…", "FLOAT|inf", "MM", "DEG", "PX", "S"};
+  return std::find(kNumbers.begin(), kNumbers.end(), value) != kNumbers.end();
 }
 
 CommandFacts facts_of(const CLI::App& command, const std::string& name) {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/detector_options.h"
 #include "app/live_cloud.h"
+#include "app/options.h"
 #include "app/poses.h"
 #include "app/print.h"
 #include "core/json_text.h"

@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
-#include "app/choice_option.h"
 #include "app/commands.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "app/remove_diagnosis.h"
 #include "app/results.h"

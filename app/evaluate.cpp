@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/detector_options.h"
 #include "app/evaluate_clutter.h"
 #include "app/evaluate_dataset.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/files.h"

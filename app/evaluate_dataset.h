@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/command.h"
-#include "app/shard.h"
+#include "app/options.h"
 #include "detector/detector.h"
 
 namespace fathom {

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/options.h"
 #include "app/output_size.h"
 #include "app/print.h"
-#include "app/shard.h"
 #include "core/files.h"
 #include "core/rows.h"
 #include "datasets/generate.h"

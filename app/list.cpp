@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "app/choice_option.h"
 #include "app/commands.h"
+#include "app/options.h"
 #include "app/results.h"
 #include "campaign/campaign_spec.h"
 #include "core/files.h"

@@ -16,7 +16,7 @@
 
 #include "app/commands.h"
 #include "app/examples.h"
-#include "app/number_option.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "core/error.h"
 #include "core/input_policy.h"

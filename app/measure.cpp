@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/measurement_folder.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "campaign/cup_height.h"
 #include "core/folder_owner.h"

@@ -10,8 +10,8 @@
 #include <optional>
 #include <variant>
 
-#include "app/choice_option.h"
 #include "app/commands.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "core/files.h"

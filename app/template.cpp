@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/detector_options.h"
-#include "app/number_option.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "core/error.h"
 #include "core/folder_owner.h"

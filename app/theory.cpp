@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/number_option.h"
+#include "app/options.h"
 #include "app/results.h"
 #include "core/json_text.h"
 #include "core/rows.h"

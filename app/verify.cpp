@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/number_option.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "app/results.h"
 #include "app/verify_cases.h"

@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "app/choice_option.h"
 #include "app/commands.h"
+#include "app/options.h"
 #include "app/print.h"
 #include "core/error.h"
 #include "core/folder_owner.h"

@@ -1,18 +1,22 @@
-#include "app/number_option.h"
+#include "app/options.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
-#include <optional>
 
+#include "app/command.h"
 #include "core/decimal.h"
+#include "core/error.h"
+#include "core/units.h"
 
 namespace fathom {
 namespace {
 
-/// What parts a list of numbers; an empty text between two of them is a part as well.
+/// The texts between the commas of a list of numbers, empty ones too.
 std::vector<std::string> parts(const std::string& text) {
   std::vector<std::string> result(1);
   for (const char c : text)
@@ -23,7 +27,7 @@ std::vector<std::string> parts(const std::string& text) {
   return result;
 }
 
-/// Puts a whole number as CLI11 reads it: without what it takes for an octal one.
+/// Writes a whole number as CLI11 reads it: 010 as 10, since CLI11 would take it for an octal one.
 template <class Whole>
 std::string whole_number(std::string& text) {
   const std::optional<Whole> number = decimal<Whole>(text);
@@ -40,6 +44,14 @@ std::string whole_number(std::string& text) {
 std::string any_number(const std::string& text) { return number_within({})(text); }
 
 }  // namespace
+
+CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& names) {
+  const auto wrong = [kind, names](const std::string& name) {
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    return known ? std::string() : unknown_name(kind, name, names);
+  };
+  return {wrong, fmt::format("{{{}}}", fmt::join(names, ",")), kind};
+}
 
 std::function<std::string(const std::string&)> number_within(Range range) {
   return [range](const std::string& text) {
@@ -77,6 +89,57 @@ void require_numbers(CLI::App& command) {
     if (type == "FLOAT") option->check(any_number);
   }
   for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) require_numbers(*below);
+}
+
+std::shared_ptr<std::filesystem::path> add_measurement_folder(CLI::App& app, bool is_required) {
+  auto folder = std::make_shared<std::filesystem::path>();
+  app.add_option("folder", *folder, "Measurement directory: rig.json, frames.csv and clouds")
+      ->required(is_required)
+      ->type_name("DIR");
+  return folder;
+}
+
+std::optional<DeskPrior> DeskOptions::prior() const {
+  if (!given) return std::nullopt;
+  return DeskPrior{metres_from_mm(height_mm), radians_from_deg(pitch_deg)};
+}
+
+void add_desk_options(CLI::App& app, DeskOptions& options) {
+  CLI::Option* height = app.add_option("--height-mm", options.height_mm, "Height of the sensor above the desk")
+                            ->check(number_within({1.0, 1e5}))
+                            ->type_name("MM");
+  CLI::Option* pitch =
+      app.add_option("--pitch-deg", options.pitch_deg, "0: the sensor looks horizontally, 90: straight down")
+          ->check(number_within({-90.0, 90.0}))
+          ->type_name("DEG")
+          ->each([&options](const std::string&) { options.given = true; });
+  height->needs(pitch);
+  pitch->needs(height);
+}
+
+void add_method_option(CLI::App& app, std::string& method) {
+  std::vector<std::string> names;
+  std::string help = "One of";
+  for (const Method& one : methods()) {
+    names.emplace_back(one.name);
+    help += fmt::format(" {} ({})", one.name, one.summary);
+  }
+  app.add_option("--method", method, help)->capture_default_str()->check(one_of("method", names));
+}
+
+void add_shard_option(CLI::App& app, std::string& shard) {
+  app.add_option("--shard", shard, "Only the i-th of n parts: every process of n makes one, on one machine or many")
+      ->type_name("i/n")
+      ->capture_default_str();
+}
+
+Shard shard_of(const std::string& text) {
+  Shard shard{};
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%6d/%6d%c", &shard.number, &shard.count, &rest) != 2 || shard.count < 1 ||
+      shard.number < 0 || shard.number >= shard.count)
+    throw UsageError(fmt::format("--shard must be i/n with i from 0 to n-1, got {}", text));
+  return shard;
 }
 
 }  // namespace fathom
