@@ -64,60 +64,38 @@ Eigen::Vector2d put_down(const CampaignSpec& spec, const Eigen::Vector2d& nomina
   return nominal + spec.nominal.placement_sigma_m * Eigen::Vector2d(x, y);
 }
 
-/// Adds to a plan in the order of time.
-class Planner {
- public:
-  Planner(const CampaignSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
-
-  void begin_session(int session) {
-    session_ = session;
-    time_s_ = 0.0;
-    if (spec_.bare_desk_views > 0)
-      add({session_, 0, 0, nullptr, 0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, spec_.bare_desk_views);
-  }
-
-  void pour(const CampaignFilling& filling) {
-    const double fill = poured(spec_, filling, pours_, seed_);
-    time_s_ += spec_.pour_s;
-    poured_s_ = time_s_;
-    for (const double distance : spec_.distances)
-      for (const double lateral : spec_.laterals)
-        for (int j = 0; j < spec_.placements; ++j, ++cups_) {
-          const Eigen::Vector2d nominal(lateral, distance);
-          time_s_ += spec_.placement_s;
-          add({session_, cups_, pours_, &filling, fill, nominal, put_down(spec_, nominal, cups_, seed_)}, spec_.trials);
-        }
-    ++pours_;
-  }
-
-  std::vector<Placement> take() { return std::move(placements_); }
-
- private:
-  void add(Placement placement, int trials) {
-    placement.time_s = time_s_;
-    if (placement.filling) placement.stood_s = time_s_ - poured_s_;
-    placement.first_frame = frames_;
-    placement.trials = trials;
-    frames_ += trials;
-    time_s_ += trials * spec_.frame_s;
-    placements_.push_back(placement);
-  }
-
-  const CampaignSpec& spec_;
-  std::uint64_t seed_;
-  int session_ = 0, pours_ = 0, cups_ = 0, frames_ = 0;
-  double time_s_ = 0.0, poured_s_ = 0.0;
-  std::vector<Placement> placements_;
-};
-
+/// Every placement, in the order of time.
 std::vector<Placement> plan(const CampaignSpec& spec, std::uint64_t seed) {
-  Planner planner(spec, seed);
+  std::vector<Placement> placements;
+  int pours = 0, cups = 0, frames = 0;
   for (int session = 0; session < spec.sessions; ++session) {
-    planner.begin_session(session);
+    double time_s = 0.0, poured_s = 0.0;
+    const auto add = [&](Placement placement, int trials) {
+      placement.time_s = time_s;
+      if (placement.filling) placement.stood_s = time_s - poured_s;
+      placement.first_frame = frames;
+      placement.trials = trials;
+      frames += trials;
+      time_s += trials * spec.frame_s;
+      placements.push_back(placement);
+    };
+    if (spec.bare_desk_views > 0)
+      add({session, 0, 0, nullptr, 0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, spec.bare_desk_views);
     for (const CampaignFilling& filling : spec.fillings)
-      for (int i = 0; i < spec.pours; ++i) planner.pour(filling);
+      for (int i = 0; i < spec.pours; ++i, ++pours) {
+        const double fill = poured(spec, filling, pours, seed);
+        time_s += spec.pour_s;
+        poured_s = time_s;
+        for (const double distance : spec.distances)
+          for (const double lateral : spec.laterals)
+            for (int j = 0; j < spec.placements; ++j, ++cups) {
+              const Eigen::Vector2d nominal(lateral, distance);
+              time_s += spec.placement_s;
+              add({session, cups, pours, &filling, fill, nominal, put_down(spec, nominal, cups, seed)}, spec.trials);
+            }
+      }
   }
-  return planner.take();
+  return placements;
 }
 
 /// What the laboratory's numbers are off by, as effects.
