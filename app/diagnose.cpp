@@ -2,18 +2,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/print.h"
-#include "app/remove_diagnosis.h"
 #include "app/results.h"
 #include "campaign/next_campaign.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json_text.h"
+#include "core/view_page.h"
 #include "core/visible_text.h"
 #include "diagnosis/decision/diagnosis_json.h"
 #include "diagnosis/statistics/evidence.h"
@@ -92,6 +94,42 @@ void write_next(const fs::path& folder, const Diagnosis& diagnosis, const std::v
       if (plan.name == name) write_json(folder / file->second, campaign_of(plan, rig));
   }
   write_json(folder / "next.json", next);
+}
+
+/// A table of a diagnosis, known by the first of its columns: a measurement has a heights.csv of its own.
+struct TableFile {
+  const char* name;
+  std::string_view columns;
+};
+constexpr std::array kTables{
+    TableFile{"map_desk.csv", "x,y,mean_mm"},           TableFile{"map_cup.csv", "x,y,radius,from_deg"},
+    TableFile{"map_unseen.csv", "x,y,radius,from_deg"}, TableFile{"map_numbers.csv", "x,y,mean_mm"},
+    TableFile{"heights.csv", "number,before_mm"},       TableFile{"shape.csv", "x,y,mean_mm"},
+    TableFile{"residuals.csv", "observable,region"}};
+
+/// next_1.json and so on, which write_next() writes.
+bool is_next_campaign(const std::string& name) {
+  constexpr std::string_view kBegin = "next_", kEnd = ".json";
+  if (name.size() <= kBegin.size() + kEnd.size() || !name.starts_with(kBegin) || !name.ends_with(kEnd)) return false;
+  return std::all_of(name.begin() + kBegin.size(), name.end() - kEnd.size(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Removes what an older diagnosis left, report.json first: a folder with it holds one whole diagnosis. What others
+/// have put there stays, and model.json, which is written again and may be what the new one goes on from.
+void remove_diagnosis(const fs::path& folder) {
+  fs::remove(folder / "report.json");
+  remove_if_ours(folder / "report.html", "<title>Fathom: diagnosis</title>");
+  remove_if_ours(folder / kShotsFile, kShotsBegin);
+  remove_view_page(folder);
+  std::vector<fs::path> campaigns;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && is_next_campaign(entry.path().filename().string()))
+      campaigns.push_back(entry.path());
+  for (const fs::path& campaign : campaigns) fs::remove(campaign);
+  fs::remove(folder / "next.json");
+  for (const char* name : {"map", "heights", "shape"}) remove_drawing(folder, name);
+  for (const TableFile& table : kTables) remove_if_ours(folder / table.name, table.columns);
 }
 
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
