@@ -205,7 +205,7 @@ std::function<void()> define_verify(CLI::App& app, const CommonOptions& common) 
     if (*slab) verify_slab(*options, common);
     if (*fresnel) verify_fresnel(*options, common);
     if (*furnace) verify_cases("furnace", {&furnace_cases()}, common);
-    if (*all) verify_cases("verify", {&published_cases(), &refraction_cases(), &furnace_cases()}, common);
+    if (*all) verify_cases("verify", {&published_cases(), &furnace_cases()}, common);
   };
 }
 

@@ -24,9 +24,8 @@ struct VerifyCase {
   std::vector<Estimate> (*compute)(std::uint64_t seed, const SamplingPlan& plan);
 };
 
-const std::vector<VerifyCase>& published_cases();   ///< tables of reflectance, transmittance and what leaves where
-const std::vector<VerifyCase>& refraction_cases();  ///< angles and apparent depths
-const std::vector<VerifyCase>& furnace_cases();     ///< conservation of energy
+const std::vector<VerifyCase>& published_cases();  ///< reflectances, transmittances, angles, apparent depths
+const std::vector<VerifyCase>& furnace_cases();    ///< conservation of energy
 
 /// How far a value lies from the published one, in standard errors; the published uncertainty counts as a further
 /// error.
