@@ -7,7 +7,6 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/print.h"
-#include "app/results.h"
 #include "core/error.h"
 #include "core/folder_owner.h"
 #include "diagnosis/unit/calibration_clouds.h"
@@ -35,7 +34,7 @@ std::vector<CalibrationCloud> clouds_of(const CalibrateOptions& options) {
 }
 
 void run_calibrate(const CalibrateOptions& options, const CommonOptions& common) {
-  require_report(common);
+  require_gnuplot();
   CalibrationOptions how;
   how.mounted = options.desk.prior();
   if (options.focal_px > 0.0) how.focal_px = options.focal_px;

@@ -282,10 +282,7 @@ std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common
       ->capture_default_str();
   app.add_flag("--infrared", options->infrared, "Infrared images beside the clouds, named in the column ir");
   app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
-  return [options, &common] {
-    require_output(common);
-    run_campaign(*options, common);
-  };
+  return [options, &common] { run_campaign(*options, common); };
 }
 
 }  // namespace fathom

@@ -242,10 +242,7 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_flag("--device-outputs", options->device_outputs,
                "Also what the device sends: depth in 100 µm, raw shifts, and depth registered to the colour camera");
   app.add_flag("--yes", options->yes, "Also where it writes more than 20 GB");
-  return [options, &common] {
-    require_output(common);
-    run(*options, common);
-  };
+  return [options, &common] { run(*options, common); };
 }
 
 }  // namespace fathom

@@ -31,9 +31,9 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// For commands that write files. Throws UsageError when -o is missing.
-inline void require_output(const CommonOptions& common, std::string_view kind = "DIR") {
-  if (common.output.empty()) throw UsageError("-o " + std::string(kind) + " is required");
+/// For commands that do not need -o in any case, where they need it. Throws UsageError when it is missing.
+inline void require_output(const CommonOptions& common) {
+  if (common.output.empty()) throw UsageError("-o DIR is required");
 }
 
 struct Command {

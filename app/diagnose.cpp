@@ -10,7 +10,6 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/print.h"
-#include "app/results.h"
 #include "campaign/next_campaign.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
@@ -133,7 +132,7 @@ void remove_diagnosis(const fs::path& folder) {
 }
 
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
-  require_report(common);
+  require_gnuplot();
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   const DiagnosisInput input = read_diagnosis_input({.folders = options.folders,
                                                      .model = options.model,

@@ -44,7 +44,6 @@ std::function<void()> define_export(CLI::App& app, const CommonOptions& common) 
   app.add_option("--cup", options->cup, "Only the cup of that number, from 0, empty: a shape for another scene")
       ->check(CLI::Range(0, 1'000'000));
   return [options, &common] {
-    require_output(common, "FILE");
     if (common.output.extension() != ".glb")
       throw UsageError("-o must name a .glb file, got " + common.output.string());
     run_export(*options, common);

@@ -13,7 +13,6 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/print.h"
-#include "app/results.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
@@ -81,7 +80,7 @@ Json json_of(const Figure& figure) {
 }
 
 void run_reproduce(const ReproduceOptions& options, const CommonOptions& common) {
-  require_report(common);
+  require_gnuplot();
   const FolderOwner owner(common.output);
   remove_if_ours(common.output / "report.html", kReportTitle);  // it comes last, and is of the figures beside it
   Reproduction reproduction(

@@ -3,7 +3,6 @@
 #include "app/print.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
-#include "report/gnuplot.h"
 
 namespace fathom {
 
@@ -16,11 +15,6 @@ void write_results(const CommonOptions& common, const std::string& name, const s
 void remove_results(const CommonOptions& common, const std::string& name, const std::string& extension) {
   for (const std::string& ending : {std::string(".json"), extension})
     std::filesystem::remove(common.output / (name + ending));
-}
-
-void require_report(const CommonOptions& common) {
-  require_output(common);
-  require_gnuplot();
 }
 
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,

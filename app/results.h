@@ -17,10 +17,6 @@ void write_results(const CommonOptions& common, const std::string& name, const s
 /// Removes DIR/NAME.json and DIR/NAME with `extension`, where they say that the files beside them are complete.
 void remove_results(const CommonOptions& common, const std::string& name, const std::string& extension);
 
-/// For a command that writes its report to the folder of -o, before it starts. Throws UsageError when that is missing,
-/// Error when gnuplot is.
-void require_report(const CommonOptions& common);
-
 /// Prints the text, and keeps it as write_results() does. Throws Error where another process owns the folder.
 void print_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                    const std::string& text);

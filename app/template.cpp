@@ -76,10 +76,7 @@ std::function<void()> define_template(CLI::App& app, const CommonOptions& common
                  "A mean height inside above this is a liquid; default: 2 mm above the bottom that is seen")
       ->check(number_within(kPositive))
       ->type_name("MM");
-  return [options, &common] {
-    require_output(common);
-    run_template(*options, common);
-  };
+  return [options, &common] { run_template(*options, common); };
 }
 
 }  // namespace fathom
