@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace CLI {
@@ -36,14 +35,17 @@ inline void require_output(const CommonOptions& common) {
   if (common.output.empty()) throw UsageError("-o DIR is required");
 }
 
+/// A function that adds a command's own options to `app` and returns what runs it. `common` is filled when the run
+/// starts.
+using Define = std::function<void()>(CLI::App& app, const CommonOptions& common);
+
 struct Command {
   std::string_view name;
   std::string_view summary;   ///< one line for `fathom --help`
   std::string_view examples;  ///< lines that run as they stand, shown under `fathom NAME --help`
-  /// Adds the command's own options to `app` and returns what runs it. `common` is filled when the run starts.
-  std::function<void()> (*define)(CLI::App& app, const CommonOptions& common);
-  bool needs_output = false;        ///< whether it writes to the folder of -o in any case
-  std::string_view output = "DIR";  ///< what -o names, or FILE
+  Define* define;
+  bool needs_output = false;        ///< whether -o is required in any case
+  std::string_view output = "DIR";  ///< what -o names: DIR or FILE
 };
 
 inline constexpr bool kNeedsOutput = true;

@@ -7,23 +7,9 @@
 
 namespace fathom {
 
-std::function<void()> define_capture(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_manual(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_view(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_export(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_list(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_theory(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_detect(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_evaluate(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_campaign(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_generate(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_check(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_measure(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_calibrate(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_diagnose(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_verify(CLI::App& app, const CommonOptions& common);
-std::function<void()> define_template(CLI::App& app, const CommonOptions& common);
+Define define_capture, define_export, define_theory, define_detect, define_evaluate, define_campaign, define_generate,
+    define_check, define_measure, define_calibrate, define_diagnose, define_view, define_reproduce, define_template,
+    define_verify, define_list, define_manual;
 
 inline constexpr std::array kCommands{
     Command{"capture", "One simulated shot of a scene (or several): infrared image, disparity, depth, cloud, truth",
