@@ -1,4 +1,4 @@
-// What a command takes, read off CLI11 for what is written about it: man pages and completions.
+// What a command takes, read off CLI11, and what is written of that: man pages and completions.
 #pragma once
 
 #include <string>
@@ -37,5 +37,17 @@ CommandFacts facts_of(const CLI::App& command, const std::string& name);
 
 /// Every command by itself, in the order of --help, each before its own commands.
 std::vector<const CommandFacts*> all_commands(const CommandFacts& top);
+
+/// "fathom-capture" of "fathom capture"
+std::string page_name(const CommandFacts& command);
+
+/// The man page, in the macros of man(7). A command's own commands are sections of its page; the program's have pages
+/// of their own.
+std::string man_page(const CommandFacts& command, bool is_program);
+
+/// Scripts by which shells complete the program's commands, options and their values.
+std::string bash_completion(const CommandFacts& program);
+std::string zsh_completion(const CommandFacts& program);
+std::string fish_completion(const CommandFacts& program);
 
 }  // namespace fathom

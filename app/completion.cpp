@@ -1,4 +1,5 @@
-#include "app/completion.h"
+// Completions for bash, zsh and fish.
+#include "app/command_facts.h"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/evaluate_clutter.h"
-#include "app/evaluate_dataset.h"
+#include "app/evaluate.h"
 #include "app/options.h"
 #include "app/print.h"
 #include "app/results.h"

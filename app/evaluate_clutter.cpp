@@ -1,4 +1,5 @@
-#include "app/evaluate_clutter.h"
+// `fathom evaluate recognition` and `fathom evaluate liquid`: trials on random desks.
+#include "app/evaluate.h"
 
 #include <fmt/format.h>
 

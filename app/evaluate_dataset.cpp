@@ -1,4 +1,5 @@
-#include "app/evaluate_dataset.h"
+// `fathom evaluate DIR` of a data set: the detector's report card.
+#include "app/evaluate.h"
 
 #include "app/print.h"
 #include "app/results.h"

@@ -1,4 +1,5 @@
-#include "app/man_page.h"
+// Man pages of the program and its commands.
+#include "app/command_facts.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,7 @@
 
 #include "app/command_facts.h"
 #include "app/commands.h"
-#include "app/completion.h"
 #include "app/examples.h"
-#include "app/man_page.h"
 #include "core/files.h"
 
 namespace fathom {
