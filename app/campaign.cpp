@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "app/commands.h"
@@ -203,7 +202,7 @@ Json truth_json(const std::vector<Placement>& placements, const Json& effects) {
   return {{"effects", effects}, {"placements", list}};
 }
 
-/// Clouds that nobody can say the origin of are never mixed in.
+/// Throws Error where the folder holds another run, or clouds of unknown origin.
 void require_own_folder(const fs::path& folder, const Manifest& manifest) {
   manifest.require_same_run();
   if (manifest.exists()) return;

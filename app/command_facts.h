@@ -12,9 +12,9 @@ class App;
 namespace fathom {
 
 struct OptionFacts {
-  std::vector<std::string> names;    ///< "-o", "--output"; of a positional the one that its place is called by
+  std::vector<std::string> names;    ///< "-o", "--output"; of a positional what its place is called
   std::string value;                 ///< what its value is called, "DIR"; empty: it takes none
-  std::vector<std::string> choices;  ///< of which its value is one, unless there are none
+  std::vector<std::string> choices;  ///< the values that it may have; empty: there is no such list
   std::string allowed;               ///< other bounds of its value, in CLI11's words
   std::string standard;              ///< what holds without it
   std::string help;
@@ -35,7 +35,7 @@ struct CommandFacts {
 /// `name` is what is typed before the command's own options.
 CommandFacts facts_of(const CLI::App& command, const std::string& name);
 
-/// Every command by itself, in the order of --help, each before its own commands.
+/// The command and all below it, in the order of --help, each before its own commands.
 std::vector<const CommandFacts*> all_commands(const CommandFacts& top);
 
 /// "fathom-capture" of "fathom capture"

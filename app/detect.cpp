@@ -109,7 +109,7 @@ void run_fused(const DetectOptions& options, const DetectorSettings& settings,
   keeper->finish(json, rows);
 }
 
-/// What a user wants to know of a cloud that is searched in vain.
+/// Warns of a cloud that seems to be in millimetres, and of one in which no desk was found.
 void warn_of(const std::string& name, const Cloud& cloud, const Detection& detection) {
   constexpr float kFar_m = 50.0f;  // beyond what such a camera measures; in millimetres it would be too near
   std::ptrdiff_t far = 0, near = 0;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -49,7 +48,7 @@ struct Experiment {
 constexpr std::array kExperiments{Experiment{"recognition", "desk.json", false, 20},
                                   Experiment{"liquid", "liquids.json", true, 10}};
 
-/// Half of the values differ from the labels by less, if there are any: one wrong label does not count.
+/// The median distance from the labels, if there are any: a single wrong label hardly moves it.
 void add_median(const std::string& name, std::vector<double> offs_m, std::vector<Row>& rows) {
   if (offs_m.empty()) return;
   for (double& off : offs_m) off = std::abs(off);

@@ -3,26 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "app/results.h"
 #include "core/files.h"
 #include "core/input_policy.h"
-#include "core/median.h"
 #include "core/progress.h"
 #include "core/rng.h"
 #include "sim/sensor/preview.h"
 #include "trials/failure_gallery.h"
-#include "trials/liquid_rates.h"
 #include "trials/random_desk.h"
-#include "trials/share_rows.h"
 #include "trials/trial_picture.h"
 
 namespace fathom {
 namespace {
 
-/// A scene for another folder than that of the file beside which its glTF cups lie.
+/// The scene with absolute names of its glTF cups, which lie beside `file`: it is written into another folder.
 Json with_absolute_names(Json scene, const std::string& file) {
   for (Json& cup : scene["cups"])
     if (cup["shape"].is_string() && names_gltf(cup["shape"].get<std::string>()))
@@ -58,7 +51,7 @@ std::vector<TrialResult> run_trials(const ClutterEvaluation& evaluation, const C
     ClutterSpec clutter = evaluation.clutter;
     if (evaluation.by_filling) clutter.fillings = {evaluation.clutter.fillings[condition]}, clutter.empty = 0.0;
     for (int i = 0; i < evaluation.trials; ++i) {
-      // Each filling has its own numbers, so that more trials leave those there are as they were.
+      // Each filling has numbers of its own: a run with more trials leaves those that are there as they were.
       constexpr std::size_t kMostTrials = 100000;
       const std::size_t number = condition * kMostTrials + i;
       const std::string name = trial_name(number);

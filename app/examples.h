@@ -6,10 +6,11 @@
 
 namespace fathom {
 
-/// The examples with another folder for `scenes/`, in which they were written.
+/// The examples, which were written for `scenes/`, with `folder` in its place.
 std::string with_scenes(std::string examples, const std::filesystem::path& folder);
 
-/// The examples with the scenes' folder as it is called from here, so that they run where the program was installed.
+/// The examples as they run from the working directory: where it has no `scenes/`, with the folder that the program
+/// finds.
 std::string examples_from_here(std::string examples);
 
 }  // namespace fathom

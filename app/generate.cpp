@@ -1,6 +1,4 @@
 // `fathom generate`: labelled frames of random desks, in the layouts that others load.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -30,8 +28,8 @@ std::string example_text() {
   return text;
 }
 
-/// Of a frame's files in whole blocks of a disk, a tenth more than was measured: what a bare desk takes, what each
-/// thing on it adds by its masks, edges and labels, and the infrared image.
+/// What a frame's files take in whole blocks of a disk, a tenth more than was measured: a bare desk, what each thing on
+/// it adds by its masks, edges and labels, and the infrared image.
 double labelled_frame_bytes(const DatasetSpec& spec) {
   constexpr double kBareDesk = 190e3, kThing = 27e3, kInfrared = 430e3;
   const ClutterSpec& desk = spec.clutter;

@@ -1,8 +1,8 @@
 #include "app/live_cloud.h"
 
 #include <OpenNI.h>
-#include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -64,7 +64,7 @@ void unmirror(openni::VideoStream& stream, const std::string& device) {
     require(stream.setMirroringEnabled(false), device);  // a real one starts mirrored
 }
 
-/// The mode whose pixels are those of the depth image.
+/// The infrared mode of the depth mode's size and rate, if there is one.
 std::optional<openni::VideoMode> mode_beside(const openni::SensorInfo& infrared, const openni::VideoMode& depth) {
   const openni::Array<openni::VideoMode>& modes = infrared.getSupportedVideoModes();
   for (int i = 0; i < modes.getSize(); ++i)

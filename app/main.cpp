@@ -28,8 +28,8 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-/// A first word that is no command is an error that names the commands, and so is the next one of a command that has
-/// commands of its own: CLI11 would only say that it did not expect the word.
+/// Refuses a first word that is no command, and names the commands; then the same for the next word, where the command
+/// has commands of its own. CLI11 would only say that it did not expect the word.
 void check_command(const CLI::App& app, std::span<char* const> words) {
   std::vector<std::string> names;
   const CLI::App* chosen = nullptr;
@@ -44,7 +44,7 @@ void check_command(const CLI::App& app, std::span<char* const> words) {
   if (*words[0] != '-') throw fathom::UsageError(fathom::unknown_name("command", words[0], names));
 }
 
-/// A word that looks like an option and is none of the commands that are named: CLI11 would not say which are.
+/// Refuses an option that none of the named commands has, and names those that they have: CLI11 would not.
 void check_options(const CLI::App& app, std::span<char* const> words) {
   std::vector<std::string> names;
   const auto add_names = [&](const CLI::App& command) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <memory>
 
 #include "app/commands.h"
 #include "app/options.h"

@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr double kMostUnasked = 20e9;  // [bytes]
 
-constexpr double kBlock = 4096.0;  ///< of a file system, which files take as a whole
+constexpr double kBlock = 4096.0;  ///< [bytes] of a file system: files take whole ones
 
 double in_blocks(double bytes) { return std::ceil(bytes / kBlock) * kBlock; }
 
-/// Of what a run may have left: its frames stand in the folder or one below, whatever else lies deeper.
+/// What an earlier run may have left. Frames stand in the folder or one below it; what lies deeper does not count.
 double bytes_of_frames(const fs::path& folder) {
   double bytes = 0.0;
   std::error_code unreadable;

@@ -15,8 +15,8 @@ struct OutputSize {
   double bytes() const;  ///< in whole blocks of a file system
 };
 
-/// What one frame's files take at most: of a campaign a cloud and perhaps the infrared image, or all that a capture
-/// writes of it.
+/// What the files of one frame take at most: of a campaign, which writes a cloud and perhaps the infrared image, and of
+/// a capture.
 double frame_bytes(const SensorModel& sensor, bool infrared);
 double capture_bytes(const SensorModel& sensor, bool infrared, bool device_outputs);
 
@@ -25,7 +25,7 @@ double capture_bytes(const SensorModel& sensor, bool infrared, bool device_outpu
 /// has not the space or frames cannot be numbered.
 std::string require_space(const CommonOptions& common, const OutputSize& size, bool yes);
 
-/// Says it on stderr, unless it shall be quiet.
+/// Says the sentence on stderr, but not with --quiet.
 void announce(const CommonOptions& common, const std::string& sentence);
 
 }  // namespace fathom

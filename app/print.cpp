@@ -11,7 +11,7 @@ void print_text(std::string_view text) { print_result(visible_text(text)); }
 
 namespace {
 
-/// A message quotes what a file holds, which may be a line of a megabyte.
+/// A message may quote a file's line of a megabyte.
 std::string readable(std::string_view message) {
   constexpr std::size_t kMost = 2000;  // [bytes]
   if (message.size() <= kMost) return on_one_line(message);

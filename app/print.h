@@ -5,13 +5,14 @@
 
 namespace fathom {
 
-/// Lines on stdout, in JSON too: control characters are written as JSON writes it.
+/// Lines on stdout. Control characters are written as JSON writes them, in text that is no JSON as well.
 void print_text(std::string_view text);
 
 /// One line on stderr, of what is going on.
 void print_status(std::string_view sentence);
 
-/// One line on stderr, at most some screens long: whatever a message quotes of a file.
+/// One line on stderr and what stands `below` it. The line is cut after 2,000 bytes: it may quote a file's line of a
+/// megabyte.
 void print_error(std::string_view message, std::string_view below = "");
 
 /// One line on stderr: "warning: " or "note: " and the sentence.

@@ -28,7 +28,7 @@ using FromHeights = Figure (*)(const ReproduceSettings&, const PaperHeights&);
 struct FigureEntry {
   const char* name;
   std::variant<FromSettings, FromHeights> reproduce;
-  bool of_paper = true;  ///< whether "all" means it
+  bool of_paper = true;  ///< whether "all" includes it
 };
 
 constexpr std::array<FigureEntry, 12> kFigures{{{"fig2", reproduce_fig2},

@@ -1,9 +1,7 @@
 // Where the results of a command go that has no files of its own: to stdout, and with -o DIR to a file there too.
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "app/command.h"
 
@@ -14,7 +12,7 @@ namespace fathom {
 void write_results(const CommonOptions& common, const std::string& name, const std::string& extension,
                    const std::string& text);
 
-/// Removes DIR/NAME.json and DIR/NAME with `extension`, where they say that the files beside them are complete.
+/// Removes DIR/NAME.json and DIR/NAME with `extension`, whose presence says that the files beside them are complete.
 void remove_results(const CommonOptions& common, const std::string& name, const std::string& extension);
 
 /// Prints the text, and keeps it as write_results() does. Throws Error where another process owns the folder.

@@ -7,7 +7,6 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/print.h"
-#include "core/error.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
 #include "core/rows.h"

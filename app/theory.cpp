@@ -42,7 +42,7 @@ using TheoryRow = std::array<double, kColumns.size()>;
 
 constexpr Range kUpToOneKilometre{0.0, 1e6, true};
 
-/// What no single option can know.
+/// What a check of one option cannot know: the sensor is above the liquid.
 void check_fills(const TheoryOptions& options) {
   for (const double fill_mm : options.fill_mm)
     if (fill_mm >= options.height_mm)

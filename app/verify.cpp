@@ -71,11 +71,11 @@ std::string text_of(const Estimates& estimates, bool as_json) {
   return text;
 }
 
-/// Walks that take longer than anybody waits are refused. Throws Error.
+/// Throws Error where the walks would take longer than anybody waits.
 void require_short_walks(const Layer& slab, double angle, std::uint64_t photons) {
   constexpr double kWalksAtOnce = 16384.0;  // between two looks at the work that was done
-  constexpr double kMostSteps = 2e9;        // of a minute or two, where nobody says how many walks it should be,
-  constexpr double kMostStepsAsked = 1e12;  // and of hours, where somebody does
+  constexpr double kMostSteps = 2e9;        // of the walks at once: a minute or two
+  constexpr double kMostStepsAsked = 1e12;  // of all walks that --photons asks for: hours
   if (!std::isfinite(slab.thickness) && slab.medium.absorption == 0.0) return;  // gives all back, without any walk
   const double steps = expected_steps(slab, angle);
   if (const double most = kMostSteps / kWalksAtOnce; !(steps <= most))
@@ -116,7 +116,7 @@ void verify_fresnel(const VerifyOptions& options, const CommonOptions& common) {
   print_results(common, "fresnel", ".txt", text_of({{"reflectance", reflectance}}, common.json));
 }
 
-/// One line for each quantity of a case, or one JSON object in `rows`. Counts what lies off.
+/// A line for each quantity of a case; adds an object for each to `rows`, and the number that lie off to `failures`.
 std::string compare(const VerifyCase& row, const std::vector<Estimate>& found, Json& rows, int& failures) {
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i) {

@@ -1,7 +1,6 @@
 // What light transport is certified against: published values, each with its source, and laws that hold exactly.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 

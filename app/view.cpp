@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -34,7 +33,7 @@ struct ViewOptions {
   std::string show;
 };
 
-/// Results of which a page can be made: a folder with that file holds them.
+/// Results of which a page can be made. A folder that has `file` holds them.
 struct Viewable {
   const char* name;
   const char* file;
@@ -57,7 +56,7 @@ constexpr std::array kViewables{Viewable{"capture", "run.json",
                                          }},
                                 Viewable{"diagnosis", "report.json", diagnosis_content}};
 
-/// What of the folder is shown. Throws Error where that is not plain.
+/// What of the folder is shown. Throws Error where it holds nothing, or several and none is chosen.
 const Viewable& viewable_in(const ViewOptions& options) {
   std::vector<const Viewable*> found;
   std::vector<std::string> names;
