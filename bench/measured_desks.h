@@ -9,7 +9,7 @@
 
 #include "core/image.h"
 #include "detector/plane.h"
-#include "sim/sensor/colour_registration.h"
+#include "sim/sensor/depth.h"
 
 namespace fathom {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
 
 namespace fathom {

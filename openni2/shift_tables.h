@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/scene/rig.h"
-#include "sim/sensor/device_outputs.h"
+#include "sim/sensor/depth.h"
 
 namespace fathom {
 

@@ -5,7 +5,7 @@
 
 #include "openni2/guard.h"
 #include "openni2/pixels.h"
-#include "sim/sensor/device_outputs.h"
+#include "sim/sensor/depth.h"
 
 namespace fathom {
 namespace {

@@ -1,7 +1,5 @@
 #include "diagnosis/predict/device_reader.h"
 
-#include "sim/sensor/colour_registration.h"
-
 namespace fathom {
 namespace {
 

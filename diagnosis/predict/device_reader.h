@@ -9,7 +9,6 @@
 #include "sim/render/truth.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/reading.h"
 
 namespace fathom {
 

@@ -24,7 +24,7 @@ inline constexpr double kOneSurfacePx = 1.0;
 /// How what a camera sees becomes what is compared, beyond the sensor's own model.
 struct Processing {
   double window_px = 0.0;    ///< disparities are means over a square of this width, within a surface; 0: own
-  bool colour_view = false;  ///< depths are moved to where the colour camera has them (sensor/registration.h)
+  bool colour_view = false;  ///< depths are moved to where the colour camera has them (sim/sensor/depth.h)
   double bisector = 0.0;     ///< share of the paper's approximation in what is predicted of raised bottoms, 0 … 1
 
   bool operator==(const Processing&) const = default;

@@ -10,9 +10,7 @@
 #include "core/timed.h"
 #include "sim/effects/effects_json.h"
 #include "sim/render/intersect.h"
-#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/reading.h"
 
 namespace fathom {
 namespace {

@@ -12,9 +12,7 @@
 #include "core/units.h"
 #include "core/view_page.h"
 #include "sim/scene/cup.h"
-#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/device_outputs.h"
 #include "sim/sensor/preview.h"
 
 namespace fathom {

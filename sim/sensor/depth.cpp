@@ -66,6 +66,21 @@ double depth_of_disparity(const SensorModel& sensor, double disparity_px) {
   return calibration.focal_px * calibration.baseline / disparity_px;
 }
 
+double seen_disparity(const SensorModel& sensor, const Eigen::Vector2d& pixel_px, double depth) {
+  if (!sensor.optics.distorts()) return disparity_of_depth(sensor, depth);
+  const Eigen::Vector2d seen = (pixel_px - sensor.principal_px) / sensor.focal_px;
+  const double nearer = sensor.baseline / depth - sensor.baseline / sensor.reference;
+  const Eigen::Vector2d in_reference = sensor.optics.undistorted(seen) - Eigen::Vector2d(nearer, 0.0);
+  return sensor.focal_px * (seen.x() - sensor.optics.distorted(in_reference).x() + sensor.baseline / sensor.reference);
+}
+
+double read_disparity(const SensorModel& sensor, const UnitError& error, double disparity_px) {
+  const Calibration believed = sensor.calibration();
+  const double at_reference = disparity_of_depth(sensor, sensor.reference);
+  const double believed_there = believed.focal_px * believed.baseline / sensor.reference;
+  return error.scale * disparity_px + error.offset_px + (believed_there - at_reference);
+}
+
 Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px, double unit) {
   Image<float> depth(disparity_px.width(), disparity_px.height());
   const StepLaw law(sensor);
@@ -100,6 +115,36 @@ Image<std::uint16_t> depth_in_units(const Image<float>& depth, double unit) {
     if (units <= std::numeric_limits<std::uint16_t>::max()) whole.pixels()[i] = static_cast<std::uint16_t>(units);
   }
   return whole;
+}
+
+Image<std::uint16_t> shift_image(const SensorModel& sensor, const Image<float>& disparity_px) {
+  const Image<float> depth = depth_image(sensor, disparity_px);
+  Image<std::uint16_t> shifts(depth.width(), depth.height(), kNoShift);
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    if (depth.pixels()[i] == 0.0f) continue;
+    // From the disparity, not from the depth, which has lost up to a millimetre.
+    const double exact_depth = depth_of_disparity(sensor, disparity_px.pixels()[i]);
+    const int shift = device_code(sensor, exact_depth) + kShiftOfCodeZero;
+    if (shift >= 0 && shift < kNoShift) shifts.pixels()[i] = static_cast<std::uint16_t>(shift);
+  }
+  return shifts;
+}
+
+Image<float> registered_to_colour(const Image<float>& depth, double focal_px, double colour_focal_px) {
+  Image<float> registered(depth.width(), depth.height());
+  const double middle_x = 0.5 * depth.width(), middle_y = 0.5 * depth.height(), scale = colour_focal_px / focal_px;
+  for (int y = 0; y < depth.height(); ++y)
+    for (int x = 0; x < depth.width(); ++x) {
+      const float z = depth(x, y);
+      if (z <= 0.0f) continue;
+      const double moved_px = colour_focal_px * kColourCamera / z;
+      const int column = static_cast<int>(std::floor((x + 0.5 - middle_x) * scale - moved_px + middle_x));
+      const int row = static_cast<int>(std::floor((y + 0.5 - middle_y) * scale + middle_y));
+      if (column < 0 || row < 0 || column >= registered.width() || row >= registered.height()) continue;
+      float& nearest = registered(column, row);
+      if (nearest == 0.0f || z < nearest) nearest = z;
+    }
+  return registered;
 }
 
 Image<CloudPoint> cloud_of_depth(const SensorModel& sensor, const Image<float>& depth, const Image<float>& intensity) {

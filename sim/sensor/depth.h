@@ -1,6 +1,7 @@
-// Disparity to depth, as the device's table does it, and depth to a cloud.
+// What follows from a disparity: what one device reads, depth as the device's table has it, what it sends, a cloud.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 
@@ -32,12 +33,41 @@ double disparity_of_depth(const SensorModel& sensor, double depth);
 /// f b / d [m], with what the device takes for f and b.
 double depth_of_disparity(const SensorModel& sensor, double disparity_px);
 
+/// Disparity relative to infinity [px] of a point at `depth` [m] that is seen at `pixel_px`. A distorted image is
+/// compared with one of the reference plane that is distorted alike: only what changes between the two places counts.
+double seen_disparity(const SensorModel& sensor, const Eigen::Vector2d& pixel_px, double depth);
+
+/// What the unit makes of a disparity relative to infinity [px]. It measures from the reference plane, whose distance
+/// it knows: a wrong focal length or baseline does no harm there.
+double read_disparity(const SensorModel& sensor, const UnitError& error, double disparity_px);
+
 /// Depth image [m], 0 = invalid, from disparities relative to infinity [px], 0 = invalid: on the device's law or, when
 /// the sensor is not quantized, as it is. Depths outside near … far are invalid.
 Image<float> depth_image(const SensorModel& sensor, const Image<float>& disparity_px, double unit = kMetresPerMm);
 
 /// Depth [m] as whole multiples of `unit` [m], rounded; 0 = invalid, as is what 16 bits cannot hold.
 Image<std::uint16_t> depth_in_units(const Image<float>& depth, double unit);
+
+/// The raw shift of the code 0: OpenNI's table takes a shift s to x = (s − 4 · 200) / 4 − 0.375 = (code + ½) / 4.
+inline constexpr int kShiftOfCodeZero = 4 * 200 + 2;
+inline constexpr int kNoShift = 2047;  ///< nothing measured; also the first that 11 bits cannot hold
+
+/// What the device can send instead of depths (docs/files.md): raw shifts 0 … 2046 of disparities relative to infinity
+/// [px]; kNoShift where depth_image() has no depth.
+Image<std::uint16_t> shift_image(const SensorModel& sensor, const Image<float>& disparity_px);
+
+// Depth registered to the colour camera: what most recorded clouds of these sensors are.
+
+/// The colour camera stands beside the infrared camera, towards the projector, with the same axes.
+inline constexpr double kColourCamera = 0.025;  ///< [m]
+
+/// Of the colour camera, as drivers that make clouds take it; OpenNI2 takes the depth image's.
+inline constexpr double kColourFocalPx = 525.0;
+
+/// Each depth [m] of an image of focal length `focal_px` moves to where a colour camera of `colour_focal_px` and the
+/// same size sees its point; the nearest wins, and what no point meets is a hole, 0. Depths stay as they are, as the
+/// device leaves them.
+Image<float> registered_to_colour(const Image<float>& depth, double focal_px, double colour_focal_px);
 
 /// Organised cloud in the camera frame; NaN where the depth is invalid. `intensity` [DN] has the depth image's size.
 Image<CloudPoint> cloud_of_depth(const SensorModel& sensor, const Image<float>& depth, const Image<float>& intensity);

@@ -11,9 +11,7 @@
 
 #include "core/image_file.h"
 #include "sim/scene/geometry.h"
-#include "sim/sensor/colour_registration.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/device_outputs.h"
 #include "sim/sensor/read_capture.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/expect_error.h"

@@ -1,11 +1,10 @@
 // The device's raw shifts.
-#include "sim/sensor/device_outputs.h"
+#include "sim/sensor/depth.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/sensor/depth.h"
 #include "tests/render/scenes.h"
 
 namespace fathom {

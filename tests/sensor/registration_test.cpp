@@ -1,4 +1,4 @@
-#include "sim/sensor/colour_registration.h"
+#include "sim/sensor/depth.h"
 
 #include <gtest/gtest.h>
 
