@@ -86,7 +86,7 @@ Noise noise_of(const Case& measured) {
   const auto reference =
       reference_image(rig.sensor, Pattern(rig.sensor.pattern, rig.sensor.ir_scale()), kSamplesAcross);
   const auto disparity = [&](const Image<float>& light, std::uint64_t frame) {
-    return match(rig.sensor, expose(light, model, 1, frame), *reference).disparity_px;
+    return match(rig.sensor, expose(light, model, 1, frame), *reference);
   };
   std::vector<Eigen::Vector2i> depth_pixels;
   for (const Eigen::Vector2i& at : pixels) {

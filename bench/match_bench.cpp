@@ -63,9 +63,9 @@ void report(benchmark::State& state, const MatchError& error) {
 
 void measure_match(benchmark::State& state, const StereoPair& pair) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  Match found;
+  Image<float> found;
   for (auto _ : state) found = match(pair.sensor, pair.ir, pair.reference);
-  report(state, match_error(pair, relative_to_reference(pair.sensor, found.disparity_px)));
+  report(state, match_error(pair, relative_to_reference(pair.sensor, found)));
 }
 
 void measure_opencv(benchmark::State& state, const StereoPair& pair, const cv::Ptr<cv::StereoMatcher>& matcher) {

@@ -41,7 +41,7 @@ Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, c
   const Image<float> radiance =
       render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, LightModel::direct, 1).projected;
   const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
-  const Image<float> depth = depth_image(sensor, match(sensor, ir, reference).disparity_px);
+  const Image<float> depth = depth_image(sensor, match(sensor, ir, reference));
   return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));
 }
 

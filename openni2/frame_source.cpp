@@ -4,7 +4,7 @@
 
 #include "sim/effects/effects_json.h"
 #include "sim/render/overlap.h"
-#include "sim/sensor/read_capture.h"
+#include "sim/sensor/capture_files.h"
 
 namespace fathom {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/image_file.h"
 #include "sim/render/intersect.h"
 #include "sim/scene/cup.h"
-#include "sim/sensor/read_capture.h"
+#include "sim/sensor/capture_files.h"
 #include "view/packed.h"
 #include "view/pixel_table.h"
 

@@ -23,7 +23,7 @@ ImagedFrame ImagedView::shoot(std::uint64_t frame, CaptureStatistics& statistics
   for (std::size_t i = 0; i < light_.ambient.size(); ++i) light.pixels()[i] += light_.ambient.pixels()[i];
   ImagedFrame shot;
   shot.ir = expose(light, sensor_.noise, seed_, frame);
-  shot.disparity_px = timed(statistics.match_s, [&] { return match(sensor_, shot.ir, *reference_).disparity_px; });
+  shot.disparity_px = timed(statistics.match_s, [&] { return match(sensor_, shot.ir, *reference_); });
   return shot;
 }
 

@@ -19,21 +19,17 @@
 
 namespace fathom {
 
-struct Match {
-  Image<float> disparity_px;  ///< f b / Z at depth scale, 0 = invalid
-  Image<float> correlation;  ///< of the refined window, −1 … 1; 0 where nothing was found; empty of the device's method
-};
-
-/// `ir` is the whole infrared image [DN], ir_width × ir_height.
-Match match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference);
+/// Disparities f b / Z at the depth image's scale [px], 0 = invalid. `ir` is the whole infrared image [DN], ir_width ×
+/// ir_height.
+Image<float> match(const SensorModel& sensor, const Image<float>& ir, const Reference& reference);
 
 // The steps, each from one image to the next. `paired` is the infrared image with its rows in pairs.
 
 /// What is known at every pixel about the surface there, one image per quantity. Disparities are relative to the
 /// reference plane, in depth pixels.
 struct Estimates {
-  Image<float> disparity;  ///< NaN: no match
-  Image<float> correlation;
+  Image<float> disparity;           ///< NaN: no match
+  Image<float> correlation;         ///< of the window, −1 … 1
   Image<float> centre_x, centre_y;  ///< where `disparity` holds, from the pixel's centre [px]
   Image<float> slope_x, slope_y;    ///< of the disparity [px/px]
 

@@ -11,8 +11,8 @@
 
 #include "core/image_file.h"
 #include "sim/scene/geometry.h"
+#include "sim/sensor/capture_files.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/read_capture.h"
 #include "tests/app/run_fathom.h"
 #include "tests/core/expect_error.h"
 #include "tests/openni2/client.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <future>
 
+#include "sim/sensor/capture_files.h"
 #include "sim/sensor/depth.h"
-#include "sim/sensor/read_capture.h"
 #include "tests/openni2/client.h"
 
 namespace fathom {

@@ -38,13 +38,13 @@ struct Bench {
 TEST(Match, AFrontoParallelPlaneIsMatchedToAHundredthOfAPixel) {
   for (const double height_mm : {600.0, 733.3, 1700.0}) {
     const Bench bench(height_mm);
-    const Match found = match(bench.sensor(), bench.ir, bench.reference);
+    const Image<float> found = match(bench.sensor(), bench.ir, bench.reference);
     const double expected = disparity_of_depth(bench.sensor(), metres_from_mm(height_mm));
     double squares = 0.0, valid = 0.0, all = 0.0;
     for (int y = 20; y < bench.sensor().height - 20; ++y)
       for (int x = 80; x < bench.sensor().width - 80; ++x) {
         ++all;
-        const double disparity = found.disparity_px(x, y);
+        const double disparity = found(x, y);
         if (disparity <= 0.0) continue;
         ++valid;
         squares += (disparity - expected) * (disparity - expected);
@@ -56,13 +56,13 @@ TEST(Match, AFrontoParallelPlaneIsMatchedToAHundredthOfAPixel) {
 
 TEST(Match, DoesNotDependOnGainOrOffset) {
   const Bench bench(650.0);
-  const Match plain = match(bench.sensor(), bench.ir, bench.reference);
+  const Image<float> plain = match(bench.sensor(), bench.ir, bench.reference);
   Image<float> changed = bench.ir;
   for (float& value : changed.pixels()) value = 0.5f * value + 40.0f;
-  const Match other = match(bench.sensor(), changed, bench.reference);
+  const Image<float> other = match(bench.sensor(), changed, bench.reference);
   double squares = 0.0, both = 0.0, one = 0.0;
-  for (std::size_t i = 0; i < plain.disparity_px.size(); ++i) {
-    const float a = plain.disparity_px.pixels()[i], b = other.disparity_px.pixels()[i];
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const float a = plain.pixels()[i], b = other.pixels()[i];
     one += (a > 0.0f) != (b > 0.0f);
     if (a <= 0.0f || b <= 0.0f) continue;
     ++both;
@@ -76,12 +76,12 @@ TEST(Match, DoesNotDependOnGainOrOffset) {
 TEST(Match, ReachesADeskAtTheDevicesNearEnd) {
   for (const double height_mm : {450.0, 500.0, 600.0}) {
     const Bench bench(height_mm);
-    const Match found = match(bench.sensor(), bench.ir, bench.reference);
+    const Image<float> found = match(bench.sensor(), bench.ir, bench.reference);
     const double expected = disparity_of_depth(bench.sensor(), metres_from_mm(height_mm));
     double right = 0.0;
-    for (const float disparity : found.disparity_px.pixels()) right += std::fabs(disparity - expected) < 0.125;
+    for (const float disparity : found.pixels()) right += std::fabs(disparity - expected) < 0.125;
     // All but two columns on each side, 1 − 4/640; one step of the device's law is 1/8 px.
-    EXPECT_GT(right / static_cast<double>(found.disparity_px.size()), 0.993) << height_mm;
+    EXPECT_GT(right / static_cast<double>(found.size()), 0.993) << height_mm;
   }
 }
 
@@ -150,8 +150,8 @@ TEST(Reference, IsTheMeanOfThePatternOverEachPixel) {
 
 TEST(Match, WithoutContrastThereIsNoMatch) {
   const Bench bench(650.0);
-  const Match found = match(bench.sensor(), Image<float>(1280, 1024, 200.0f), bench.reference);
-  for (const float disparity : found.disparity_px.pixels()) ASSERT_EQ(disparity, 0.0f);
+  const Image<float> found = match(bench.sensor(), Image<float>(1280, 1024, 200.0f), bench.reference);
+  for (const float disparity : found.pixels()) ASSERT_EQ(disparity, 0.0f);
 }
 
 }  // namespace
