@@ -12,7 +12,7 @@
 #include "core/files.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 
 namespace fathom {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/units.h"
 #include "sim/render/intersect.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 
 namespace fathom {
 namespace {

@@ -5,7 +5,7 @@
 #include "sim/scene/clutter.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/medium_json.h"
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 #include "sim/scene/setup.h"
 
 namespace fathom {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/scene/revolve.h"
-
 namespace fathom {
 double handle_wall(const CupShape& shape) {
   const double middle = 0.5 * (shape.handle->low + shape.handle->high);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sim/scene/mesh.h"
-#include "sim/scene/revolve.h"
 #include "sim/scene/scene.h"
 
 namespace fathom {

@@ -14,9 +14,6 @@
 #include "core/input_policy.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/cup_mesh.h"
-#include "sim/scene/liquid_shell.h"
-#include "sim/scene/mesh_memory.h"
-#include "sim/scene/object.h"
 #include "sim/scene/wetted_wall.h"
 
 namespace fathom {
@@ -28,15 +25,8 @@ class Builder {
   Builder(Geometry& geometry, double wavelength_nm) : geometry_(geometry), wavelength_nm_(wavelength_nm) {}
 
   void add_desk(const Desk& desk) {
-    GltfPart top;
-    for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
-      top.mesh.add_vertex({desk.centre.x() + x * desk.size.x(), desk.centre.y() + y * desk.size.y(), 0.0});
-    top.mesh.add_triangle(0, 1, 2);
-    top.mesh.add_triangle(0, 2, 3);
-    top.albedo = desk.albedo;
-    top.coat = desk.glaze;
     const Pose place(Eigen::Translation3d(desk.centre.x(), desk.centre.y(), 0.0));
-    add_opaque(std::move(top), new_object("desk", place));
+    add_opaque(desk_part(desk), new_object("desk", place));
   }
 
   void add_cup(const Cup& cup, std::size_t index, bool on_desk) {

@@ -17,8 +17,7 @@
 #include "core/lengths.h"
 #include "core/modest_json.h"
 #include "core/units.h"
-#include "sim/scene/gltf_extensions.h"
-#include "sim/scene/mesh_memory.h"
+#include "sim/scene/gltf_json.h"
 
 namespace fathom {
 namespace {
@@ -282,16 +281,6 @@ struct Reader {
   }
 };
 
-/// The JSON of a file; of a binary one its first chunk. Whatever is wrong with it is left to tinygltf to say.
-std::string_view json_of(std::string_view content, bool binary) {
-  if (!binary) return content;
-  constexpr std::size_t kBefore = 20;  // the file's header and the chunk's
-  std::uint32_t length = 0;
-  if (content.size() < kBefore) return {};
-  std::memcpy(&length, content.data() + 12, sizeof length);
-  return content.substr(kBefore, length);
-}
-
 /// How tinygltf comes by the files that buffers name.
 struct Buffers {
   std::string file;  ///< that names them
@@ -327,7 +316,7 @@ void load(const std::filesystem::path& path, tinygltf::Model& model) {
   constexpr JsonMemory kMemory{.per_value = 1000, .per_byte = 6};
   const std::string content = read_text(path), file = path.string();
   const bool binary = path.extension() == ".glb";
-  const std::string_view text = json_of(content, binary);
+  const std::string_view text = gltf_json(content, binary);
   require_modest_json(text, file, kMemory);
   require_known_extensions(text, file);
   if (content.size() > std::numeric_limits<unsigned int>::max()) throw Error(file, "is larger than 4 GB");

@@ -6,10 +6,22 @@
 #include <vector>
 
 #include "sim/optics/medium.h"
-#include "sim/scene/coat.h"
 #include "sim/scene/mesh.h"
 
 namespace fathom {
+
+/// A clear coat over an opaque surface, of which optics/glaze.h makes a glaze; the albedo that stands beside it is that
+/// of the body within the coat.
+struct Coat {
+  double roughness;  ///< α of optics/ggx.h, at least kLeastRoughness
+  double index = 1.5;
+
+  bool operator==(const Coat&) const = default;
+};
+
+/// The highlight of a smoother coat on a wall of 40 mm, whose normal turns by this angle [rad] over 0.8 mm, would be
+/// narrower than an infrared pixel from half a metre away.
+inline constexpr double kLeastRoughness = 0.02;
 
 /// Triangles that look alike: all of an opaque material, or those of one clear body.
 struct GltfPart {

@@ -1,4 +1,4 @@
-#include "sim/scene/liquid_shell.h"
+#include "sim/scene/liquid_top.h"
 
 #include <algorithm>
 #include <span>

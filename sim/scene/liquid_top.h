@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/optics/meniscus.h"
-#include "sim/scene/revolve.h"
+#include "sim/scene/mesh.h"
 #include "sim/scene/scene.h"
 
 namespace fathom {
@@ -62,5 +62,9 @@ class LiquidTop {
   std::optional<Meniscus> meniscus_;
   double radius_ = 0.0;  ///< of the wall where the meniscus touches it
 };
+
+/// Sides and underside of the liquid under `top`, whose mesh is `surface`, in a clear cup of revolution: just inside
+/// the wall, where the solid wins. Both about the axis at the origin.
+Mesh liquid_shell(const CupShape& shape, const LiquidTop& top, const Mesh& surface);
 
 }  // namespace fathom

@@ -1,4 +1,4 @@
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 
 #include <array>
 
@@ -39,6 +39,17 @@ bool Object::operator==(const Object& other) const {
     return false;
   if (const auto* solid = std::get_if<Solid>(&thing)) return *solid == std::get<Solid>(other.thing);
   return object_name(*this) == object_name(other) && object_parts(*this) == object_parts(other);
+}
+
+GltfPart desk_part(const Desk& desk) {
+  GltfPart part;
+  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+    part.mesh.add_vertex({desk.centre.x() + x * desk.size.x(), desk.centre.y() + y * desk.size.y(), 0.0});
+  part.mesh.add_triangle(0, 1, 2);
+  part.mesh.add_triangle(0, 2, 3);
+  part.albedo = desk.albedo;
+  part.coat = desk.glaze;
+  return part;
 }
 
 std::string object_name(const Object& object) {

@@ -9,7 +9,7 @@
 #include "core/library.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 
 namespace fathom {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/files.h"
 #include "core/library.h"
-#include "sim/scene/gltf_buffers.h"
+#include "sim/scene/gltf_json.h"
 
 namespace fathom {
 namespace {

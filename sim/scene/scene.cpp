@@ -13,7 +13,7 @@
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/medium_json.h"
-#include "sim/scene/mesh_memory.h"
+#include "sim/scene/mesh.h"
 #include "sim/scene/rig.h"
 
 namespace fathom {

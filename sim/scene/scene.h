@@ -152,6 +152,15 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
+/// Its top's two triangles.
+GltfPart desk_part(const Desk& desk);
+
+/// "box.glb", "can"
+std::string object_name(const Object& object);
+
+/// Its triangles, in the world. Throws Error when its glTF file cannot be read.
+std::vector<GltfPart> object_parts(const Object& object);
+
 /// Readers of the parts of a scene file; they throw Error naming file, path and what is allowed. Named shapes come from
 /// scenes/cups, named solids from scenes/solids; relative glTF paths are relative to the scene file.
 Scene scene_from_json(const JsonReader& json);

@@ -8,7 +8,7 @@
 
 #include "core/units.h"
 #include "sim/scene/cup.h"
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 #include "sim/scene/setup.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"

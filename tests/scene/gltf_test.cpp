@@ -14,7 +14,7 @@
 #include "core/files.h"
 #include "core/input_policy.h"
 #include "core/json.h"
-#include "sim/scene/gltf_buffers.h"
+#include "sim/scene/gltf_json.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // Solids on the desk: they are closed, stand where they are put, and say what is wrong with their description.
-#include "sim/scene/object.h"
+#include "sim/scene/scene.h"
 
 #include <gtest/gtest.h>
 

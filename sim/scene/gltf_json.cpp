@@ -1,8 +1,9 @@
-#include "sim/scene/gltf_buffers.h"
+#include "sim/scene/gltf_json.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <set>
@@ -12,16 +13,6 @@
 
 namespace fathom {
 namespace {
-
-/// The JSON of a .gltf file, or of the first chunk of a .glb file: "glTF", version, length, chunk's length, "JSON".
-std::string json_text(const std::string& content) {
-  constexpr std::size_t kHeader = 20, kLength = 12;
-  if (!content.starts_with("glTF")) return content;
-  if (content.size() < kHeader) return {};
-  std::uint32_t length = 0;
-  std::memcpy(&length, content.data() + kLength, sizeof length);
-  return content.substr(kHeader, length);
-}
 
 /// "%20" is a blank.
 std::string decoded(const std::string& uri) {
@@ -40,8 +31,31 @@ std::string decoded(const std::string& uri) {
 
 }  // namespace
 
+std::string_view gltf_json(std::string_view content, bool binary) {
+  if (!binary) return content;
+  constexpr std::size_t kHeader = 20, kLength = 12;  // "glTF", version, length, the chunk's length, "JSON"
+  if (content.size() < kHeader) return {};
+  std::uint32_t length = 0;
+  std::memcpy(&length, content.data() + kLength, sizeof length);
+  return content.substr(kHeader, length);
+}
+
+void require_known_extensions(std::string_view json, const std::string& file) {
+  static const std::vector<std::string> kKnown{"KHR_materials_ior", "KHR_materials_transmission",
+                                               "KHR_materials_volume"};
+  const Json gltf = Json::parse(json, nullptr, false);
+  if (!gltf.is_object() || !gltf.contains("extensionsRequired")) return;
+  const Json& required = gltf["extensionsRequired"];
+  for (std::size_t i = 0; required.is_array() && i < required.size(); ++i) {
+    const std::string name = required[i].is_string() ? required[i].get<std::string>()
+                                                     : required[i].dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
+      throw Error(file, "/extensionsRequired", unknown_name("extension", name, kKnown));
+  }
+}
+
 std::vector<std::string> gltf_buffers(const std::filesystem::path& gltf, const std::string& content) {
-  const Json json = Json::parse(json_text(content), nullptr, false);
+  const Json json = Json::parse(gltf_json(content, content.starts_with("glTF")), nullptr, false);
   std::vector<std::string> names;
   std::set<std::string> known;  // a file that thousands of buffers name is copied once
   if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return names;
