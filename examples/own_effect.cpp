@@ -19,7 +19,6 @@ void apply(fathom::Setup& setup, const fathom::EffectSetting& setting) {
 }
 
 const fathom::Effect kWetRing{.id = "wet_ring",
-                              .family = "cup",
                               .sentence = "The cup stands on a film of water.",
                               .parameters = {{"height_mm", "of the film", 0.0, 0.3, 0.0, 2.0}},
                               .citation = "one's own desk",

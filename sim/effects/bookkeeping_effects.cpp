@@ -11,7 +11,6 @@ namespace fathom::effects {
 std::vector<Effect> bookkeeping_effects() {
   return {
       {.id = "fill_offset",
-       .family = "book-keeping",
        .sentence = "Every pour holds more than was written down, by as much each time.",
        .more = "every pour holds {} more than was written down",
        .less = "every pour holds {} less than was written down",
@@ -27,7 +26,6 @@ std::vector<Effect> bookkeeping_effects() {
            },
        .of_liquids = true},
       {.id = "fill_scale",
-       .family = "book-keeping",
        .sentence = "Every pour holds more than was written down, in proportion.",
        .more = "every pour is {} larger than was written down",
        .less = "every pour is {} smaller than was written down",
@@ -44,7 +42,6 @@ std::vector<Effect> bookkeeping_effects() {
            },
        .of_liquids = true},
       {.id = "evaporation",
-       .family = "book-keeping",
        .sentence = "The liquid's level falls from the moment it is poured.",
        .more = "the liquid's level falls by {} from the moment it is poured",
        .parameters = {{"rate_mm_per_h", "by which the level falls", 0.0, 1.0, 0.0, 50.0}},
@@ -61,7 +58,6 @@ std::vector<Effect> bookkeeping_effects() {
        .of_liquids = true,
        .of_time = true},
       {.id = "label_swap",
-       .family = "book-keeping",
        .sentence = "The labels of the first two liquids are swapped.",
        .parameters = {{"swapped", "1: swapped, 0: right", 0.0, 1.0, 0.0, 1.0}},
        .citation =
@@ -81,7 +77,6 @@ std::vector<Effect> bookkeeping_effects() {
              });
            }},
       {.id = "unit_error",
-       .family = "book-keeping",
        .sentence = "Fills were written down in another unit than millimetres.",
        .parameters = {{"factor", "millimetres in what was taken for one: inch 25.4, centimetre 10", 1.0, 0.5, 0.03,
                        30.0}},
@@ -98,7 +93,6 @@ std::vector<Effect> bookkeeping_effects() {
            },
        .of_liquids = true},
       {.id = "wrong_cup",
-       .family = "book-keeping",
        .sentence = "Another cup stands there, of the same form in another size.",
        .parameters = {{"scale", "the cup's lengths are 1 plus this times those of the right one", 0.0, 0.1, -0.5, 1.0}},
        .citation =

@@ -34,7 +34,6 @@ void apply_concave_bottom(Setup& setup, const EffectSetting& setting) {
 
 Effect concave_bottom() {
   return {.id = "concave_bottom",
-          .family = "cup",
           .sentence = "The inside of the cup's bottom is a bowl.",
           .more = "the middle of the cup's bottom lies {} below its edge",
           .less = "the middle of the cup's bottom lies {} above its edge",

@@ -10,7 +10,6 @@ namespace fathom::effects {
 std::vector<Effect> cup_effects() {
   return {
       {.id = "cup_bottom_height",
-       .family = "cup",
        .sentence = "The inside of the cup's bottom lies higher above the desk than was measured.",
        .more = "the inside of the cup's bottom lies {} higher than was measured",
        .less = "the inside of the cup's bottom lies {} lower than was measured",
@@ -28,7 +27,6 @@ std::vector<Effect> cup_effects() {
            }},
       concave_bottom(),
       {.id = "wall_albedo",
-       .family = "cup",
        .sentence = "The cup reflects more infrared light than its model.",
        .more = "the cup's albedo is {} higher than the model's",
        .less = "the cup's albedo is {} lower than the model's",
@@ -43,7 +41,6 @@ std::vector<Effect> cup_effects() {
              });
            }},
       {.id = "cup_placement",
-       .family = "cup",
        .sentence = "The cup stands beside the place that was written down, always by as much.",
        .parameters = {{"x_mm", "to the sensor's right", 0.0, 2.0, -30.0, 30.0},
                       {"y_mm", "away from the sensor", 0.0, 2.0, -30.0, 30.0}},

@@ -27,10 +27,11 @@ struct EffectSetting {
 };
 
 struct Effect {
-  std::string_view id, family;
-  std::string_view sentence;  ///< one, plain
-  /// The same with the size of its first parameter, and its unit, in place of {}: where it is above nominal, and below.
-  /// Empty where numbers do not fit into a sentence.
+  std::string_view id;
+  std::string_view family = {};  ///< the registry sets it
+  std::string_view sentence;     ///< one, plain
+  /// Sentences for the first parameter above (`more`) and below (`less`) nominal; {} becomes its departure with its
+  /// unit. Empty where numbers do not fit into a sentence.
   std::string_view more = {}, less = {};
   bool in_percent = false;  ///< that parameter is a share, and stands there in percent
   std::vector<EffectParameter> parameters;

@@ -8,6 +8,7 @@ namespace fathom::effects {
 
 std::vector<Effect> sensor_effects();
 std::vector<Effect> liquid_effects();
+std::vector<Effect> surface_effects();
 std::vector<Effect> cup_effects();
 std::vector<Effect> light_effects();
 std::vector<Effect> bookkeeping_effects();

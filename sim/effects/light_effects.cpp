@@ -9,7 +9,6 @@ namespace fathom::effects {
 std::vector<Effect> light_effects() {
   return {
       {.id = "wall_multipath",
-       .family = "light",
        .sentence = "Light that the walls throw on brightens the bottom and drowns its dots.",
        .parameters = {{"share", "of the interreflection, 1: all of it", 0.0, 1.0, 0.0, 1.0}},
        .citation = "Gupta et al. 2011, CVPR: structured light under global illumination",
@@ -20,7 +19,6 @@ std::vector<Effect> light_effects() {
              setup.light.interreflected = std::max(setup.light.interreflected, setting.values[0]);
            }},
       {.id = "specular_ghost",
-       .family = "light",
        .sentence = "The liquid's surface mirrors dots onto the wall and walls into the camera.",
        .parameters = {{"share", "of the mirrored light, 1: all of it", 0.0, 1.0, 0.0, 1.0}},
        .citation = "Born & Wolf, Principles of Optics, section 1.5: 2 % at normal incidence, 6 % at 60 degrees",

@@ -18,7 +18,6 @@ constexpr double kLeastIndex = 1.28;
 std::vector<Effect> liquid_effects() {
   return {
       {.id = "refractive_index",
-       .family = "liquid",
        .sentence = "The liquid bends light more than its table says.",
        .more = "the liquid's refractive index is {} higher than its table says",
        .less = "the liquid's refractive index is {} lower than its table says",
@@ -41,7 +40,6 @@ std::vector<Effect> liquid_effects() {
            },
        .of_liquids = true},
       {.id = "absorption",
-       .family = "liquid",
        .sentence = "The liquid swallows more infrared light than its table says, or less.",
        .more = "the liquid's absorption coefficient is {} higher than its table says",
        .less = "the liquid's absorption coefficient is {} lower than its table says",
@@ -59,7 +57,6 @@ std::vector<Effect> liquid_effects() {
            },
        .of_liquids = true},
       {.id = "subsurface_scattering",
-       .family = "liquid",
        .sentence = "Light enters the liquid before it scatters back, so the surface reads too low.",
        .parameters = {{"transport_length_mm", "added to 1 / reduced scattering coefficient", 0.0, 1.0, 0.0, 20.0,
                        "scattering_per_mm"}},
@@ -79,8 +76,12 @@ std::vector<Effect> liquid_effects() {
            },
        .of_liquids = true},
       stratification(),
+  };
+}
+
+std::vector<Effect> surface_effects() {
+  return {
       {.id = "meniscus",
-       .family = "surface",
        .sentence = "The liquid climbs the wall, or is pushed down there, so its surface is curved.",
        .parameters = {{"contact_angle_deg", "in the liquid, at the wall; 90: level", 90.0, 30.0, 10.0, 170.0}},
        .citation = "Landau & Lifshitz, Fluid Mechanics, section 61; capillary length of water 2.73 mm",
@@ -95,7 +96,6 @@ std::vector<Effect> liquid_effects() {
            },
        .of_liquids = true},
       {.id = "surface_tilt",
-       .family = "surface",
        .sentence = "The liquid's surface is not parallel to the desk.",
        .parameters = {{"slope_x_deg", "rises to the sensor's right", 0.0, 0.3, -10.0, 10.0},
                       {"slope_y_deg", "rises away from the sensor", 0.0, 0.3, -10.0, 10.0}},
@@ -115,7 +115,6 @@ std::vector<Effect> liquid_effects() {
            },
        .of_liquids = true},
       {.id = "foam",
-       .family = "surface",
        .sentence = "Foam lies on the liquid and is what the sensor sees.",
        .more = "foam of {} lies on the liquid and is what the sensor sees",
        .parameters = {{"thickness_mm", "of the foam", 0.0, 1.0, 0.0, 20.0}},

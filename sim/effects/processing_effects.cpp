@@ -9,7 +9,6 @@ namespace fathom::effects {
 std::vector<Effect> processing_effects() {
   return {
       {.id = "window_averaging",
-       .family = "processing",
        .sentence = "A disparity is the mean over the matcher's window, not the pixel's own.",
        .parameters = {{"window_px", "width of the window", 1.0, 8.0, 1.0, 31.0}},
        .citation = "PrimeSense's window of 9 x 9 pixels; Scharstein & Szeliski 2002, IJCV 47, 7",
@@ -20,7 +19,6 @@ std::vector<Effect> processing_effects() {
              setup.processing.window_px = std::max(setup.processing.window_px, setting.values[0]);
            }},
       {.id = "skew_approximation",
-       .family = "processing",
        .sentence = "Raised bottoms were reduced by the paper's closed form, not by exact triangulation.",
        .parameters = {{"share", "of the closed form, 1: all of it", 0.0, 1.0, 0.0, 1.0}},
        .citation = "Hara et al. 2014, Eq. 3 to 7: both rays at one incidence, the sensor's height for the point's",
@@ -31,7 +29,6 @@ std::vector<Effect> processing_effects() {
              setup.processing.bisector = std::max(setup.processing.bisector, setting.values[0]);
            }},
       {.id = "colour_registration",
-       .family = "processing",
        .sentence =
            "Depths were moved to where the colour camera, 25 mm beside, has them, so that shadows lie on both sides.",
        .parameters = {{"registered", "1: they were, 0: not", 0.0, 1.0, 0.0, 1.0, {}, 1.0}},

@@ -7,10 +7,21 @@ namespace fathom {
 
 const std::vector<Effect>& effect_registry() {
   static const std::vector<Effect> registry = [] {
+    struct Family {
+      std::string_view name;
+      std::vector<Effect> (*effects)();
+    };
+    constexpr Family kFamilies[] = {
+        {"sensor", effects::sensor_effects},        {"liquid", effects::liquid_effects},
+        {"surface", effects::surface_effects},      {"cup", effects::cup_effects},
+        {"light", effects::light_effects},          {"book-keeping", effects::bookkeeping_effects},
+        {"processing", effects::processing_effects}};
     std::vector<Effect> all;
-    for (const auto family : {effects::sensor_effects, effects::liquid_effects, effects::cup_effects,
-                              effects::light_effects, effects::bookkeeping_effects, effects::processing_effects})
-      for (Effect& effect : family()) all.push_back(std::move(effect));
+    for (const Family& family : kFamilies)
+      for (Effect& effect : family.effects()) {
+        effect.family = family.name;
+        all.push_back(std::move(effect));
+      }
     return all;
   }();
   return registry;

@@ -34,7 +34,6 @@ void apply_ripples(Setup& setup, const EffectSetting& setting) {
 Effect ripples() {
   return {
       .id = "ripples",
-      .family = "surface",
       .sentence = "Waves of 15 mm run over the liquid's surface, each time from elsewhere.",
       .parameters = {{"mean_square_slope", "of the waves: 0.005 where they are 0.24 mm high", 0.0, 0.005, 0.0, 0.1}},
       .citation =

@@ -16,7 +16,6 @@ constexpr double kCodePx = 0.125;
 std::vector<Effect> sensor_effects() {
   return {
       {.id = "sensor_height",
-       .family = "sensor",
        .sentence = "The sensor stands higher above the desk than was measured.",
        .more = "the sensor stands {} higher than was measured",
        .less = "the sensor stands {} lower than was measured",
@@ -29,7 +28,6 @@ std::vector<Effect> sensor_effects() {
              setup.rig.world_from_camera.translation().z() += metres_from_mm(setting.values[0]);
            }},
       {.id = "sensor_pitch",
-       .family = "sensor",
        .sentence = "The sensor looks further down than was measured.",
        .more = "the sensor looks {} further down than was measured",
        .less = "the sensor looks {} less far down than was measured",
@@ -43,7 +41,6 @@ std::vector<Effect> sensor_effects() {
              turn_camera(setup.rig, down.toRotationMatrix());
            }},
       {.id = "sensor_roll",
-       .family = "sensor",
        .sentence = "The sensor is turned about its line of sight.",
        .more = "the sensor is turned clockwise by {} about its line of sight",
        .less = "the sensor is turned anticlockwise by {} about its line of sight",
@@ -57,7 +54,6 @@ std::vector<Effect> sensor_effects() {
              turn_camera(setup.rig, Eigen::AngleAxisd(radians_from_deg(setting.values[0]), sight).toRotationMatrix());
            }},
       {.id = "baseline",
-       .family = "sensor",
        .sentence = "Camera and projector stand farther apart than the device assumes.",
        .more = "camera and projector stand {} farther apart than the device assumes",
        .less = "camera and projector stand {} nearer together than the device assumes",
@@ -73,7 +69,6 @@ std::vector<Effect> sensor_effects() {
              setup.rig.world_from_camera.translation() -= 0.5 * more * setup.rig.world_from_camera.linear().col(0);
            }},
       {.id = "focal_length",
-       .family = "sensor",
        .sentence = "The camera's focal length is longer than the device assumes.",
        .more = "the camera's focal length is {} longer than the device assumes",
        .less = "the camera's focal length is {} shorter than the device assumes",
@@ -87,7 +82,6 @@ std::vector<Effect> sensor_effects() {
              setup.rig.sensor.focal_px += setting.values[0];
            }},
       {.id = "principal_point",
-       .family = "sensor",
        .sentence = "The optical axis meets the image elsewhere than the device assumes.",
        .parameters = {{"x_px", "to the right", 0.0, 2.0, -20.0, 20.0}, {"y_px", "downward", 0.0, 2.0, -20.0, 20.0}},
        .citation = "Khoshelham & Elberink 2012, Sensors 12, 1437: principal point among the calibration parameters",
@@ -99,7 +93,6 @@ std::vector<Effect> sensor_effects() {
              setup.rig.sensor.principal_px += Eigen::Vector2d(setting.values[0], setting.values[1]);
            }},
       {.id = "disparity_offset",
-       .family = "sensor",
        .sentence = "The device reads all disparities too large by the same amount.",
        .more = "the device reads all disparities {} too large",
        .less = "the device reads all disparities {} too small",
@@ -111,7 +104,6 @@ std::vector<Effect> sensor_effects() {
        .apply = [](Setup& setup,
                    const EffectSetting& setting) { setup.rig.sensor.unit.disparity_offset_px += setting.values[0]; }},
       {.id = "radial_distortion",
-       .family = "sensor",
        .sentence = "The camera's lens bends straight lines, and the device does not know.",
        .parameters = {{"k1", "of Brown's model, over the focal length", 0.0, 0.01, -0.15, 0.15}},
        .citation = "Brown 1966, Photogrammetric Engineering 32, 444",
@@ -120,7 +112,6 @@ std::vector<Effect> sensor_effects() {
        .apply = [](Setup& setup,
                    const EffectSetting& setting) { setup.rig.sensor.optics.camera_k1 += setting.values[0]; }},
       {.id = "depth_quantization",
-       .family = "sensor",
        .sentence = "Depths come in steps of disparity, of 1/8 px or coarser, and are cut to whole millimetres.",
        .parameters = {{"law", "1: the device's law, 0: none", 0.0, 1.0, 0.0, 1.0},
                       {"step_px", "of disparity: whole eighths", kCodePx, 3.0 * kCodePx, kCodePx, 1.0, {}, kCodePx}},
@@ -134,7 +125,6 @@ std::vector<Effect> sensor_effects() {
                                                             static_cast<int>(std::lround(setting.values[1] / kCodePx)));
            }},
       {.id = "thermal_drift",
-       .family = "sensor",
        .sentence = "The sensor warms up: its disparities start too large and settle.",
        .more = "the sensor's disparities start {} larger than they settle, as it warms up",
        .less = "the sensor's disparities start {} smaller than they settle, as it warms up",
@@ -156,7 +146,6 @@ std::vector<Effect> sensor_effects() {
            },
        .of_time = true},
       {.id = "depth_wander",
-       .family = "sensor",
        .sentence = "All disparities of a frame share an error that is another one in the next frame.",
        .more = "all disparities of a frame share an error of {}, another one in the next frame",
        .parameters = {{"sd_px", "standard deviation of the error", 0.0, 0.05, 0.0, 1.0}},
@@ -171,7 +160,6 @@ std::vector<Effect> sensor_effects() {
            },
        .of_time = true},
       {.id = "depth_step_phase",
-       .family = "sensor",
        .sentence = "The steps of depth stand between those of the table that is taken for right.",
        .parameters = {{"phase_steps", "added to where depths lie between whole codes", 0.0, 0.5, 0.0, 1.0}},
        .citation = "two tables are in use, half a step apart: libfreenect and OpenNI, and the vendor's SDK",
@@ -180,7 +168,6 @@ std::vector<Effect> sensor_effects() {
        .apply = [](Setup& setup,
                    const EffectSetting& setting) { setup.rig.sensor.law.step_phase += setting.values[0]; }},
       {.id = "depth_truncation",
-       .family = "sensor",
        .sentence = "Depths are cut to whole millimetres, so all read short by half of one.",
        .parameters = {{"cut", "1: to whole millimetres, 0: not", 0.0, 1.0, 0.0, 1.0}},
        .citation = "OpenNI's shift-to-depth table holds whole millimetres",
@@ -191,7 +178,6 @@ std::vector<Effect> sensor_effects() {
              if (setting.values[0] >= 0.5) setup.rig.sensor.law.cut = kMetresPerMm;
            }},
       {.id = "noise_correlation",
-       .family = "sensor",
        .sentence = "Neighbouring pixels share the light of their blocks, so that their errors are alike.",
        .parameters = {{"wider_px", "added to the width of the blocks", 0.0, 8.0, 0.0, 22.0}},
        .citation = "PrimeSense's blocks of 9 x 9 pixels; errors of measured desks go together over 8 px along rows",
@@ -205,7 +191,6 @@ std::vector<Effect> sensor_effects() {
              matcher.window_rows += more;
            }},
       {.id = "reference_residue",
-       .family = "sensor",
        .sentence = "The sensor remembers its reference plane displaced, by another amount in every part of the image.",
        .parameters = {{"sd_px", "standard deviation over the image, of disparity", 0.0, 0.05, 0.0, 1.0}},
        .citation = "what nine measured desks have in common beside their planes: 0.68 steps of 1/8 px over 70 px",

@@ -22,7 +22,6 @@ void apply_stratification(Setup& setup, const EffectSetting& setting) {
 
 Effect stratification() {
   return {.id = "stratification",
-          .family = "liquid",
           .sentence = "The lower half of the liquid is denser, so it bends light more.",
           .more = "the refractive index of the liquid's lower half is {} higher than that of the upper",
           .parameters = {{"index_step", "added to the refractive index of the lower half, on which the other floats",
