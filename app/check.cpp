@@ -10,7 +10,7 @@
 #include "app/results.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_text.h"
+#include "core/json.h"
 #include "core/rows.h"
 #include "core/units.h"
 #include "core/visible_text.h"

@@ -12,7 +12,6 @@
 #include "app/options.h"
 #include "app/print.h"
 #include "core/json.h"
-#include "core/json_text.h"
 #include "core/progress.h"
 #include "detector/fuse.h"
 #include "detector/read_cloud.h"

@@ -13,7 +13,7 @@
 #include "campaign/next_campaign.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
-#include "core/json_text.h"
+#include "core/json.h"
 #include "core/view_page.h"
 #include "core/visible_text.h"
 #include "diagnosis/decision/diagnosis_json.h"

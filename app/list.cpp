@@ -10,7 +10,7 @@
 #include "app/results.h"
 #include "campaign/campaign_spec.h"
 #include "core/files.h"
-#include "core/json_text.h"
+#include "core/json.h"
 #include "core/library.h"
 #include "core/units.h"
 #include "datasets/dataset_spec.h"

@@ -16,7 +16,6 @@
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
-#include "core/json_text.h"
 #include "report/gnuplot.h"
 
 namespace fathom {

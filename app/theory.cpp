@@ -12,7 +12,7 @@
 #include "app/commands.h"
 #include "app/options.h"
 #include "app/results.h"
-#include "core/json_text.h"
+#include "core/json.h"
 #include "core/rows.h"
 #include "core/units.h"
 #include "theory/raised_bottom.h"

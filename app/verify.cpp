@@ -14,7 +14,7 @@
 #include "app/verify_cases.h"
 #include "core/decimal.h"
 #include "core/error.h"
-#include "core/json_text.h"
+#include "core/json.h"
 #include "core/progress.h"
 #include "core/units.h"
 #include "sim/optics/fresnel.h"

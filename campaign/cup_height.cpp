@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/cup_json.h"
+#include "core/cup_profile.h"
 #include "detector/desk_view.h"
 #include "diagnosis/measurement/cloud_sampling.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/cup_json.h"
 #include "core/units.h"
 
 namespace fathom {
@@ -39,6 +38,12 @@ bool less_wide(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x(
 /// The axis, an edge at its height, and the rim straight above that.
 bool is_upright(const std::vector<Eigen::Vector2d>& profile) {
   return profile.size() == 3 && profile[1].y() == profile[0].y() && profile[2].x() == profile[1].x();
+}
+
+Json profile_json(const std::vector<Eigen::Vector2d>& profile) {
+  Json points = Json::array();
+  for (const Eigen::Vector2d& point : profile) points.push_back({mm_from_metres(point.x()), mm_from_metres(point.y())});
+  return points;
 }
 
 }  // namespace
@@ -86,6 +91,30 @@ CupProfile cup_profile_from_json(const JsonReader& json) {
                                  mm_from_metres(point.y())));
   if (cup.inner.back().x() >= cup.outer.back().x()) json.fail_at("inner_profile_mm", "must end inside the outer rim");
   return cup;
+}
+
+CupProfile straight_cup_from_json(const JsonReader& json, const std::optional<CupProfile>& usual) {
+  const auto length = [&](const char* key, double (*of)(const CupProfile&)) {
+    return usual && !json.has(key) ? of(*usual) : json.metres(key, kCupLengthMm);
+  };
+  const double height = length("height_mm", [](const CupProfile& cup) { return cup.height(); });
+  const double bottom = length("bottom_mm", [](const CupProfile& cup) { return cup.bottom(); });
+  const double inner = length("inner_radius_mm", [](const CupProfile& cup) { return cup.inner_radius(kRadiiAt_m); });
+  const double outer = length("outer_radius_mm", [](const CupProfile& cup) { return cup.outer_radius(kRadiiAt_m); });
+  if (bottom >= height) json.fail_at("bottom_mm", "must be below height_mm");
+  if (outer <= inner) json.fail_at("outer_radius_mm", "must be above inner_radius_mm");
+  return straight_cup(height, bottom, inner, outer);
+}
+
+Json lengths_json(const CupProfile& cup) {
+  return {{"height_mm", mm_from_metres(cup.height())},
+          {"inner_radius_mm", mm_from_metres(cup.inner_radius(kRadiiAt_m))},
+          {"outer_radius_mm", mm_from_metres(cup.outer_radius(kRadiiAt_m))},
+          {"bottom_mm", mm_from_metres(cup.bottom())}};
+}
+
+Json profiles_json(const CupProfile& cup) {
+  return {{"inner_profile_mm", profile_json(cup.inner)}, {"outer_profile_mm", profile_json(cup.outer)}};
 }
 
 }  // namespace fathom

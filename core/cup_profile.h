@@ -1,8 +1,9 @@
-// The inside and the outside of an upright cup of revolution: what scenes and a laboratory's rig both say of a cup.
+// The inside and the outside of an upright cup of revolution, and what files say of them: four lengths, or profiles.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/json.h"
@@ -15,6 +16,9 @@ inline constexpr Range kCupLengthMm{0.0, 2000.0, true};
 inline constexpr Range kCupPlaceMm{-1e5, 1e5};
 /// Of a body of revolution; each becomes hundreds of triangles.
 inline constexpr std::size_t kMostProfilePoints = 2000;
+
+/// [m] above the desk: where radii are those of a cup whose walls lean, and a detector fits its circle.
+inline constexpr double kRadiiAt_m = 0.045;
 
 /// Profiles run from the axis (radius 0) to the rim as (radius, height above the desk) [m].
 struct CupProfile {
@@ -46,5 +50,16 @@ CupProfile straight_cup(double height, double bottom, double inner_radius, doubl
 CupProfile cup_profile_from_json(const JsonReader& json);
 
 bool has_profile(const JsonReader& json);
+
+/// Upright walls on a flat bottom, by `height_mm`, `bottom_mm`, `inner_radius_mm` and `outer_radius_mm`. Where a
+/// `usual` cup is given, lengths that are missing are its own (its radii 45 mm above the desk). Throws Error where a
+/// length is missing, out of kCupLengthMm, or leaves no wall or no hollow.
+CupProfile straight_cup_from_json(const JsonReader& json, const std::optional<CupProfile>& usual = {});
+
+/// The same four keys, which say all of a straight cup; the radii are those 45 mm above the desk.
+Json lengths_json(const CupProfile& cup);
+
+/// {"inner_profile_mm", "outer_profile_mm"}
+Json profiles_json(const CupProfile& cup);
 
 }  // namespace fathom

@@ -67,4 +67,10 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
                      likely_meant(name, choices));
 }
 
+std::string name_list(std::span<const std::string> names) {
+  constexpr std::size_t kShown = 5;
+  const std::string text = fmt::format("{}", fmt::join(names.first(std::min(names.size(), kShown)), ", "));
+  return names.size() > kShown ? fmt::format("{} and {} more", text, names.size() - kShown) : text;
+}
+
 }  // namespace fathom

@@ -19,4 +19,7 @@ class Error : public std::runtime_error {
 /// "unknown liquid 'wtaer', choose from milk_tea, water; did you mean 'water'?"
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string> choices);
 
+/// Many names in a sentence: "1, 2, 3, 4, 5 and 12 more"
+std::string name_list(std::span<const std::string> names);
+
 }  // namespace fathom

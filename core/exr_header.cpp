@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/input_policy.h"
@@ -67,10 +68,7 @@ class HeaderBytes {
 /// Bytes of a value of that type. OpenEXR reads as many, whatever size the file says: who went by the file's would read
 /// another header than OpenEXR does.
 std::optional<std::int32_t> size_of(std::string_view type) {
-  struct Sized {
-    std::string_view type;
-    std::int32_t size;
-  };
+  using Sized = std::pair<std::string_view, std::int32_t>;
   constexpr std::array kSized{Sized{"box2f", 16},
                               Sized{"box2i", 16},
                               Sized{"chromaticities", 32},
@@ -95,8 +93,9 @@ std::optional<std::int32_t> size_of(std::string_view type) {
                               Sized{"v3d", 24},
                               Sized{"v3f", 12},
                               Sized{"v3i", 12}};
-  const auto known = std::find_if(kSized.begin(), kSized.end(), [&](const Sized& sized) { return sized.type == type; });
-  return known == kSized.end() ? std::nullopt : std::optional(known->size);
+  const auto known =
+      std::find_if(kSized.begin(), kSized.end(), [&](const Sized& sized) { return sized.first == type; });
+  return known == kSized.end() ? std::nullopt : std::optional(known->second);
 }
 
 void read_channels(HeaderBytes& bytes, Facts& facts) {

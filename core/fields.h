@@ -80,8 +80,8 @@ Choice<T> enum_choice(std::vector<std::string> names) {
           }};
 }
 
-/// A value with a reader and a writer of its own. A writer that returns null leaves the key out; a reader that is not
-/// given takes nothing, because something else reads the key.
+/// A value with a reader and a writer of its own. No reader: something else reads the key. No writer, or null from it:
+/// the key is left out.
 template <class T>
 struct Part {
   void (*read)(const JsonReader&, T&);
@@ -151,8 +151,7 @@ Field<T> schema_field() {
       "$schema", Part<T>{nullptr, nullptr, R"({"type": "string"})", "a text"}, {}, "for editors: the file's schema"};
 }
 
-/// The number of millimetres that reads back as this length, where there is one: of forty-four lengths one lies between
-/// those that millimetres of double precision can say.
+/// Millimetres that convert back to exactly this length; the nearest where no double does (one length in 44).
 double mm_that_read_back(double metres);
 
 namespace field_detail {

@@ -118,7 +118,7 @@ std::string read_text(const fs::path& path) {
     throw Error(name, fmt::format("cannot be read: {}", std::strerror(errno)));
   require_regular(name, about);
   require_within_limit(name, "", static_cast<std::uint64_t>(about.st_size), "content");
-  // One byte more than there should be, to see the end. Files of the system have no size, but content.
+  // One byte more than there should be, to see the end. Files in /proc and /sys report size 0 but have content.
   std::string text(static_cast<std::size_t>(about.st_size) + 1, '\0');
   for (std::size_t had = 0;;) {
     constexpr std::size_t kMore = 1 << 16;

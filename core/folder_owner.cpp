@@ -52,8 +52,8 @@ int open_lock(const fs::path& file, bool folder_may_vanish) {
 FolderOwner::FolderOwner(fs::path folder, std::chrono::seconds patience)
     : folder_(std::move(folder)), file_(folder_ / ".fathom.lock") {
   const auto end = std::chrono::steady_clock::now() + patience;
-  // An owner that wrote nothing removes its folder, which can happen between the two calls, but not every time. /proc
-  // says of itself at every call that it does not exist.
+  // Between the two calls an owner that wrote nothing may remove the folder: try again. The limit is for /proc, where
+  // creating never succeeds.
   constexpr int kAttempts = 1000;
   for (int attempt = 1; descriptor_ < 0; ++attempt) {
     is_new_ = !fs::exists(folder_);

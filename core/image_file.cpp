@@ -155,18 +155,6 @@ bool write_grey16(PngFile& to, const Image<std::uint16_t>& image, Packing packin
   return true;
 }
 
-/// libpng's simplified interface gamma-converts 16-bit data; depth and intensity are plain numbers and must not be.
-void write_png_grey16(const std::filesystem::path& path, const Image<std::uint16_t>& image, Flush flush,
-                      Packing packing) {
-  const auto write = [&](const std::filesystem::path& beside) {
-    PngFile to(beside);
-    if (!write_grey16(to, image, packing))
-      throw Error(path.string(), fmt::format("cannot write PNG: {}", to.problem()));
-    if (!to.close()) throw Error(path.string(), "cannot write PNG: disk full or not writable");
-  };
-  write_atomically(path, write, flush);
-}
-
 bool read_header(PngFile& from) {
   if (setjmp(png_jmpbuf(from.png))) return false;
   png_init_io(from.png, from.file);
@@ -293,7 +281,13 @@ void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& gre
 }
 
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey, Flush flush, Packing packing) {
-  write_png_grey16(path, grey, flush, packing);
+  // libpng's simplified interface gamma-converts 16-bit data; depth and intensity are plain numbers and must not be.
+  const auto write = [&](const std::filesystem::path& beside) {
+    PngFile to(beside);
+    if (!write_grey16(to, grey, packing)) throw Error(path.string(), fmt::format("cannot write PNG: {}", to.problem()));
+    if (!to.close()) throw Error(path.string(), "cannot write PNG: disk full or not writable");
+  };
+  write_atomically(path, write, flush);
 }
 
 void write_png(const std::filesystem::path& path, const Image<Rgb>& rgb, Flush flush) {

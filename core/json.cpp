@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_text.h"
 #include "core/modest_json.h"
 #include "core/units.h"
 
@@ -96,10 +95,6 @@ Interval JsonReader::interval(Range range) const {
 
 double JsonReader::metres(std::string_view key, Range range_mm) const { return metres_from_mm(number(key, range_mm)); }
 
-double JsonReader::metres_or(std::string_view key, double otherwise_m, Range range_mm) const {
-  return has(key) ? metres(key, range_mm) : otherwise_m;
-}
-
 Eigen::Vector2d JsonReader::vector2(Range range) const {
   const std::vector<double> values = numbers(range);
   if (values.size() != 2) fail(fmt::format("must be a list of 2 numbers, got {}", shown(*value_)));
@@ -118,6 +113,8 @@ std::size_t JsonReader::choice(std::span<const std::string> choices, std::string
   if (found == choices.end()) fail(unknown_name(kind, name, choices));
   return static_cast<std::size_t>(found - choices.begin());
 }
+
+std::string json_text(const Json& value) { return value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json read_json(const std::filesystem::path& path) {
   // Of objects' members, with the keys that are kept to find doubles; of a string the text, what the parser gathers,

@@ -56,7 +56,6 @@ class JsonReader {
   }
   /// A length that stands in the file in mm.
   double metres(std::string_view key, Range range_mm = {}) const;
-  double metres_or(std::string_view key, double otherwise_m, Range range_mm = {}) const;
   std::string text(std::string_view key) const { return at(key).text(); }
   std::string text_or(std::string_view key, std::string otherwise) const {
     return has(key) ? at(key).text() : std::move(otherwise);
@@ -75,6 +74,10 @@ class JsonReader {
   std::string file_;
   std::string pointer_;
 };
+
+/// JSON as the program writes it, into files and on stdout: indented, with a line feed at the end. Bytes that are no
+/// UTF-8, as in the names of some files, are U+FFFD.
+std::string json_text(const Json& value);
 
 /// Parses the file; a syntax error names line and column. The value outlives the readers made from it.
 Json read_json(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// JSON before it is parsed.
+// Depth and memory limits of JSON, checked before it is parsed.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/json_text.h"
+#include "core/json.h"
 #include "core/visible_text.h"
 
 namespace fathom {

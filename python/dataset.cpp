@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/input_record.h"
-#include "core/json_text.h"
+#include "core/json.h"
 #include "datasets/generate.h"
 #include "python/bindings.h"
 #include "python/objects.h"

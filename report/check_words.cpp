@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/name_list.h"
+#include "core/error.h"
 #include "core/units.h"
 #include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/measurement/named_values.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/cup_json.h"
+#include "core/cup_profile.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"

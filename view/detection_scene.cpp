@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/lengths.h"
+#include "core/range.h"
 #include "core/units.h"
 #include "detector/cone.h"
 #include "detector/plane.h"

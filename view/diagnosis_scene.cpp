@@ -11,7 +11,7 @@
 
 #include "core/cup_profile.h"
 #include "core/error.h"
-#include "core/lengths.h"
+#include "core/range.h"
 #include "core/table.h"
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"

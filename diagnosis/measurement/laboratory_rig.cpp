@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/cup_json.h"
+#include "core/cup_profile.h"
 #include "core/fields.h"
 #include "core/input_policy.h"
-#include "core/lengths.h"
 #include "core/library.h"
+#include "core/range.h"
 #include "core/units.h"
 
 namespace fathom {

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "core/error.h"
-#include "core/name_list.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/units.h"

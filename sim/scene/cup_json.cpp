@@ -9,7 +9,7 @@
 
 #include "core/fields.h"
 #include "core/input_policy.h"
-#include "core/lengths.h"
+#include "core/range.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/liquid_top.h"

@@ -14,8 +14,8 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/input_policy.h"
-#include "core/lengths.h"
 #include "core/modest_json.h"
+#include "core/range.h"
 #include "core/units.h"
 #include "sim/scene/gltf_json.h"
 

@@ -1,6 +1,6 @@
 #include "sim/scene/optics_model.h"
 
-#include "core/lengths.h"
+#include "core/range.h"
 
 namespace fathom {
 

@@ -10,8 +10,8 @@
 #include "core/fields.h"
 #include "core/image_file.h"
 #include "core/input_policy.h"
-#include "core/lengths.h"
 #include "core/library.h"
+#include "core/range.h"
 #include "core/units.h"
 
 namespace fathom {

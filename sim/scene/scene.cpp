@@ -8,8 +8,8 @@
 
 #include "core/fields.h"
 #include "core/input_policy.h"
-#include "core/lengths.h"
 #include "core/library.h"
+#include "core/range.h"
 #include "core/units.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/medium_json.h"
