@@ -43,9 +43,9 @@ std::optional<ConeFit> fit_cone(const Points& points, WallCone cone, double tole
     if (solver.info() != Eigen::Success || !(solver.rcond() > 1e-12)) return std::nullopt;
     const Eigen::Vector4d change = solver.solve(-right);
     cone.center += change.head<2>();
-    cone.radius += change(2);
+    cone.radius_m += change(2);
     cone.lean += change(3);
-    if (!(cone.radius > 0.0) || !cone.center.allFinite()) return std::nullopt;
+    if (!(cone.radius_m > 0.0) || !cone.center.allFinite()) return std::nullopt;
     fit = {cone, solver.solve(Eigen::Matrix4d::Identity()) * variance * kPointsPerIndependent, std::sqrt(variance),
            count};
   }

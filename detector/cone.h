@@ -10,12 +10,13 @@ namespace fathom {
 
 inline constexpr double kWallHeight = 0.045;  ///< [m] of a wall's radius and centre: the middle of the paper's band
 
-/// radius(z) = radius + lean · (z − kWallHeight).
+/// radius(z) = radius_m + lean · (z − kWallHeight).
 struct WallCone {
-  Eigen::Vector2d center;
-  double radius, lean;
+  Eigen::Vector2d center;  ///< [m] desk frame
+  double radius_m;         ///< 45 mm above the desk, between the inner and the outer wall where both are seen
+  double lean;             ///< change of the radius with the height; 0: upright, above 0: wider at the top
 
-  double radius_at(double height) const { return radius + lean * (height - kWallHeight); }
+  double radius_at(double height_m) const { return radius_m + lean * (height_m - kWallHeight); }
 };
 
 struct ConeFit {

@@ -13,10 +13,10 @@ namespace fathom {
 namespace {
 
 double width_along_desk(const Points& points) {
-  constexpr int kDirections = 36;  // every 5°: the largest extent is missed by at most 1 − cos 2.5° = 0.1 %
+  constexpr int kAngles = 36;  // every 5°: the largest extent is missed by at most 1 − cos 2.5° = 0.1 %
   double widest = 0.0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = std::numbers::pi * i / kDirections;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = std::numbers::pi * i / kAngles;
     const Eigen::Vector2f direction = Eigen::Vector2d(std::cos(angle), std::sin(angle)).cast<float>();
     float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
     for (const Eigen::Vector3f& point : points) {

@@ -16,31 +16,14 @@ constexpr std::array kMethods{
     Method{"prerejective", "FPFH descriptors and prerejective RANSAC; slow", detect_prerejective},
 };
 
+// In the order of the values.
+constexpr std::array<std::string_view, 3> kLiquidNames{"no", "yes", "unknown"};
+constexpr std::array<std::string_view, 3> kKindNames{"transparent", "opaque", "unknown"};
+
 }  // namespace
 
-std::string_view name_of(Liquid liquid) {
-  switch (liquid) {
-    case Liquid::kYes:
-      return "yes";
-    case Liquid::kNo:
-      return "no";
-    case Liquid::kUnknown:
-      break;
-  }
-  return "unknown";
-}
-
-std::string_view name_of(LiquidKind kind) {
-  switch (kind) {
-    case LiquidKind::kTransparent:
-      return "transparent";
-    case LiquidKind::kOpaque:
-      return "opaque";
-    case LiquidKind::kUnknown:
-      break;
-  }
-  return "unknown";
-}
+std::string_view name_of(Liquid liquid) { return kLiquidNames[static_cast<std::size_t>(liquid)]; }
+std::string_view name_of(LiquidKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
 std::span<const Method> methods() { return kMethods; }
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include "core/units.h"
+#include "detector/cone.h"
 
 namespace fathom {
 namespace {
-
-/// A cup's centre is told at this height above the desk: the middle of the paper's band.
-constexpr double kCenterHeight = 0.045;
 
 std::string content_in_words(const DetectedCup& cup, const CupTemplate& known) {
   if (!cup.interior) return "nothing is seen inside it";
@@ -25,7 +23,7 @@ DetectedCup with_content(PlacedCup placed, const DeskView& view, const DetectorS
   cup.match = placed.match;
   cup.score_m = placed.match.score_m;
   cup.center_in_camera =
-      view.desk_from_camera.inverse() * Eigen::Vector3d(circle.center.x(), circle.center.y(), kCenterHeight);
+      view.desk_from_camera.inverse() * Eigen::Vector3d(circle.center.x(), circle.center.y(), kWallHeight);
   cup.interior = interior_height(view.points, circle, settings.paper.interior);
   cup.liquid = decide_liquid(cup.interior, known.liquid_threshold_m);
   cup.why = fmt::format("{} {}; {}", matches, known.name, content_in_words(cup, known));

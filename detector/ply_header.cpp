@@ -127,11 +127,6 @@ class Parser {
 
 }  // namespace
 
-bool PlyElement::has_lists() const {
-  return std::any_of(properties.begin(), properties.end(),
-                     [](const PlyProperty& property) { return property.length_type.has_value(); });
-}
-
 std::uint64_t PlyElement::least_size(PlyEncoding encoding) const {
   if (encoding == PlyEncoding::text) return 2 * properties.size();
   std::uint64_t bytes = 0;

@@ -28,7 +28,6 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties{};
 
-  bool has_lists() const;
   /// Of one, at least: in bytes, or in characters with what parts them.
   std::uint64_t least_size(PlyEncoding encoding) const;
 };

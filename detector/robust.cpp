@@ -9,7 +9,6 @@
 #include "detector/content_signs.h"
 #include "detector/depth_noise.h"
 #include "detector/mean_error.h"
-#include "detector/mound.h"
 #include "detector/pinhole.h"
 
 namespace fathom {

@@ -6,9 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "detector/directions.h"
-#include "detector/slab_circle.h"
-
 namespace fathom {
 namespace {
 
@@ -74,13 +71,10 @@ std::optional<RoundWall> wall_from(const SlabCircle& circle, const Points& point
   if (!fit) return std::nullopt;
 
   RoundWall wall{};
-  wall.center = fit->cone.center;
-  wall.radius_m = fit->cone.radius;
-  wall.lean = fit->cone.lean;
+  static_cast<WallCone&>(wall) = fit->cone;
   wall.rms_m = fit->rms;
   wall.points = fit->points;
   wall.radius_sigma_m = std::sqrt(fit->covariance(2, 2));
-  wall.center_sigma_m = std::sqrt(fit->covariance(0, 0) + fit->covariance(1, 1));
   Points on_wall;
   unsigned directions = 0;
   wall.low_m = search.high_m;
@@ -112,8 +106,6 @@ void take_away(const SlabCircle& none, const WallSearch& search, Points& points)
 }
 
 }  // namespace
-
-double RoundWall::radius_at(double height_m) const { return radius_m + lean * (height_m - kWallHeight); }
 
 double RoundWall::distance_of(const Eigen::Vector3f& point) const {
   return (point.head<2>().cast<double>() - center).norm();

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/rng.h"
-#include "detector/directions.h"
 
 namespace fathom {
 namespace {
@@ -66,9 +65,9 @@ std::optional<FlatCircle> circle_through(const Eigen::Vector2f& a, const Eigen::
   return FlatCircle{a + offset, offset.norm()};
 }
 
-/// Directions in which points lie on the circle, fewer for points inside it and around it. A wall has none inside at
-/// its own height, and around it only what touches it, where a circle on a can's lid has them everywhere; one that is
-/// open at the top has none higher up.
+/// The number of directions in which points lie on the circle, times their share of all points on it, inside it, close
+/// around it and, of a wall that is open at the top, above it. A wall has no points inside at its own height, few close
+/// around it and, open at the top, none above; a circle on a can's lid has them everywhere.
 float score(const Slab& slab, const FlatCircle& circle, float tolerance, Top top) {
   const float inner = circle.radius - tolerance, outer = circle.radius + tolerance;
   const float within = std::max(0.0f, circle.radius - 2.0f * tolerance), around = circle.radius + 3.0f * tolerance;

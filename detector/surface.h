@@ -27,11 +27,20 @@ struct LevelSurface {
   double tilt_sigma_rad;
   double range_m;  ///< of its middle from the camera
   int points;
-  double level_share;  ///< of all points inside
 };
 
 /// Nothing when nothing level is seen.
 std::optional<LevelSurface> find_surface(const Points& inside, const RoundWall& wall, double camera_height_m,
                                          const SurfaceSettings& settings);
+
+/// What is heaped: liquids are level, powders and grains stand up from the wall to the axis.
+struct MoundSlope {
+  double slope_rad;  ///< how steeply what is seen inside rises towards the axis
+  double sigma_rad;  ///< when neighbours err alike; large where only one side is seen
+};
+
+/// By least squares, beside a lean to any side, over the points `inside` that lie about the surface.
+MoundSlope mound_slope(const Points& inside, const RoundWall& wall, const LevelSurface& surface,
+                       const SurfaceSettings& settings);
 
 }  // namespace fathom
