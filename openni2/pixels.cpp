@@ -32,13 +32,13 @@ Image<std::uint16_t> infrared_pixels(const SensorModel& sensor, const Frame& fra
   return pixels;
 }
 
-void copy_region(const Image<std::uint16_t>& image, const Region& region, bool mirrored, std::uint16_t* to) {
-  for (int y = 0; y < region.height; ++y, to += region.width) {
-    const std::uint16_t* row = image.row(region.top + y);
+void copy_region(const Image<std::uint16_t>& image, const OniCropping& part, bool mirrored, std::uint16_t* to) {
+  for (int y = 0; y < part.height; ++y, to += part.width) {
+    const std::uint16_t* row = image.row(part.originY + y);
     if (mirrored)
-      std::reverse_copy(row + image.width() - region.left - region.width, row + image.width() - region.left, to);
+      std::reverse_copy(row + image.width() - part.originX - part.width, row + image.width() - part.originX, to);
     else
-      std::copy_n(row + region.left, region.width, to);
+      std::copy_n(row + part.originX, part.width, to);
   }
 }
 

@@ -1,6 +1,8 @@
 // A frame's images as the 16-bit pixels of an OpenNI2 stream.
 #pragma once
 
+#include <OniCTypes.h>
+
 #include <cstdint>
 
 #include "sim/sensor/capture.h"
@@ -18,17 +20,7 @@ Image<std::uint16_t> depth_pixels(const Setup& setup, const Frame& frame, double
 Image<std::uint16_t> infrared_pixels(const SensorModel& sensor, const Frame& frame, int width);
 int infrared_full_scale(const SensorModel& sensor);
 
-/// Part of an image, in pixels.
-struct Region {
-  int left, top, width, height;
-
-  bool inside(int image_width, int image_height) const {
-    return left >= 0 && top >= 0 && width > 0 && height > 0 && left <= image_width - width &&
-           top <= image_height - height;
-  }
-};
-
-/// Writes the region row by row; `mirrored` turns left and right of the whole image before it is cut.
-void copy_region(const Image<std::uint16_t>& image, const Region& region, bool mirrored, std::uint16_t* to);
+/// Writes a part of the image row by row; `mirrored` turns left and right of the whole image before it is cut.
+void copy_region(const Image<std::uint16_t>& image, const OniCropping& part, bool mirrored, std::uint16_t* to);
 
 }  // namespace fathom

@@ -45,20 +45,10 @@ void Player::remove(const void* owner) {
   started_.erase(owner);
 }
 
-float Player::speed() const {
-  const std::lock_guard lock(mutex_);
-  return speed_;
-}
-
 void Player::set_speed(float speed) {
   const std::lock_guard lock(mutex_);
   speed_ = speed;
   wake_.notify_all();
-}
-
-bool Player::repeats() const {
-  const std::lock_guard lock(mutex_);
-  return repeats_;
 }
 
 void Player::set_repeats(bool repeats) {

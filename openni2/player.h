@@ -2,6 +2,7 @@
 // each of them to every stream that is started: all streams of a device show the same shot.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -46,9 +47,9 @@ class Player {
   // Of a folder, as OpenNI2 defines them.
   static constexpr float kFastest = 0.0f;  ///< without pauses
   static constexpr float kManual = -1.0f;  ///< one frame for each trigger()
-  float speed() const;
+  float speed() const { return speed_; }
   void set_speed(float speed);  ///< a factor of kFramesPerSecond, kFastest or kManual
-  bool repeats() const;
+  bool repeats() const { return repeats_; }
   void set_repeats(bool repeats);
   void seek(int frame);  ///< the next frame to be handed out, from 0
   void trigger();
@@ -76,8 +77,8 @@ class Player {
   int next_ = 0;
   std::uint64_t handed_out_ = 0;
   int seeks_ = 0;
-  float speed_ = 1.0f;
-  bool repeats_ = true;
+  std::atomic<float> speed_ = 1.0f;  ///< these two are read without it as well
+  std::atomic<bool> repeats_ = true;
   bool triggered_ = false;
 
   std::mutex receiving_;  ///< held while receivers run

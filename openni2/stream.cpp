@@ -17,8 +17,9 @@ bool same(const OniVideoMode& a, const OniVideoMode& b) {
          a.fps == b.fps;
 }
 
-Region region_of(const OniCropping& cropping) {
-  return {cropping.originX, cropping.originY, cropping.width, cropping.height};
+bool inside(const OniCropping& part, const OniVideoMode& mode) {
+  return part.originX >= 0 && part.originY >= 0 && part.width > 0 && part.height > 0 &&
+         part.originX <= mode.resolutionX - part.width && part.originY <= mode.resolutionY - part.height;
 }
 
 /// Shifts stay where the infrared camera has them: the device registers what its table made of them.
@@ -107,10 +108,8 @@ OniStatus Stream::set_mode(const OniVideoMode& mode) {
 
 OniStatus Stream::set_cropping(const OniCropping& cropping) {
   const std::lock_guard lock(mutex_);
-  const OniVideoMode& mode = state_.mode;
-  if (cropping.enabled && !region_of(cropping).inside(mode.resolutionX, mode.resolutionY))
-    return ONI_STATUS_BAD_PARAMETER;
-  state_.cropping = cropping.enabled ? cropping : whole_image(mode);
+  if (cropping.enabled && !inside(cropping, state_.mode)) return ONI_STATUS_BAD_PARAMETER;
+  state_.cropping = cropping.enabled ? cropping : whole_image(state_.mode);
   return ONI_STATUS_OK;
 }
 
@@ -137,23 +136,22 @@ void Stream::deliver(const Shot& shot) {
   const StreamState now = state();
   if (now.type == ONI_SENSOR_IR && shot.frame.ir.empty()) return;  // taken before this stream was started
   const Setup& setup = player_.source().setup();
-  const Region region = region_of(now.cropping);
   const Image<std::uint16_t> image = now.type == ONI_SENSOR_DEPTH
                                          ? measured_pixels(setup, shot.frame, now)
                                          : infrared_pixels(setup.rig.sensor, shot.frame, now.mode.resolutionX);
   OniFrame* frame = getServices().acquireFrame();
   if (!frame) return;
-  copy_region(image, region, now.mirrored, static_cast<std::uint16_t*>(frame->data));
+  copy_region(image, now.cropping, now.mirrored, static_cast<std::uint16_t*>(frame->data));
   frame->sensorType = now.type;
   frame->timestamp = shot.time_us;
   frame->frameIndex = shot.number;
   frame->videoMode = now.mode;
-  frame->width = region.width;
-  frame->height = region.height;
+  frame->width = now.cropping.width;
+  frame->height = now.cropping.height;
   frame->croppingEnabled = now.cropping.enabled;
-  frame->cropOriginX = region.left;
-  frame->cropOriginY = region.top;
-  frame->stride = static_cast<int>(region.width * sizeof(std::uint16_t));
+  frame->cropOriginX = now.cropping.originX;
+  frame->cropOriginY = now.cropping.originY;
+  frame->stride = static_cast<int>(now.cropping.width * sizeof(std::uint16_t));
   frame->dataSize = frame->stride * frame->height;
   raiseNewFrame(frame);
   getServices().releaseFrame(frame);

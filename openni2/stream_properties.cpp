@@ -6,13 +6,53 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "core/units.h"
 #include "openni2/pixels.h"
-#include "openni2/shift_tables.h"
+#include "sim/sensor/depth.h"
 
 namespace fathom {
 namespace {
+
+// The device's depth law in OpenNI2's words: "shifts", which are the codes of sim/sensor/depth.h from another origin.
+//
+// OpenNI2 takes a shift s to a depth by x = (s − PARAM_COEFF · CONST_SHIFT) / PARAM_COEFF − 0.375, the disparity from
+// the reference plane in pixels of the 1280-wide imager, m = x · ZPPS and Z = SHIFT_SCALE · ZPD · LDDIS / (LDDIS − m),
+// cut to whole units (XnShiftToDepth.cpp of OpenNI2's PS1080 driver). That is device_depth() of the code s −
+// kShiftOfCodeZero.
+constexpr int kConstShift = 200;
+constexpr int kParamCoeff = 4;
+constexpr int kShiftScale = 10;  ///< mm in the centimetres of ZPD, ZPPS and LDDIS
+constexpr int kMaxShift = kNoShift;
+static_assert(kShiftOfCodeZero == kParamCoeff * kConstShift + 2);
+
+/// Depth in whole multiples of `unit` [m] for every shift 0 … kMaxShift; 0 where there is none between near and far.
+std::vector<std::uint16_t> shift_to_depth(const SensorModel& sensor, double unit) {
+  Image<float> depth(kMaxShift + 1, 1);
+  for (int shift = 0; shift < kMaxShift; ++shift) {
+    const auto metres = device_depth(sensor, shift - kShiftOfCodeZero, cut_of(sensor, unit));
+    if (metres && *metres >= sensor.law.near && *metres <= sensor.law.far)
+      depth(shift, 0) = static_cast<float>(*metres);
+  }
+  const Image<std::uint16_t> whole = depth_in_units(depth, unit);
+  return {whole.pixels().begin(), whole.pixels().end()};
+}
+
+/// The farthest shift whose depth is at most that, for every depth 0 … `max_depth` of the other table; 0 below its
+/// least.
+std::vector<std::uint16_t> depth_to_shift(const std::vector<std::uint16_t>& shift_to_depth, int max_depth) {
+  std::vector<std::uint16_t> shifts;
+  std::uint16_t farthest = 0;
+  std::size_t shift = 0;
+  for (int depth = 0; depth <= max_depth; ++depth) {
+    for (; shift < shift_to_depth.size() && shift_to_depth[shift] <= depth; ++shift)
+      if (shift_to_depth[shift] > 0) farthest = static_cast<std::uint16_t>(shift);
+    shifts.push_back(farthest);
+  }
+  return shifts;
+}
 
 constexpr double kCentimetre = 0.01;
 
