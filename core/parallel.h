@@ -9,6 +9,14 @@ namespace fathom {
 /// where the work's watcher ends it (core/watcher.h).
 void parallel_ranges(int count, const std::function<void(int begin, int end)>& body);
 
+/// The same row by row: for loops that need no memory of their own for a range.
+template <class Body>
+void parallel_rows(int count, const Body& body) {
+  parallel_ranges(count, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) body(row);
+  });
+}
+
 /// Calls `body(i)` for each i of 0 … count-1, where one call is much work: a frame, a file. Threads take them one by
 /// one, so that none is left with several when the others are done. Loops within a call are shared with idle threads.
 void parallel_items(int count, const std::function<void(int i)>& body);

@@ -55,9 +55,7 @@ void NearbyWays::prepare(int begin, int end) {
   const int rows = (end - 1) / kApart + 2 - first_row_;
   corners_[0] = Image<Corner>(columns_, rows);
   if (scope_.images) corners_[1] = Image<Corner>(columns_, rows);
-  parallel_ranges(rows, [&](int first, int last) {
-    for (int row = first; row < last; ++row) search_row(row);
-  });
+  parallel_rows(rows, [&](int row) { search_row(row); });
 }
 
 void NearbyWays::search_row(int row) {

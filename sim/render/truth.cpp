@@ -50,12 +50,11 @@ std::optional<double> triangulated_depth(const Rig& rig, const Eigen::Vector3d& 
 
 Image<TruePixel> trace_truth(const PointLight& projector, const Rig& rig) {
   Image<TruePixel> truth(rig.sensor.width, rig.sensor.height);
-  parallel_ranges(truth.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < truth.width(); x += kPacket) {
-        const std::size_t count = std::min<std::size_t>(kPacket, truth.width() - x);
-        trace_packet(projector, rig, x, y, {&truth(x, y), count});
-      }
+  parallel_rows(truth.height(), [&](int y) {
+    for (int x = 0; x < truth.width(); x += kPacket) {
+      const std::size_t count = std::min<std::size_t>(kPacket, truth.width() - x);
+      trace_packet(projector, rig, x, y, {&truth(x, y), count});
+    }
   });
   return truth;
 }

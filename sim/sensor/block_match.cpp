@@ -66,9 +66,8 @@ inline __attribute__((always_inline)) float block_product(const float* a, std::p
 Image<float> compressed(const MatcherModel& matcher, Image<float> light) {
   if (matcher.compression == 0.0) return light;
   const auto dark = static_cast<float>(matcher.compression);
-  parallel_ranges(light.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < light.width(); ++x) light(x, y) = std::sqrt(std::max(light(x, y) + dark, 0.0f));
+  parallel_rows(light.height(), [&](int y) {
+    for (int x = 0; x < light.width(); ++x) light(x, y) = std::sqrt(std::max(light(x, y) + dark, 0.0f));
   });
   return light;
 }
@@ -155,10 +154,9 @@ BlockReference block_reference(const MatcherModel& matcher, std::span<const Imag
     const bool in_right_half = eighth >= kHalf;
     const Image<float>&left = phases[eighth], &right = phases[in_right_half ? eighth - kHalf : eighth + kHalf];
     Image<float> values(left.width(), left.height());
-    parallel_ranges(values.height(), [&](int begin, int end) {
-      for (int y = begin; y < end; ++y)
-        for (int x = 0; x < values.width(); ++x)
-          values(x, y) = 0.5f * (left(x, y) + right(std::min(x + in_right_half, right.width() - 1), y));
+    parallel_rows(values.height(), [&](int y) {
+      for (int x = 0; x < values.width(); ++x)
+        values(x, y) = 0.5f * (left(x, y) + right(std::min(x + in_right_half, right.width() - 1), y));
     });
     reference.phase.push_back(blocks_of(matcher, compressed(matcher, std::move(values))));
   }

@@ -52,18 +52,17 @@ void average(double width_px, Image<float>& disparity) {
   const int reach = static_cast<int>(std::lround(0.5 * (width_px - 1.0)));
   if (reach < 1) return;
   const Image<float> own = disparity;
-  parallel_ranges(own.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < own.width(); ++x) {
-        if (own(x, y) <= 0.0f) continue;
-        const int across = std::min({reach, x, own.width() - 1 - x}), down = std::min({reach, y, own.height() - 1 - y});
-        double sum = 0.0;
-        int known = 0;
-        for (int v = y - down; v <= y + down; ++v)
-          for (int u = x - across; u <= x + across; ++u)
-            if (own(u, v) > 0.0f && std::abs(own(u, v) - own(x, y)) < kOneSurfacePx) sum += own(u, v), ++known;
-        disparity(x, y) = static_cast<float>(sum / known);
-      }
+  parallel_rows(own.height(), [&](int y) {
+    for (int x = 0; x < own.width(); ++x) {
+      if (own(x, y) <= 0.0f) continue;
+      const int across = std::min({reach, x, own.width() - 1 - x}), down = std::min({reach, y, own.height() - 1 - y});
+      double sum = 0.0;
+      int known = 0;
+      for (int v = y - down; v <= y + down; ++v)
+        for (int u = x - across; u <= x + across; ++u)
+          if (own(u, v) > 0.0f && std::abs(own(u, v) - own(x, y)) < kOneSurfacePx) sum += own(u, v), ++known;
+      disparity(x, y) = static_cast<float>(sum / known);
+    }
   });
 }
 

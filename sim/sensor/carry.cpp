@@ -44,10 +44,9 @@ void carry_to_pixels(Estimates& estimates) {
   const int width = estimates.disparity.width(), height = estimates.disparity.height();
   Image<float> framed(width + 2 * kFar, height + 2 * kFar, std::numeric_limits<float>::quiet_NaN());
   for (int y = 0; y < height; ++y) std::copy_n(estimates.disparity.row(y), width, framed.row(y + kFar) + kFar);
-  parallel_ranges(height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      carry_row(framed.row(y + kFar) + kFar, framed.width(), estimates.centre_x.row(y), estimates.centre_y.row(y),
-                estimates.slope_x.row(y), estimates.slope_y.row(y), estimates.disparity.row(y), width);
+  parallel_rows(height, [&](int y) {
+    carry_row(framed.row(y + kFar) + kFar, framed.width(), estimates.centre_x.row(y), estimates.centre_y.row(y),
+              estimates.slope_x.row(y), estimates.slope_y.row(y), estimates.disparity.row(y), width);
   });
 }
 

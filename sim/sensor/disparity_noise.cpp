@@ -120,13 +120,12 @@ BlockChance block_chance(const SensorModel& sensor, std::uint64_t seed, std::uin
   };
   const float per_across = per_moment(second_moment(columns) * rows),
               per_down = per_moment(columns * second_moment(rows));
-  parallel_ranges(height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int j = 0; j < rows; ++j) {
-        add_scaled(sums.row(y + j), per_level, chance.level.row(y), width);
-        add_scaled(moments.row(y + j), per_across, chance.across.row(y), width);
-        add_scaled(sums.row(y + j), per_down * static_cast<float>(j - rows / 2), chance.down.row(y), width);
-      }
+  parallel_rows(height, [&](int y) {
+    for (int j = 0; j < rows; ++j) {
+      add_scaled(sums.row(y + j), per_level, chance.level.row(y), width);
+      add_scaled(moments.row(y + j), per_across, chance.across.row(y), width);
+      add_scaled(sums.row(y + j), per_down * static_cast<float>(j - rows / 2), chance.down.row(y), width);
+    }
   });
   return chance;
 }
@@ -145,15 +144,13 @@ Image<float> disparity_with_noise(const SensorModel& sensor, const Image<float>&
   const int border = sensor.matcher.window_columns / 2, width = exact_px.width() - 2 * border;
   Image<float> noisy(exact_px.width(), exact_px.height());
   if (width <= 0) return noisy;
-  parallel_ranges(noisy.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      for (int x = border; x < border + width; ++x)
-        noisy(x, y) = disparity_at(
-            exact_px, static_cast<float>(x) + still_off * still.across(x, y) + renewed_off * renewed.across(x, y),
-            static_cast<float>(y) + still_off * still.down(x, y) + renewed_off * renewed.down(x, y));
-      add_noise(sensor, law, intensity.row(y) + border, still.level.row(y) + border, renewed.level.row(y) + border,
-                noisy.row(y) + border, width);
-    }
+  parallel_rows(noisy.height(), [&](int y) {
+    for (int x = border; x < border + width; ++x)
+      noisy(x, y) = disparity_at(
+          exact_px, static_cast<float>(x) + still_off * still.across(x, y) + renewed_off * renewed.across(x, y),
+          static_cast<float>(y) + still_off * still.down(x, y) + renewed_off * renewed.down(x, y));
+    add_noise(sensor, law, intensity.row(y) + border, still.level.row(y) + border, renewed.level.row(y) + border,
+              noisy.row(y) + border, width);
   });
   return noisy;
 }

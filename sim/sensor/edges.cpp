@@ -97,9 +97,7 @@ class EdgeSettler {
         clean_(sensor.width + 2 * kFrame, sensor.height + 2 * kFrame, std::numeric_limits<float>::quiet_NaN()),
         noise_energy_(static_cast<float>(sensor.matcher.contrast_min * sensor.matcher.contrast_min) * kDotColumns *
                       kDotRows) {
-    parallel_ranges(sensor.height, [&](int begin, int end) {
-      for (int y = begin; y < end; ++y) mark_row(y);
-    });
+    parallel_rows(sensor.height, [&](int y) { mark_row(y); });
   }
 
   /// The first pixel from x on in its row whose windows meet more than one surface; the row's width when there is none.
@@ -206,13 +204,12 @@ void settle_edges(const SensorModel& sensor, const SplitColumns<float>& paired, 
   };
   // All are judged by what was there before any of them changes.
   std::vector<std::vector<Settled>> settled(sensor.height);
-  parallel_ranges(sensor.height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = settler.next_edge(0, y); x < sensor.width; x = settler.next_edge(x + 1, y)) {
-        const std::optional<Candidate> best = settler.settle(x, y);
-        settled[y].push_back({x, y, best ? best->surface.disparity : std::numeric_limits<float>::quiet_NaN(),
-                              best ? best->correlation : 0.0f});
-      }
+  parallel_rows(sensor.height, [&](int y) {
+    for (int x = settler.next_edge(0, y); x < sensor.width; x = settler.next_edge(x + 1, y)) {
+      const std::optional<Candidate> best = settler.settle(x, y);
+      settled[y].push_back({x, y, best ? best->surface.disparity : std::numeric_limits<float>::quiet_NaN(),
+                            best ? best->correlation : 0.0f});
+    }
   });
   for (const std::vector<Settled>& row : settled)
     for (const Settled& pixel : row) {

@@ -291,18 +291,17 @@ Image<float> expose(const Image<float>& light, const NoiseModel& noise, std::uin
   const double full_scale = noise.bits > 0 ? std::exp2(noise.bits) - 1.0 : 0.0;
   if (noise.bits > 0) bloom(full_scale, noise.bloom_share, noise.bloom_ir_px, image);
   const bool random = noise.electrons_per_dn > 0.0 || noise.read_dn > 0.0;
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < image.width(); ++x) {
-        double value = image(x, y);
-        if (random) {
-          Rng rng(seed, kDetectorStream, frame, static_cast<std::uint64_t>(y) * image.width() + x);
-          const double shot_variance = noise.electrons_per_dn > 0.0 ? value * noise.gain / noise.electrons_per_dn : 0.0;
-          value += noise.offset_dn + std::sqrt(shot_variance + noise.read_dn * noise.read_dn) * rng.normal();
-        }
-        if (noise.bits > 0) value = std::clamp(std::round(value), 0.0, full_scale);
-        image(x, y) = static_cast<float>(value);
+  parallel_rows(image.height(), [&](int y) {
+    for (int x = 0; x < image.width(); ++x) {
+      double value = image(x, y);
+      if (random) {
+        Rng rng(seed, kDetectorStream, frame, static_cast<std::uint64_t>(y) * image.width() + x);
+        const double shot_variance = noise.electrons_per_dn > 0.0 ? value * noise.gain / noise.electrons_per_dn : 0.0;
+        value += noise.offset_dn + std::sqrt(shot_variance + noise.read_dn * noise.read_dn) * rng.normal();
       }
+      if (noise.bits > 0) value = std::clamp(std::round(value), 0.0, full_scale);
+      image(x, y) = static_cast<float>(value);
+    }
   });
   return image;
 }

@@ -48,9 +48,7 @@ Image<float> match(const SensorModel& sensor, const Image<float>& ir, const Refe
 
 void fill_holes(int most_px, Image<float>& disparity) {
   if (most_px == 0) return;
-  parallel_ranges(disparity.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) fill_row(disparity.row(y), disparity.width(), most_px);
-  });
+  parallel_rows(disparity.height(), [&](int y) { fill_row(disparity.row(y), disparity.width(), most_px); });
 }
 
 }  // namespace fathom

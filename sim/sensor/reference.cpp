@@ -60,9 +60,8 @@ void convolve_row(const float* __restrict source, const std::array<float, kTaps>
 SplitColumns<float> convolved(const Image<float>& image, const std::array<float, kTaps>& weights) {
   const int pairs = image.width() / 2;
   SplitColumns<float> result{{pairs + kSlackColumns, image.height()}, {pairs + kSlackColumns, image.height()}};
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) convolve_row(image.row(y), weights, result.even.row(y), result.odd.row(y), pairs);
-  });
+  parallel_rows(image.height(),
+                [&](int y) { convolve_row(image.row(y), weights, result.even.row(y), result.odd.row(y), pairs); });
   return result;
 }
 
@@ -147,37 +146,32 @@ Image<float> reference_image(const SensorModel& sensor, const Pattern& pattern, 
   const PixelOfDots pixel(pattern, sigma, 1.0 / (scale * sensor.pattern.step_px), samples_across);
   const double brightness = kBrightness * (sharp / sigma) * (sharp / sigma);  // as much light, spread wider
   const Image<float> residue = reference_residue(sensor.unit, margin_px, image.width() / scale, image.height() / scale);
-  parallel_ranges(image.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < image.width(); ++x) {
-        const double displaced = residue.empty() ? 0.0 : residue(x / scale, y / scale);
-        const Eigen::Vector2d centre_px((x + 0.5) / scale - margin_px + displaced,
-                                        (y - sensor.ir_first_row() + 0.5) / scale);
-        Eigen::Vector2d seen = (centre_px - sensor.principal_px) / sensor.focal_px;
-        if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
-        image(x, y) =
-            static_cast<float>(brightness * pixel(pattern.on_grid(seen.x() - parallax, seen.y(), sensor.focal_px)));
-      }
+  parallel_rows(image.height(), [&](int y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const double displaced = residue.empty() ? 0.0 : residue(x / scale, y / scale);
+      const Eigen::Vector2d centre_px((x + 0.5) / scale - margin_px + displaced,
+                                      (y - sensor.ir_first_row() + 0.5) / scale);
+      Eigen::Vector2d seen = (centre_px - sensor.principal_px) / sensor.focal_px;
+      if (sensor.optics.distorts()) seen = sensor.optics.undistorted(seen);
+      image(x, y) =
+          static_cast<float>(brightness * pixel(pattern.on_grid(seen.x() - parallax, seen.y(), sensor.focal_px)));
+    }
   });
   return image;
 }
 
 Image<float> rows_in_pairs(const Image<float>& image) {
   Image<float> result(image.width(), image.height() / 2);
-  parallel_ranges(result.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      mean_of_rows(image.row(2 * y), image.row(2 * y + 1), result.row(y), image.width());
-  });
+  parallel_rows(result.height(),
+                [&](int y) { mean_of_rows(image.row(2 * y), image.row(2 * y + 1), result.row(y), image.width()); });
   return result;
 }
 
 Image<float> columns_in_pairs(const Image<float>& image) {
   Image<float> result(image.width() / 2, image.height());
-  parallel_ranges(result.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const float* row = image.row(y);
-      for (int x = 0; x < result.width(); ++x) result(x, y) = 0.5f * (row[2 * x] + row[2 * x + 1]);
-    }
+  parallel_rows(result.height(), [&](int y) {
+    const float* row = image.row(y);
+    for (int x = 0; x < result.width(); ++x) result(x, y) = 0.5f * (row[2 * x] + row[2 * x + 1]);
   });
   return result;
 }
@@ -185,18 +179,16 @@ Image<float> columns_in_pairs(const Image<float>& image) {
 SplitColumns<float> split_rows_in_pairs(const Image<float>& image) {
   const int pairs = image.width() / 2, height = image.height() / 2;
   SplitColumns<float> result{{pairs + kSlackColumns, height}, {pairs + kSlackColumns, height}};
-  parallel_ranges(height, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      split_mean_of_rows(image.row(2 * y), image.row(2 * y + 1), result.even.row(y), result.odd.row(y), pairs);
+  parallel_rows(height, [&](int y) {
+    split_mean_of_rows(image.row(2 * y), image.row(2 * y + 1), result.even.row(y), result.odd.row(y), pairs);
   });
   return result;
 }
 
 Image<float> mean_of_columns(const SplitColumns<float>& split, int width) {
   Image<float> result(width, split.even.height());
-  parallel_ranges(result.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) mean_of_rows(split.even.row(y), split.odd.row(y), result.row(y), width);
-  });
+  parallel_rows(result.height(),
+                [&](int y) { mean_of_rows(split.even.row(y), split.odd.row(y), result.row(y), width); });
   return result;
 }
 

@@ -67,18 +67,14 @@ void SharedWalks::prepare(int begin, int end) {
   for (; forgotten_ < begin - room_; ++forgotten_) rows_[forgotten_] = std::vector<SpreadLight>();
   const int walked = walked_;
   walked_ = std::min(end + room_, height_);
-  parallel_ranges(walked_ - walked, [&](int first, int last) {
-    for (int y = walked + first; y < walked + last; ++y) walk_row(y);
-  });
+  parallel_rows(walked_ - walked, [&](int row) { walk_row(walked + row); });
   if (sharing_.is_exact) {
     const int known = std::min(end + 1, height_);  // the row below the last one lends its light, too
-    parallel_ranges(known - begin, [&](int first, int last) {
-      for (int y = begin + first; y < begin + last; ++y)
-        for (const Look look : {straight, mirrored}) share_row(look, y);
+    parallel_rows(known - begin, [&](int row) {
+      for (const Look look : {straight, mirrored}) share_row(look, begin + row);
     });
-    parallel_ranges(end - begin, [&](int first, int last) {
-      for (int y = begin + first; y < begin + last; ++y)
-        for (const Look look : {straight, mirrored}) fill_row(look, y);
+    parallel_rows(end - begin, [&](int row) {
+      for (const Look look : {straight, mirrored}) fill_row(look, begin + row);
     });
   }
   tie_knots(begin, end);
@@ -88,10 +84,9 @@ void SharedWalks::tie_knots(int begin, int end) {
   first_knot_row_ = begin / sharing_.knot_distance;
   const int rows = (end - 1) / sharing_.knot_distance + 2 - first_knot_row_;
   knots_ = Image<std::optional<SpreadDots>>((width_ - 1) / sharing_.knot_distance + 2, rows);
-  parallel_ranges(rows, [&](int first, int last) {
-    for (int row = first; row < last; ++row)
-      for (int column = 0; column < knots_.width(); ++column)
-        knots_(column, row) = knot(sharing_.knot_distance * column, sharing_.knot_distance * (first_knot_row_ + row));
+  parallel_rows(rows, [&](int row) {
+    for (int column = 0; column < knots_.width(); ++column)
+      knots_(column, row) = knot(sharing_.knot_distance * column, sharing_.knot_distance * (first_knot_row_ + row));
   });
 }
 

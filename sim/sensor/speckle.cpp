@@ -121,13 +121,12 @@ Image<float> renewed_speckle(const SensorModel& sensor, const Image<float>& fiel
   if (renewed == 0.0 || field.empty()) return field;
   const double variance = renewed * (1.0 + kept) * sensor.noise.pixel_speckle / speckle_grains(sensor);
   Image<float> gains(field.width(), field.height());
-  parallel_ranges(field.height(), [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < field.width(); ++x) {
-        Rng rng(seed, kRenewalStream, frame, static_cast<std::uint64_t>(y) * field.width() + x);
-        const double mean = renewed + kept * field(x, y);
-        gains(x, y) = static_cast<float>(std::max(mean + std::sqrt(variance * mean) * rng.normal(), 0.0));
-      }
+  parallel_rows(field.height(), [&](int y) {
+    for (int x = 0; x < field.width(); ++x) {
+      Rng rng(seed, kRenewalStream, frame, static_cast<std::uint64_t>(y) * field.width() + x);
+      const double mean = renewed + kept * field(x, y);
+      gains(x, y) = static_cast<float>(std::max(mean + std::sqrt(variance * mean) * rng.normal(), 0.0));
+    }
   });
   return gains;
 }
