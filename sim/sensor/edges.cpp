@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -30,22 +31,6 @@ constexpr std::array<Step, 9> kAround{{{0, 0},
                                        {kReach, -kReach},
                                        {-kReach, kReach},
                                        {kReach, kReach}}};
-
-/// At most kMost values, in place: edges are settled a hundred thousand times a frame.
-template <class Value, std::size_t kMost>
-class Few {
- public:
-  void push_back(const Value& value) { values_[size_++] = value; }
-  bool empty() const { return size_ == 0; }
-  auto begin() { return values_.begin(); }
-  auto begin() const { return values_.begin(); }
-  auto end() { return values_.begin() + size_; }
-  auto end() const { return values_.begin() + size_; }
-
- private:
-  std::array<Value, kMost> values_;
-  std::size_t size_ = 0;
-};
 
 /// A surface that was found near a pixel, extended to the pixel.
 struct Candidate {
@@ -146,7 +131,8 @@ class EdgeSettler {
     return x >= border_ && x < edge_.width() - border_ && y >= 0 && y < edge_.height();
   }
 
-  using Candidates = Few<Candidate, kAround.size() + 1>;
+  /// In place: edges are settled a hundred thousand times a frame.
+  using Candidates = boost::container::static_vector<Candidate, kAround.size() + 1>;
 
   /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
   /// window. Where the pixel's own found nothing there is still what was searched, on a steep wall say; far from all
