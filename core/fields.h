@@ -90,6 +90,12 @@ struct Part {
   std::string_view allowed = {};  ///< for people, beside a schema
 };
 
+/// A value that something else reads and nothing writes.
+template <class T>
+Part<T> unread(std::string_view schema, std::string_view allowed) {
+  return {nullptr, nullptr, schema, allowed};
+}
+
 /// A field of a part of the object, in the way of Part: see field_of_part().
 template <class T>
 struct FieldOfPart {
@@ -147,8 +153,7 @@ KeyRow number_key(std::string key, std::string meaning, Range range, Json standa
 /// The key by which editors find what a file may hold.
 template <class T>
 Field<T> schema_field() {
-  return {
-      "$schema", Part<T>{nullptr, nullptr, R"({"type": "string"})", "a text"}, {}, "for editors: the file's schema"};
+  return {"$schema", unread<T>(R"({"type": "string"})", "a text"), {}, "for editors: the file's schema"};
 }
 
 /// Millimetres that convert back to exactly this length; the nearest where no double does (one length in 44).

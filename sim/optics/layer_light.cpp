@@ -43,11 +43,11 @@ bool gives_all_back(const std::vector<Layer>& layers) {
 
 LayerLight light_in_layers(const LayerSpace& space, double angle, std::uint64_t seed, const SamplingPlan& plan) {
   assert(angle >= 0.0 && angle < 0.5 * std::numbers::pi);
-  const double n_outside = space.n_outside(), n_first = space.layers().front().medium.n;
+  const double n_first = space.layers().front().medium.n;
   LayerLight light;
-  light.specular = fresnel_reflectance(std::cos(angle), n_outside, n_first);
+  light.specular = fresnel_reflectance(std::cos(angle), 1.0, n_first);
   const Eigen::Vector3d beam(std::sin(angle), 0.0, -std::cos(angle));
-  const std::optional<Eigen::Vector3d> inside = refract(beam, Eigen::Vector3d::UnitZ(), n_outside, n_first);
+  const std::optional<Eigen::Vector3d> inside = refract(beam, Eigen::Vector3d::UnitZ(), 1.0, n_first);
   if (!inside || light.specular >= 1.0 || gives_all_back(space.layers())) {
     light.reflectance.value = 1.0;
     light.absorptance = Estimate{};

@@ -4,8 +4,7 @@
 
 namespace fathom {
 
-LayerSpace::LayerSpace(std::vector<Layer> layers, double n_outside)
-    : layers_(std::move(layers)), n_outside_(n_outside), face_z_{0.0} {
+LayerSpace::LayerSpace(std::vector<Layer> layers) : layers_(std::move(layers)), face_z_{0.0} {
   assert(!layers_.empty());
   for (const Layer& layer : layers_) {
     assert(layer.thickness > 0.0 && std::isfinite(face_z_.back()));

@@ -18,8 +18,8 @@ struct Layer {
 /// top.
 class LayerSpace {
  public:
-  /// At least one layer, thicknesses above 0. `n_outside`: of what is above and below.
-  explicit LayerSpace(std::vector<Layer> layers, double n_outside = 1.0);
+  /// At least one layer, thicknesses above 0.
+  explicit LayerSpace(std::vector<Layer> layers);
 
   struct Boundary {
     double distance;  ///< [m]
@@ -28,7 +28,6 @@ class LayerSpace {
 
   const Turbid& medium(const Walker& walker) const { return layers_[walker.region].medium; }
   const std::vector<Layer>& layers() const { return layers_; }
-  double n_outside() const { return n_outside_; }
 
   Boundary next_boundary(const Walker& walker, double) const {
     const double dz = walker.direction.z();
@@ -47,7 +46,7 @@ class LayerSpace {
     }
     const std::uint64_t beyond = walker.region + (boundary.below ? 1 : -1);  // above the top: a huge number
     if (beyond >= layers_.size())
-      leave_through(walker, normal, medium(walker).n, n_outside_, visitor);
+      leave_through(walker, normal, medium(walker).n, 1.0, visitor);
     else if (cross_interface(walker, normal, medium(walker).n, layers_[beyond].medium.n, rng))
       walker.region = beyond;
     return true;
@@ -55,7 +54,6 @@ class LayerSpace {
 
  private:
   std::vector<Layer> layers_;
-  double n_outside_;
   std::vector<double> face_z_;  ///< layers + 1, from the top
 };
 

@@ -64,44 +64,37 @@ std::span<const Field<Eigen::AlignedBox2d>> region_fields() {
 constexpr std::string_view kCount = "#/$defs/count", kWholePair = "[least, most], each 0 to 30";
 Json json_from_count(ClutterSpec::Count count) { return {count.low, count.high}; }
 
-std::span<const Field<ClutterSpec>> cups_fields() {
+/// How many things of one sort, and which. `schema` and `means` are of the kinds.
+template <ClutterSpec::Count ClutterSpec::*count, std::vector<ClutterThing> ClutterSpec::*kinds,
+          std::vector<GltfPart> (*parts)(const JsonReader&)>
+std::span<const Field<ClutterSpec>> drawn_fields(std::string_view schema, std::string_view means) {
   using Spec = ClutterSpec;
   static const Field<Spec> fields[] = {
       {"number",
-       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.cups = count_from_json(json); },
-                  [](const Spec& spec) { return json_from_count(spec.cups); }, kCount, kWholePair},
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.*count = count_from_json(json); },
+                  [](const Spec& spec) { return json_from_count(spec.*count); }, kCount, kWholePair},
        {},
        "least and most of them"},
       {"kinds",
-       Part<Spec>{[](const JsonReader& json, Spec& spec) {
-                    spec.cup_kinds =
-                        kinds_from_json(json, [](const JsonReader& entry) { return cup_parts(cup_from_json(entry)); });
-                  },
-                  nullptr, "#/$defs/cup_kinds", "a list of objects"},
+       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.*kinds = kinds_from_json(json, parts); }, nullptr,
+                  schema, "a list of objects"},
        {},
-       "entries of a scene's `cups` without place and liquid, of which each cup draws one",
+       means,
        true}};
   return fields;
 }
 
+std::vector<GltfPart> parts_of_cup(const JsonReader& json) { return cup_parts(cup_from_json(json)); }
+std::vector<GltfPart> parts_of_object(const JsonReader& json) { return object_parts(object_from_json(json)); }
+
+std::span<const Field<ClutterSpec>> cups_fields() {
+  return drawn_fields<&ClutterSpec::cups, &ClutterSpec::cup_kinds, parts_of_cup>(
+      "#/$defs/cup_kinds", "entries of a scene's `cups` without place and liquid, of which each cup draws one");
+}
+
 std::span<const Field<ClutterSpec>> objects_fields() {
-  using Spec = ClutterSpec;
-  static const Field<Spec> fields[] = {
-      {"number",
-       Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.objects = count_from_json(json); },
-                  [](const Spec& spec) { return json_from_count(spec.objects); }, kCount, kWholePair},
-       {},
-       "least and most of them"},
-      {"kinds",
-       Part<Spec>{[](const JsonReader& json, Spec& spec) {
-                    spec.object_kinds = kinds_from_json(
-                        json, [](const JsonReader& entry) { return object_parts(object_from_json(entry)); });
-                  },
-                  nullptr, "#/$defs/object_kinds", "a list of objects"},
-       {},
-       "entries of a scene's `objects` with `solid` and without place, of which each draws one",
-       true}};
-  return fields;
+  return drawn_fields<&ClutterSpec::objects, &ClutterSpec::object_kinds, parts_of_object>(
+      "#/$defs/object_kinds", "entries of a scene's `objects` with `solid` and without place, of which each draws one");
 }
 
 /// What stands on the desk, in data sets as well.

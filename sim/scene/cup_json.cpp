@@ -206,38 +206,38 @@ void pour(const JsonReader& json, Cup& cup) {
 }
 
 std::span<const Field<Cup>> cup_fields() {
-  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
-    return Part<Cup>{nullptr, nullptr, schema, allowed};
-  };
   static const Field<Cup> fields[] = {
       {"shape",
-       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name, a path or an object"),
+       unread<Cup>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name, a path or an object"),
        {},
        "a name of `fathom list cups`, a glTF file (*.gltf, *.glb) relative to this file, or a description",
        true},
       {"position_mm",
-       part(R"({"type": "array", "items": {"$ref": "#/$defs/cup_place"}, "minItems": 2, "maxItems": 3})",
-            "[x, y] or [x, y, z]"),
+       unread<Cup>(R"({"type": "array", "items": {"$ref": "#/$defs/cup_place"}, "minItems": 2, "maxItems": 3})",
+                   "[x, y] or [x, y, z]"),
        {},
        "of the axis, or the glTF file's origin, on the desk; z, of glTF cups only: height of the lowest point",
        true},
       {"rotation_deg",
-       part("#/$defs/vector3", "[x, y, z]"),
+       unread<Cup>("#/$defs/vector3", "[x, y, z]"),
        {},
        "of glTF cups only: about the fixed axes x, then y, then z, before `yaw_deg`"},
       {"yaw_deg", Angle{&Cup::yaw}, {}, "direction of the handle, from +x towards +y"},
       {"glaze",
-       part("#/$defs/glaze", "an object"),
+       unread<Cup>("#/$defs/glaze", "an object"),
        {},
        "a clear coat, which mirrors and through which the albedo is seen; of opaque cups of revolution"},
       {"liquid",
-       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/changed_liquid"}, {"$ref": "#/$defs/liquid"}]})",
-            "a name or an object"),
+       unread<Cup>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/changed_liquid"}, {"$ref": "#/$defs/liquid"}]})",
+                   "a name or an object"),
        {},
        "a name of `fathom list media`, that name with a temperature or a dilution, or a description"},
       {"fill_mm", Part<Cup>{}, kNonNegative, "depth of the liquid above the lowest point of the cup's inside"},
       {"fill_ml", Part<Cup>{}, kNonNegative, "its volume, instead of `fill_mm`"},
-      {"surface", part("#/$defs/surface", "an object"), {}, "what makes it other than level; of cups of revolution"}};
+      {"surface",
+       unread<Cup>("#/$defs/surface", "an object"),
+       {},
+       "what makes it other than level; of cups of revolution"}};
   return fields;
 }
 

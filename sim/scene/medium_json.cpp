@@ -42,23 +42,20 @@ WaterIndex water_like_index(const JsonReader& json) {
 std::span<const Field<SellmeierIndex>> sellmeier_fields() {
   using Law = SellmeierIndex;
   constexpr std::string_view kNumbers = R"({"type": "array", "items": {"type": "number"}, "minItems": 1})";
-  static const Field<Law> fields[] = {{"sellmeier_a",
-                                       Part<Law>{[](const JsonReader& json, Law& law) { law.a = json.numbers(); },
-                                                 nullptr, kNumbers, "a list of numbers"},
-                                       {},
-                                       "A of n² − 1 = Σ A λ² / (λ² − B), λ in µm",
-                                       true},
-                                      {"sellmeier_b_um2",
-                                       Part<Law>{[](const JsonReader& json, Law& law) { law.b_um2 = json.numbers(); },
-                                                 nullptr, kNumbers, "a list of numbers"},
-                                       {},
-                                       "B",
-                                       true},
-                                      {"range_nm",
-                                       Part<Law>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"},
-                                       {},
-                                       "wavelengths at which that holds",
-                                       true}};
+  static const Field<Law> fields[] = {
+      {"sellmeier_a",
+       Part<Law>{[](const JsonReader& json, Law& law) { law.a = json.numbers(); }, nullptr, kNumbers,
+                 "a list of numbers"},
+       {},
+       "A of n² − 1 = Σ A λ² / (λ² − B), λ in µm",
+       true},
+      {"sellmeier_b_um2",
+       Part<Law>{[](const JsonReader& json, Law& law) { law.b_um2 = json.numbers(); }, nullptr, kNumbers,
+                 "a list of numbers"},
+       {},
+       "B",
+       true},
+      {"range_nm", unread<Law>("#/$defs/vector2", "[least, largest]"), {}, "wavelengths at which that holds", true}};
   return fields;
 }
 
@@ -98,13 +95,10 @@ void set_index(const JsonReader& index, Medium& medium) {
 
 std::span<const Field<Medium>> range_fields() {
   static const Field<Medium> fields[] = {
-      {"index", Part<Medium>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"}, {}, "at 830 nm and 20 °C"},
-      {"absorption_per_mm",
-       Part<Medium>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"},
-       {},
-       "of the key of this name"},
+      {"index", unread<Medium>("#/$defs/vector2", "[least, largest]"), {}, "at 830 nm and 20 °C"},
+      {"absorption_per_mm", unread<Medium>("#/$defs/vector2", "[least, largest]"), {}, "of the key of this name"},
       {"reduced_scattering_per_mm",
-       Part<Medium>{nullptr, nullptr, "#/$defs/vector2", "[least, largest]"},
+       unread<Medium>("#/$defs/vector2", "[least, largest]"),
        {},
        "of `scattering_per_mm` times 1 − `anisotropy`"}};
   return fields;
@@ -145,12 +139,9 @@ std::span<const Field<Medium>> medium_fields() {
        &Medium::anisotropy,
        {-0.999, 0.999},
        "mean cosine of the scattering angle (Henyey and Greenstein)"},
-      {"ranges",
-       Part<Medium>{nullptr, nullptr, "#/$defs/ranges", "an object"},
-       {},
-       "within which the numbers are believed to lie"},
+      {"ranges", unread<Medium>("#/$defs/ranges", "an object"), {}, "within which the numbers are believed to lie"},
       {"source", &Medium::source, {}, "where the numbers come from"},
-      {"quality", Part<Medium>{nullptr, nullptr, R"({"type": "string"})", "a text"}, {}, "how good they are"}};
+      {"quality", unread<Medium>(R"({"type": "string"})", "a text"), {}, "how good they are"}};
   return fields;
 }
 
@@ -195,12 +186,12 @@ struct Change {
 std::span<const Field<Change>> change_fields() {
   static const Field<Change> fields[] = {
       {"name",
-       Part<Change>{nullptr, nullptr, R"({"type": "string"})", "a name"},
+       unread<Change>(R"({"type": "string"})", "a name"),
        {},
        "of `fathom list media`, of a liquid that follows water's dispersion"},
-      {"of", Part<Change>{nullptr, nullptr, "#/$defs/liquid", "an object"}, {}, "its description, instead of the name"},
+      {"of", unread<Change>("#/$defs/liquid", "an object"), {}, "its description, instead of the name"},
       {"in",
-       Part<Change>{nullptr, nullptr, "#/$defs/liquid", "an object"},
+       unread<Change>("#/$defs/liquid", "an object"),
        {},
        "description of the water that it is diluted in, instead of the library's"},
       {"temperature_c", &Change::temperature_c, {0.0, 100.0}, "of the liquid"},

@@ -36,44 +36,39 @@ CupShape opaque_shape(const JsonReader& json) {
 }
 
 std::span<const Field<Solid>> solid_fields() {
-  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
-    return Part<Solid>{nullptr, nullptr, schema, allowed};
-  };
   static const Field<Solid> fields[] = {
       {"name", &Solid::name, {}, "what it is called"},
       {"box_mm",
-       part(R"({"type": "array", "items": {"$ref": "#/$defs/cup_length"}, "minItems": 3, "maxItems": 3})", "[x, y, z]"),
+       unread<Solid>(R"({"type": "array", "items": {"$ref": "#/$defs/cup_length"}, "minItems": 3, "maxItems": 3})",
+                     "[x, y, z]"),
        {},
        "a box by its sides; the middle of its base is the origin"},
       {"profile_mm",
-       part("#/$defs/profile", "points [radius, height]"),
+       unread<Solid>("#/$defs/profile", "points [radius, height]"),
        {},
        "a body of revolution: from the axis round the outside and back to the axis above"},
       {"cup",
-       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name or an object"),
+       unread<Solid>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name or an object"),
        {},
        "a cup's shape, empty and opaque, to be turned over or laid down"},
       {"albedo", &Solid::albedo, {0.0, 1.0}, "share of the light that it scatters back"},
-      {"source", part(R"({"type": "string"})", "a text"), {}, "where the numbers come from"}};
+      {"source", unread<Solid>(R"({"type": "string"})", "a text"), {}, "where the numbers come from"}};
   return fields;
 }
 
 std::span<const Field<Object>> object_fields() {
-  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
-    return Part<Object>{nullptr, nullptr, schema, allowed};
-  };
   static const Field<Object> fields[] = {
-      {"gltf", part(R"({"type": "string"})", "a path"), {}, "a glTF file, relative to this file; or `solid`"},
+      {"gltf", unread<Object>(R"({"type": "string"})", "a path"), {}, "a glTF file, relative to this file; or `solid`"},
       {"solid",
-       part(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/solid"}]})", "a name or an object"),
+       unread<Object>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/solid"}]})", "a name or an object"),
        {},
        "a name of `fathom list solids`, or one of `box_mm`, `profile_mm` and `cup`"},
       {"position_mm",
-       part(R"({"type": "array", "items": {"$ref": "#/$defs/place"}, "minItems": 2, "maxItems": 3})",
-            "[x, y] or [x, y, z]"),
+       unread<Object>(R"({"type": "array", "items": {"$ref": "#/$defs/place"}, "minItems": 2, "maxItems": 3})",
+                      "[x, y] or [x, y, z]"),
        {},
        "of the glTF file's origin, three numbers; a solid stands there on the desk, or with its lowest point at z"},
-      {"rotation_deg", part("#/$defs/vector3", "[x, y, z]"), {}, "about the fixed axes x, then y, then z"}};
+      {"rotation_deg", unread<Object>("#/$defs/vector3", "[x, y, z]"), {}, "about the fixed axes x, then y, then z"}};
   return fields;
 }
 
@@ -98,8 +93,6 @@ Solid solid_from_object(const JsonReader& json) {
   return solid;
 }
 
-}  // namespace
-
 Solid solid_from_json(const JsonReader& json) {
   if (!json.value().is_string()) return solid_from_object(json);
   const std::filesystem::path file = library_file("solids", "solid", json.text(), json.file(), json.pointer());
@@ -108,6 +101,8 @@ Solid solid_from_json(const JsonReader& json) {
   solid.name = json.text();
   return solid;
 }
+
+}  // namespace
 
 Object object_from_json(const JsonReader& json) {
   Object object;

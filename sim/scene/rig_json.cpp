@@ -319,26 +319,23 @@ Pose pose_from_json(const JsonReader& json, double baseline) {
 
 /// Which sensor, and where it stands: keys that rig_from_json() reads together.
 std::span<const Field<SensorModel>> place_fields() {
-  constexpr auto part = [](std::string_view schema, std::string_view allowed) {
-    return Part<SensorModel>{nullptr, nullptr, schema, allowed};
-  };
   static const Field<SensorModel> fields[] = {
       {"model",
-       part(R"({"type": "string"})", "a name"),
+       unread<SensorModel>(R"({"type": "string"})", "a name"),
        {},
        "a model of `fathom list sensors`; the other keys change it. `xtion_pro_live` and `kinect_v1` match ideally, "
        "for work "
        "on what light does; names that end in `_device` imitate the real device"},
-      {"name", part(R"({"type": "string"})", "a text"), {}, "what a sensor without `model` is called"},
+      {"name", unread<SensorModel>(R"({"type": "string"})", "a text"), {}, "what a sensor without `model` is called"},
       {"height_mm", Part<SensorModel>{}, kLengthMm, "height of the baseline's middle above the desk"},
       {"aim_mm",
-       part("#/$defs/place3", "[x, y, z]"),
+       unread<SensorModel>("#/$defs/place3", "[x, y, z]"),
        {},
        "the point of the world that the baseline's middle looks at; or `pitch_deg`"},
       {"pitch_deg", Part<SensorModel>{}, kPitchDeg, "angle below the horizontal; 90: straight down"},
       {"roll_deg", Part<SensorModel>{}, kRollDeg, "turn about the optical axis, clockwise as seen from behind"},
       {"world_from_camera",
-       part(
+       unread<SensorModel>(
            R"({"type": "array", "items": {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}, "minItems": 4, "maxItems": 4})",
            "4 rows of 4 numbers"),
        {},

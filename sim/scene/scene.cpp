@@ -31,7 +31,7 @@ std::span<const Field<Coat>> glaze_fields() {
 std::span<const Field<Desk>> desk_fields() {
   static const Field<Desk> fields[] = {
       {"albedo", &Desk::albedo, kAlbedo, "share of the light that it scatters back"},
-      {"glaze", Part<Desk>{nullptr, nullptr, "#/$defs/glaze", "an object"}, {}, "a clear coat, which mirrors"},
+      {"glaze", unread<Desk>("#/$defs/glaze", "an object"), {}, "a clear coat, which mirrors"},
       {"size_mm", Lengths{&Desk::size}, kLengthMm, "along x and y"},
       {"centre_mm", Lengths{&Desk::centre}, kPlaceMm, "its middle"}};
   return fields;
@@ -63,10 +63,10 @@ std::span<const Field<CupShape>> shape_fields() {
       {"inner_radius_mm", Part<Shape>{}, kCupLengthMm, "of the inside"},
       {"outer_radius_mm", Part<Shape>{}, kCupLengthMm, "of the outside"},
       {"inner_profile_mm",
-       Part<Shape>{nullptr, nullptr, "#/$defs/profile", kPoints},
+       unread<Shape>("#/$defs/profile", kPoints),
        {},
        "instead of lengths: the inside from the axis to the rim, heights above the desk"},
-      {"outer_profile_mm", Part<Shape>{nullptr, nullptr, "#/$defs/profile", kPoints}, {}, "the same of the outside"},
+      {"outer_profile_mm", unread<Shape>("#/$defs/profile", kPoints), {}, "the same of the outside"},
       {"albedo", &Shape::albedo, kAlbedo, "of an opaque wall"},
       {"material",
        Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.material = wall_from_json(json); }, nullptr,

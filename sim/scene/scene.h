@@ -167,7 +167,6 @@ Scene scene_from_json(const JsonReader& json);
 Desk desk_from_json(const JsonReader& json);
 Cup cup_from_json(const JsonReader& json);
 Object object_from_json(const JsonReader& json);
-Solid solid_from_json(const JsonReader& json);
 CupShape cup_shape_from_json(const JsonReader& json);
 /// The member glaze of a desk or a cup; nothing without it.
 std::optional<Coat> glaze_from_json(const JsonReader& json);
