@@ -9,7 +9,8 @@ void apply_stratification(Setup& setup, const EffectSetting& setting) {
   std::vector<Cup> layers;
   for_each_filling(setup, setting, [&](Cup& cup, Filling& filling) {
     if (filling.medium.scatters() || setting.values[0] == 0.0) return;
-    Cup layer = cup;  // where bodies overlap the last wins: the lower half of one cup is another one that stands in it
+    // A second cup in the same place, filled half as high, is the lower half: where bodies overlap the last wins.
+    Cup layer = cup;
     layer.filling->medium.index = ConstantIndex{filling.medium.n(wavelength_nm) + setting.values[0]};
     layer.filling->depth *= 0.5;
     layer.filling->form = {};

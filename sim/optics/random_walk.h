@@ -81,7 +81,7 @@ requires WalkSpace<Space, Visitor>
 void random_walk(const Space& space, Walker walker, const LeastWeight& least_weight, Rng& rng, Visitor& visitor) {
   while (survives(walker, least_weight_of(least_weight, walker), rng)) {
     const Turbid& medium = space.medium(walker);
-    // Where nothing scatters the flight is infinite, or no number once in 2^53 times: not shorter either way.
+    // Where nothing scatters this is infinite, or NaN for a draw of exactly 0: neither is below a distance.
     const double flight = -std::log(1.0 - rng.uniform()) / medium.scattering;
     const auto boundary = space.next_boundary(walker, flight);
     if (flight < boundary.distance) {

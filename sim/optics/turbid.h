@@ -32,13 +32,13 @@ inline Eigen::Vector3d scatter(const Eigen::Vector3d& direction, const Turbid& m
   return deflect(direction, medium.peak.sample(medium.anisotropy, cosine), unit_vector(azimuth));
 }
 
-/// A medium in which light goes nearly as in this one: what is scattered by less than 25 degrees goes straight on, as
-/// far as it is more than what is scattered by that angle, and the scattering coefficient falls until the reduced one
-/// is as before. Walks see it after their first scattering, and so does the light that they are joined to: flights
-/// become longer, and what a connection brings depends less on the direction from which the walk comes. What returns
-/// from a liquid changes by less than a hundredth in all, and within some millimetres of where light enters it by some
-/// hundredths (`test_optics`, ForwardPeak). The truncation is Potter's (J. Atmos. Sci. 27, 1970), and that the first
-/// moment stays Iwabuchi's (J. Atmos. Sci. 63, 2006).
+/// A medium in which light spreads nearly as in this one, with fewer and longer flights: the phase function's peak is
+/// made flat within 25 degrees, what that cuts off counts as light that goes straight on, and the scattering
+/// coefficient is lowered until the reduced one is as before. Walks use it from their first scattering on, and so do
+/// connections to them, which then depend less on the direction from which the walk comes. What returns from a liquid
+/// changes by less than a hundredth in all, and by some hundredths within some millimetres of where light enters it
+/// (`test_optics`, ForwardPeak). To cut the peak off is Potter's (J. Atmos. Sci. 27, 1970), to keep the first moment
+/// Iwabuchi's (J. Atmos. Sci. 63, 2006).
 Turbid without_forward_peak(const Turbid& medium);
 
 }  // namespace fathom

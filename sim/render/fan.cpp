@@ -15,7 +15,7 @@ namespace {
 constexpr double kSpacing = 2e-3;   ///< [rad] 1.3 mm from the sensor's height
 constexpr double kBox = 5e-3;       ///< [m] edge of a box; pencils that grow wider than this are sent more finely
 constexpr int kMostHalvings = 2;    ///< of the spacing
-constexpr double kBeyond = 5e-3;    ///< [m] by which a piece goes on beyond its ends, for its neighbours may
+constexpr double kBeyond = 5e-3;    ///< [m] that a piece counts beyond its ends: rays beside it may be longer
 constexpr int kLongestChain = 8;    ///< of interfaces; light that is trapped in a wall goes on for long
 constexpr double kFaintest = 1e-4;  ///< transmittance
 

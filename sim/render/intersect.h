@@ -26,8 +26,8 @@ struct Hit {
 /// So many rays are traced together: side by side they cost Embree a third of what each costs alone.
 inline constexpr std::size_t kPacket = 8;
 
-/// Values of the rays of a packet, some of which have none. An array of std::optional would do, were it not filled with
-/// zeros by the compiler, which takes as long as a tenth of the tracing.
+/// Values of the rays of a packet, some of which have none. No array of std::optional: the compiler fills that with
+/// zeros, which takes a tenth of the tracing's time.
 template <class T>
 class Packet {
  public:

@@ -236,13 +236,14 @@ std::vector<double> Cavity::first_levels() const {
 void Cavity::add_slices(Slice whole) {
   // A hundred-thousandth of a cavity as wide as this slice; a step in the walls is found to 1/10 000 of the depth.
   const double tolerance = 1e-5 * depth() / (whole.high - whole.low);
-  const double middle = 0.6 * whole.low + 0.4 * whole.high;  // halves would see a step in some places as the whole does
-  Slice lower = slice(whole.low, middle), upper = slice(middle, whole.high);
+  // Not in the middle: halves could hide a step as the whole does.
+  const double between = 0.6 * whole.low + 0.4 * whole.high;
+  Slice lower = slice(whole.low, between), upper = slice(between, whole.high);
   const auto agree = [&](int layer) {  // on what is filled when the liquid has risen to that layer
     const double parts = lower.volume(layer) + upper.volume(layer);
     return std::fabs(parts - whole.volume(layer)) <= tolerance * parts;
   };
-  if ((agree(top_layer_) && agree(layer_at(whole.high))) || middle - whole.low < 1e-4 * depth()) {
+  if ((agree(top_layer_) && agree(layer_at(whole.high))) || between - whole.low < 1e-4 * depth()) {
     slices_.push_back(std::move(lower));
     slices_.push_back(std::move(upper));
     return;

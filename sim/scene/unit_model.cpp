@@ -11,7 +11,8 @@
 namespace fathom {
 namespace {
 
-/// Adds amplitude · cos(a + b), from the amplitude's share in cos a and sin a along a row, and cos b and sin b.
+/// Adds amplitude · cos(a + b) to a row: `cosines` and `sines` are amplitude · cos a and amplitude · sin a of its
+/// pixels, `cosine` and `sine` are cos b and sin b.
 FATHOM_SIMD_CLONES
 void add_wave(const float* __restrict cosines, const float* __restrict sines, float cosine, float sine,
               float* __restrict sum, int width) {

@@ -77,9 +77,10 @@ struct Candidate {
   float correlation = -1.0f;
 };
 
-/// Disparities of a row's candidates that are believed, NaN for the others: those alike enough, and of the less alike
-/// ones those between two such that show the same, to the left and to the right within a block. Speckle makes blocks
-/// unlike here and there; beside a shadow, where a block holds part of a surface, there is nothing to one side.
+/// Writes the disparities that are believed: those of at least the least correlation, and those of somewhat less where
+/// the nearest of at least that, within a block to the left and within one to the right, both have the same disparity.
+/// Speckle lowers the correlation of single blocks; beside a shadow, where a block holds part of a surface, one of the
+/// two is missing.
 void believe(const MatcherModel& matcher, const std::vector<Candidate>& row, float* disparity) {
   constexpr float kLessAlike = 0.8f;    // of the least correlation
   constexpr float kSameSurface = 0.5f;  // [px]

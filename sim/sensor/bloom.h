@@ -1,4 +1,4 @@
-// What a pixel's charge does that no longer fits it.
+// Blooming: light above full scale spills to the pixels around.
 #pragma once
 
 #include "core/image.h"

@@ -31,11 +31,14 @@ void sum_along(const float* __restrict noise, int count, float* __restrict sum, 
 /// Σ i² over a window of `count` places about its middle.
 double second_moment(int count) { return count * (static_cast<double>(count) * count - 1.0) / 12.0; }
 
-/// How uncertain a block's disparity is, by the dots' variance v [px²] and the brightness c of their centres [DN].
-/// Contrast [DN] is the standard deviation of Gaussian spots that lie at random, c √(k / v) by Campbell's theorem.
-/// Speckle is as strong as the light that it weighs. Of wider dots root mean square light falls with the width, its
-/// gradient with the width's square. The shift that speckle looks like is their ratio: its variance goes with v.
-/// The detector's noise shifts by (s c + r) v² / c², because the mean squared slope is contrast² / 2 v.
+/// How uncertain a block's disparity is, from the variance v [px²] of its dots and the brightness c [DN] of their
+/// centres; k, r and s are constants of the sensor.
+/// Contrast [DN] is the standard deviation of Gaussian spots that lie at random: c √(k / v), by Campbell's theorem.
+/// Speckle's error is proportional to the light, and looks like a shift of that error over the light's gradient. With
+/// the dots' width the light's root mean square falls, and its gradient with the width's square: the shift's variance
+/// goes with v.
+/// The detector's error has the variance s c + r, of shot and read noise. Because the mean squared slope is
+/// contrast² / 2 v, the shift's variance is proportional to (s c + r) v² / c².
 class BlockLaw {
  public:
   explicit BlockLaw(const SensorModel& sensor) : defocus_(sensor), step_px_(sensor.pattern.step_px) {

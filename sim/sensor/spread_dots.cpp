@@ -51,7 +51,8 @@ void blur(std::span<const float> weights, Spot& spot) {
   spot.values = std::move(both);
 }
 
-/// Of a Gaussian whose middle has the value 1 before its variance [samples²] was lowered to this one.
+/// Weights at 0, 1, 2 … samples from the middle of a Gaussian of this variance [samples²]. Along both axes together
+/// they sum to `area`, which is 2π times the variance where the middle is to be 1.
 std::vector<float> gaussian(double variance, double area) {
   constexpr double kDeviations = 3.7;  // a thousandth is left
   std::vector<float> weights(static_cast<std::size_t>(std::ceil(kDeviations * std::sqrt(variance))) + 1);
