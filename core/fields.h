@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <iterator>
@@ -104,17 +105,27 @@ struct FieldOfPart {
   KeyRow row;
 };
 
-/// One key of an object T. The range of a number is in the file's unit, which the key's name ends with.
+/// One key of an object T.
 template <class T>
 struct Field {
+  using Value =
+      std::variant<double T::*, Length<T>, PerLength<T>, Angle<T>, int T::*, std::uint64_t T::*, Eigen::Vector2d T::*,
+                   Lengths<T>, LengthRange<T>, Interval T::*, std::string T::*, Choice<T>, Part<T>, FieldOfPart<T>>;
+
   std::string_view key;
-  std::variant<double T::*, Length<T>, PerLength<T>, Angle<T>, int T::*, std::uint64_t T::*, Eigen::Vector2d T::*,
-               Lengths<T>, LengthRange<T>, Interval T::*, std::string T::*, Choice<T>, Part<T>, FieldOfPart<T>>
-      value;
-  Range range;
+  Value value;
+  Range range;               ///< of a number, in the file's unit, which the key's name ends with
   std::string_view meaning;  ///< one line
-  bool is_required = false;
-  std::string_view schema = {};  ///< as JSON, where the range does not say all
+  bool is_required;
+  std::string_view schema;  ///< as JSON, where the range does not say all
+
+  Field(std::string_view named, Value of, Range allowed, std::string_view means, bool needed = false,
+        std::string_view as = {})
+      : key(named), value(std::move(of)), range(allowed), meaning(means), is_required(needed), schema(as) {}
+  /// Without a range. A template, so that a meaning after a range {} is not taken for `needed`.
+  template <std::same_as<bool> B = bool>
+  Field(std::string_view named, Value of, std::string_view means, B needed = false)
+      : Field(named, std::move(of), Range{}, means, needed) {}
 };
 
 /// A field of a member that is an object itself, whose key stands among those of the object that has the member.
@@ -153,7 +164,7 @@ KeyRow number_key(std::string key, std::string meaning, Range range, Json standa
 /// The key by which editors find what a file may hold.
 template <class T>
 Field<T> schema_field() {
-  return {"$schema", unread<T>(R"({"type": "string"})", "a text"), {}, "for editors: the file's schema"};
+  return {"$schema", unread<T>(R"({"type": "string"})", "a text"), "for editors: the file's schema"};
 }
 
 /// Millimetres that convert back to exactly this length; the nearest where no double does (one length in 44).

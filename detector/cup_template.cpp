@@ -24,7 +24,7 @@ constexpr float kTemplateSpacingMetres = 0.003f;  // about twice a pixel's footp
 
 std::span<const Field<CupTemplate>> template_fields() {
   static const Field<CupTemplate> fields[] = {
-      {"name", &CupTemplate::name, {}, "what detections call the cup", true},
+      {"name", &CupTemplate::name, "what detections call the cup", true},
       {"cloud",
        Part<CupTemplate>{[](const JsonReader& json, CupTemplate& cup) {
                            const fs::path cloud = path_named_in(json.file(), json.pointer(), json.text());
@@ -33,9 +33,7 @@ std::span<const Field<CupTemplate>> template_fields() {
                          },
                          [](const CupTemplate& cup) { return Json(cup.name + ".pcd"); }, R"({"type": "string"})",
                          "a path"},
-       {},
-       "its points, beside this file: metres, origin on the desk below the axis, z up, y away from the sensor",
-       true},
+       "its points, beside this file: metres, origin on the desk below the axis, z up, y away from the sensor", true},
       {"liquid_threshold_mm", Length{&CupTemplate::liquid_threshold_m}, kPositive,
        "a mean height inside above this is a liquid", true},
       {"height_mm", Length{&CupTemplate::height_m}, kPositive, "of the rim above the desk", true},

@@ -57,8 +57,8 @@ std::span<const Field<WallSearch>> wall_fields() {
 
 std::span<const Field<CupLimits>> limit_fields() {
   static const Field<CupLimits> fields[] = {
-      {"radius_mm", LengthRange{&CupLimits::radius_min_m, &CupLimits::radius_max_m}, {}, "radii of cups"},
-      {"height_mm", LengthRange{&CupLimits::height_min_m, &CupLimits::height_max_m}, {}, "heights of cups"},
+      {"radius_mm", LengthRange{&CupLimits::radius_min_m, &CupLimits::radius_max_m}, "radii of cups"},
+      {"height_mm", LengthRange{&CupLimits::height_min_m, &CupLimits::height_max_m}, "heights of cups"},
       {"lean_max_deg",
        Part<CupLimits>{[](const JsonReader& json, CupLimits& limits) {
                          limits.lean_max = std::tan(radians_from_deg(json.number({0.0, 80.0})));
@@ -138,17 +138,12 @@ std::span<const Field<PaperConfig>> cluster_fields() {
 
 std::span<const Field<CupGates>> gate_fields() {
   static const Field<CupGates> fields[] = {
-      {"width_mm",
-       LengthRange{&CupGates::width_min_m, &CupGates::width_max_m},
-       {},
-       "widths of cups with their handles"},
+      {"width_mm", LengthRange{&CupGates::width_min_m, &CupGates::width_max_m}, "widths of cups with their handles"},
       {"top_min_mm", Length{&CupGates::top_min_m}, kNonNegative, "a cup reaches at least so high"},
-      {"band_mm",
-       LengthRange{&CupGates::band_low_m, &CupGates::band_high_m},
-       {},
+      {"band_mm", LengthRange{&CupGates::band_low_m, &CupGates::band_high_m},
        "heights between which a circle is fitted"},
       {"circle_rms_max_mm", Length{&CupGates::circle_rms_max_m}, kPositive, "largest RMS of that circle"},
-      {"radius_mm", LengthRange{&CupGates::radius_min_m, &CupGates::radius_max_m}, {}, "its radius"}};
+      {"radius_mm", LengthRange{&CupGates::radius_min_m, &CupGates::radius_max_m}, "its radius"}};
   return fields;
 }
 
@@ -177,12 +172,10 @@ std::span<const Field<DetectorSettings>> settings_fields() {
                         read_fields(json, registration_fields(), settings.registration);
                       },
                       nullptr, "#/$defs/registration", "an object"},
-       {},
        "parameters of `sac-ia` and `prerejective`"},
       {"robust",
        Part<Settings>{[](const JsonReader& json, Settings& settings) { read_fields(json, tables_of(settings.robust)); },
                       nullptr, "#/$defs/robust", "an object"},
-       {},
        "parameters of the method `robust`"},
       {"templates",
        Part<Settings>{[](const JsonReader& json, Settings& settings) {
@@ -191,7 +184,6 @@ std::span<const Field<DetectorSettings>> settings_fields() {
                               load_template(path_named_in(item.file(), item.pointer(), item.text())));
                       },
                       nullptr, R"({"type": "array", "items": {"type": "string"}})", "a list of paths"},
-       {},
        "files of `fathom template` beside this one; without them those that come with the program"}};
   return fields;
 }

@@ -56,8 +56,8 @@ Part<Eigen::AlignedBox2d> side() {
 }
 
 std::span<const Field<Eigen::AlignedBox2d>> region_fields() {
-  static const Field<Eigen::AlignedBox2d> fields[] = {{"x_mm", side<0>(), {}, "to the sensor's right", true},
-                                                      {"y_mm", side<1>(), {}, "away from it", true}};
+  static const Field<Eigen::AlignedBox2d> fields[] = {{"x_mm", side<0>(), "to the sensor's right", true},
+                                                      {"y_mm", side<1>(), "away from it", true}};
   return fields;
 }
 
@@ -73,14 +73,11 @@ std::span<const Field<ClutterSpec>> drawn_fields(std::string_view schema, std::s
       {"number",
        Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.*count = count_from_json(json); },
                   [](const Spec& spec) { return json_from_count(spec.*count); }, kCount, kWholePair},
-       {},
        "least and most of them"},
       {"kinds",
        Part<Spec>{[](const JsonReader& json, Spec& spec) { spec.*kinds = kinds_from_json(json, parts); }, nullptr,
                   schema, "a list of objects"},
-       {},
-       means,
-       true}};
+       means, true}};
   return fields;
 }
 
@@ -105,21 +102,15 @@ std::span<const Field<ClutterSpec>> thing_fields() {
       {"cups",
        Part<Spec>{[](const JsonReader& json, Spec& spec) { read_fields(json, cups_fields(), spec); }, nullptr,
                   "#/$defs/cups", "an object"},
-       {},
-       "how many cups, and which",
-       true},
+       "how many cups, and which", true},
       {"objects",
        Part<Spec>{[](const JsonReader& json, Spec& spec) { read_fields(json, objects_fields(), spec); }, nullptr,
                   "#/$defs/objects", "an object"},
-       {},
-       "how many other things, and which",
-       true},
+       "how many other things, and which", true},
       {"region_mm",
        Part<Spec>{[](const JsonReader& json, Spec& spec) { read_fields(json, region_fields(), spec.region); }, nullptr,
                   "#/$defs/region", "an object"},
-       {},
-       "where on the desk things have their origins",
-       true},
+       "where on the desk things have their origins", true},
       {"gap_mm", Length{&Spec::gap}, kCupLengthMm, "least distance between things that do not touch, seen from above"},
       {"touching", &Spec::touching, kShare, "share of the objects that stand within 2 mm of a cup"},
       {"occluding", &Spec::occluding, kShare,
@@ -136,9 +127,7 @@ std::span<const Field<ClutterSpec>> clutter_fields() {
                     spec.sensor = json.value();
                   },
                   nullptr, "../schema.json#/$defs/sensor", "an object"},
-       {},
-       "as in a scene",
-       true},
+       "as in a scene", true},
       {"desk",
        Part<Spec>{[](const JsonReader& json, Spec& spec) {
                     if (json.value().is_null()) json.fail("is what things stand on and cannot be null");
@@ -146,7 +135,6 @@ std::span<const Field<ClutterSpec>> clutter_fields() {
                     spec.desk = json.value();
                   },
                   nullptr, "../schema.json#/$defs/desk", "an object"},
-       {},
        "as in a scene"},
       {"fillings",
        Part<Spec>{[](const JsonReader& json, Spec& spec) {
@@ -156,7 +144,6 @@ std::span<const Field<ClutterSpec>> clutter_fields() {
                   },
                   [](const Spec& spec) { return Json(spec.fillings); },
                   R"({"type": "array", "items": {"type": "object"}, "minItems": 1})", "a list of objects"},
-       {},
        "`{\"liquid\", \"fill_mm\"}`, or `{}` for an empty cup; each cup draws one, with `liquid` every filling has its "
        "own trials"},
       {"empty", &Spec::empty, {0.0, 1.0}, "share of the cups that draw no filling; not beside `liquid`"}};

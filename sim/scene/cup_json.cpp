@@ -119,8 +119,8 @@ std::span<const Field<Ripple>> ripple_fields() {
   static const Field<Ripple> fields[] = {
       {"wavelength_mm", Length{&Ripple::wavelength}, kLengthMm, "from crest to crest", true},
       {"amplitude_mm", Length{&Ripple::amplitude}, kLengthOrNoneMm, "of the sine", true},
-      {"azimuth_deg", Angle{&Ripple::azimuth}, {}, "direction in which the phase grows, from +x towards +y"},
-      {"phase_deg", Angle{&Ripple::phase}, {}, "at the cup's axis; 0: level there, rising"}};
+      {"azimuth_deg", Angle{&Ripple::azimuth}, "direction in which the phase grows, from +x towards +y"},
+      {"phase_deg", Angle{&Ripple::phase}, "at the cup's axis; 0: level there, rising"}};
   return fields;
 }
 
@@ -144,14 +144,13 @@ std::span<const Field<Wetting>> wetting_fields() {
 std::span<const Field<LiquidForm>> surface_fields() {
   static const Field<LiquidForm> fields[] = {
       {"tilt_deg", Angle{&LiquidForm::tilt}, {0.0, 45.0}, "of the surface, as a plane"},
-      {"tilt_azimuth_deg", Angle{&LiquidForm::tilt_azimuth}, {}, "direction in which it rises, from +x towards +y"},
+      {"tilt_azimuth_deg", Angle{&LiquidForm::tilt_azimuth}, "direction in which it rises, from +x towards +y"},
       {"ripples",
        Part<LiquidForm>{[](const JsonReader& json, LiquidForm& form) {
                           for (const JsonReader& ripple : json.items())
                             form.ripples.push_back(ripple_from_json(ripple));
                         },
                         nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/ripple"}})", "a list of objects"},
-       {},
        "sines across the surface, which are added"}};
   return fields;
 }
@@ -209,34 +208,23 @@ std::span<const Field<Cup>> cup_fields() {
   static const Field<Cup> fields[] = {
       {"shape",
        unread<Cup>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name, a path or an object"),
-       {},
-       "a name of `fathom list cups`, a glTF file (*.gltf, *.glb) relative to this file, or a description",
-       true},
+       "a name of `fathom list cups`, a glTF file (*.gltf, *.glb) relative to this file, or a description", true},
       {"position_mm",
        unread<Cup>(R"({"type": "array", "items": {"$ref": "#/$defs/cup_place"}, "minItems": 2, "maxItems": 3})",
                    "[x, y] or [x, y, z]"),
-       {},
-       "of the axis, or the glTF file's origin, on the desk; z, of glTF cups only: height of the lowest point",
-       true},
-      {"rotation_deg",
-       unread<Cup>("#/$defs/vector3", "[x, y, z]"),
-       {},
+       "of the axis, or the glTF file's origin, on the desk; z, of glTF cups only: height of the lowest point", true},
+      {"rotation_deg", unread<Cup>("#/$defs/vector3", "[x, y, z]"),
        "of glTF cups only: about the fixed axes x, then y, then z, before `yaw_deg`"},
-      {"yaw_deg", Angle{&Cup::yaw}, {}, "direction of the handle, from +x towards +y"},
-      {"glaze",
-       unread<Cup>("#/$defs/glaze", "an object"),
-       {},
+      {"yaw_deg", Angle{&Cup::yaw}, "direction of the handle, from +x towards +y"},
+      {"glaze", unread<Cup>("#/$defs/glaze", "an object"),
        "a clear coat, which mirrors and through which the albedo is seen; of opaque cups of revolution"},
       {"liquid",
        unread<Cup>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/changed_liquid"}, {"$ref": "#/$defs/liquid"}]})",
                    "a name or an object"),
-       {},
        "a name of `fathom list media`, that name with a temperature or a dilution, or a description"},
       {"fill_mm", Part<Cup>{}, kNonNegative, "depth of the liquid above the lowest point of the cup's inside"},
       {"fill_ml", Part<Cup>{}, kNonNegative, "its volume, instead of `fill_mm`"},
-      {"surface",
-       unread<Cup>("#/$defs/surface", "an object"),
-       {},
+      {"surface", unread<Cup>("#/$defs/surface", "an object"),
        "what makes it other than level; of cups of revolution"}};
   return fields;
 }

@@ -23,9 +23,7 @@ std::span<const Field<WaterLike>> water_like_fields() {
   static const Field<WaterLike> fields[] = {
       {"dispersion",
        Choice<WaterLike>{{"water"}, [](const WaterLike&) { return std::size_t{0}; }, [](WaterLike&, std::size_t) {}},
-       {},
-       "water's index at any temperature (IAPWS R9-97)",
-       true},
+       "water's index at any temperature (IAPWS R9-97)", true},
       {"n", &WaterLike::n, kIndex, "beside `at_nm`: the index there, which a constant added to water's makes"},
       {"at_nm", &WaterLike::at_nm, {kWaterMinNm, kWaterMaxNm}, "wavelength of `n`"}};
   return fields;
@@ -46,16 +44,12 @@ std::span<const Field<SellmeierIndex>> sellmeier_fields() {
       {"sellmeier_a",
        Part<Law>{[](const JsonReader& json, Law& law) { law.a = json.numbers(); }, nullptr, kNumbers,
                  "a list of numbers"},
-       {},
-       "A of n² − 1 = Σ A λ² / (λ² − B), λ in µm",
-       true},
+       "A of n² − 1 = Σ A λ² / (λ² − B), λ in µm", true},
       {"sellmeier_b_um2",
        Part<Law>{[](const JsonReader& json, Law& law) { law.b_um2 = json.numbers(); }, nullptr, kNumbers,
                  "a list of numbers"},
-       {},
-       "B",
-       true},
-      {"range_nm", unread<Law>("#/$defs/vector2", "[least, largest]"), {}, "wavelengths at which that holds", true}};
+       "B", true},
+      {"range_nm", unread<Law>("#/$defs/vector2", "[least, largest]"), "wavelengths at which that holds", true}};
   return fields;
 }
 
@@ -95,11 +89,9 @@ void set_index(const JsonReader& index, Medium& medium) {
 
 std::span<const Field<Medium>> range_fields() {
   static const Field<Medium> fields[] = {
-      {"index", unread<Medium>("#/$defs/vector2", "[least, largest]"), {}, "at 830 nm and 20 °C"},
-      {"absorption_per_mm", unread<Medium>("#/$defs/vector2", "[least, largest]"), {}, "of the key of this name"},
-      {"reduced_scattering_per_mm",
-       unread<Medium>("#/$defs/vector2", "[least, largest]"),
-       {},
+      {"index", unread<Medium>("#/$defs/vector2", "[least, largest]"), "at 830 nm and 20 °C"},
+      {"absorption_per_mm", unread<Medium>("#/$defs/vector2", "[least, largest]"), "of the key of this name"},
+      {"reduced_scattering_per_mm", unread<Medium>("#/$defs/vector2", "[least, largest]"),
        "of `scattering_per_mm` times 1 − `anisotropy`"}};
   return fields;
 }
@@ -123,25 +115,23 @@ void check_ranges(const JsonReader& json, const Medium& medium) {
 
 std::span<const Field<Medium>> medium_fields() {
   static const Field<Medium> fields[] = {
-      {"name", &Medium::name, {}, "what it is called"},
+      {"name", &Medium::name, "what it is called"},
       {"index",
        Part<Medium>{
            set_index, nullptr,
            R"({"anyOf": [{"type": "number", "minimum": 1, "maximum": 4}, {"$ref": "#/$defs/water_like"}, {"$ref": "#/$defs/dispersion"}]})",
            "1 to 4, or an object"},
-       {},
-       "refractive index: a number, water's, or a law of dispersion",
-       true},
+       "refractive index: a number, water's, or a law of dispersion", true},
       {"absorption_per_mm", PerLength{&Medium::absorption}, kNonNegative, "absorption coefficient at 830 nm and 20 °C"},
-      {"absorption_per_mm_k", PerLength{&Medium::absorption_per_kelvin}, {}, "its change with temperature"},
+      {"absorption_per_mm_k", PerLength{&Medium::absorption_per_kelvin}, "its change with temperature"},
       {"scattering_per_mm", PerLength{&Medium::scattering}, kNonNegative, "scattering coefficient"},
       {"anisotropy",
        &Medium::anisotropy,
        {-0.999, 0.999},
        "mean cosine of the scattering angle (Henyey and Greenstein)"},
-      {"ranges", unread<Medium>("#/$defs/ranges", "an object"), {}, "within which the numbers are believed to lie"},
-      {"source", &Medium::source, {}, "where the numbers come from"},
-      {"quality", unread<Medium>(R"({"type": "string"})", "a text"), {}, "how good they are"}};
+      {"ranges", unread<Medium>("#/$defs/ranges", "an object"), "within which the numbers are believed to lie"},
+      {"source", &Medium::source, "where the numbers come from"},
+      {"quality", unread<Medium>(R"({"type": "string"})", "a text"), "how good they are"}};
   return fields;
 }
 
@@ -185,14 +175,10 @@ struct Change {
 
 std::span<const Field<Change>> change_fields() {
   static const Field<Change> fields[] = {
-      {"name",
-       unread<Change>(R"({"type": "string"})", "a name"),
-       {},
+      {"name", unread<Change>(R"({"type": "string"})", "a name"),
        "of `fathom list media`, of a liquid that follows water's dispersion"},
-      {"of", unread<Change>("#/$defs/liquid", "an object"), {}, "its description, instead of the name"},
-      {"in",
-       unread<Change>("#/$defs/liquid", "an object"),
-       {},
+      {"of", unread<Change>("#/$defs/liquid", "an object"), "its description, instead of the name"},
+      {"in", unread<Change>("#/$defs/liquid", "an object"),
        "description of the water that it is diluted in, instead of the library's"},
       {"temperature_c", &Change::temperature_c, {0.0, 100.0}, "of the liquid"},
       {"dilution", &Change::dilution, {0.0, 1.0, true}, "its share of the volume, the rest is water"}};

@@ -97,7 +97,6 @@ std::span<const Field<NoiseModel>> noise_fields() {
            [](const JsonReader& json, NoiseModel& noise) { read_fields(json, disparity_fields(), noise.disparity); },
            [](const NoiseModel& noise) { return json_from_fields(disparity_fields(), noise.disparity); },
            "#/$defs/disparity_noise", "an object"},
-       {},
        "noise of geometric captures, which have no image that noise could come from: statistics of measured desks"}};
   return fields;
 }

@@ -37,38 +37,30 @@ CupShape opaque_shape(const JsonReader& json) {
 
 std::span<const Field<Solid>> solid_fields() {
   static const Field<Solid> fields[] = {
-      {"name", &Solid::name, {}, "what it is called"},
+      {"name", &Solid::name, "what it is called"},
       {"box_mm",
        unread<Solid>(R"({"type": "array", "items": {"$ref": "#/$defs/cup_length"}, "minItems": 3, "maxItems": 3})",
                      "[x, y, z]"),
-       {},
        "a box by its sides; the middle of its base is the origin"},
-      {"profile_mm",
-       unread<Solid>("#/$defs/profile", "points [radius, height]"),
-       {},
+      {"profile_mm", unread<Solid>("#/$defs/profile", "points [radius, height]"),
        "a body of revolution: from the axis round the outside and back to the axis above"},
-      {"cup",
-       unread<Solid>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name or an object"),
-       {},
+      {"cup", unread<Solid>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/shape"}]})", "a name or an object"),
        "a cup's shape, empty and opaque, to be turned over or laid down"},
       {"albedo", &Solid::albedo, {0.0, 1.0}, "share of the light that it scatters back"},
-      {"source", unread<Solid>(R"({"type": "string"})", "a text"), {}, "where the numbers come from"}};
+      {"source", unread<Solid>(R"({"type": "string"})", "a text"), "where the numbers come from"}};
   return fields;
 }
 
 std::span<const Field<Object>> object_fields() {
   static const Field<Object> fields[] = {
-      {"gltf", unread<Object>(R"({"type": "string"})", "a path"), {}, "a glTF file, relative to this file; or `solid`"},
-      {"solid",
-       unread<Object>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/solid"}]})", "a name or an object"),
-       {},
+      {"gltf", unread<Object>(R"({"type": "string"})", "a path"), "a glTF file, relative to this file; or `solid`"},
+      {"solid", unread<Object>(R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/solid"}]})", "a name or an object"),
        "a name of `fathom list solids`, or one of `box_mm`, `profile_mm` and `cup`"},
       {"position_mm",
        unread<Object>(R"({"type": "array", "items": {"$ref": "#/$defs/place"}, "minItems": 2, "maxItems": 3})",
                       "[x, y] or [x, y, z]"),
-       {},
        "of the glTF file's origin, three numbers; a solid stands there on the desk, or with its lowest point at z"},
-      {"rotation_deg", unread<Object>("#/$defs/vector3", "[x, y, z]"), {}, "about the fixed axes x, then y, then z"}};
+      {"rotation_deg", unread<Object>("#/$defs/vector3", "[x, y, z]"), "about the fixed axes x, then y, then z"}};
   return fields;
 }
 

@@ -66,7 +66,6 @@ std::span<const Field<PatternModel>> pattern_fields() {
            [](const JsonReader& json, PatternModel& pattern) { pattern.image = pattern_image_from_json(json); },
            [](const PatternModel& pattern) { return pattern.image.brightness ? Json(pattern.image.file) : Json(); },
            R"({"type": "string"})", "a path"},
-       {},
        "a grey PNG of one's own pattern, relative to this file: a pixel for each position, instead of dots of our "
        "own"}};
   return fields;
@@ -92,9 +91,7 @@ void read_pattern(const JsonReader& json, PatternModel& pattern) {
 std::span<const Field<MatcherModel>> matcher_fields() {
   constexpr Range kWindow{3.0, 31.0};
   static const Field<MatcherModel> fields[] = {
-      {"method",
-       enum_choice<&MatcherModel::method, MatcherModel>({"precise", "device"}),
-       {},
+      {"method", enum_choice<&MatcherModel::method, MatcherModel>({"precise", "device"}),
        "precise: slopes and edges are followed; device: block correlation in steps of 1/8 px"},
       {"window_columns", &MatcherModel::window_columns, kWindow, "of the block, odd"},
       {"window_rows", &MatcherModel::window_rows, kWindow, "of the block, odd"},
@@ -175,7 +172,6 @@ std::span<const Field<SensorModel>> sensor_fields() {
                       return Json{sensor.ir_width, sensor.ir_height};
                     },
                     kSizeSchema, kSize},
-       {},
        "width and height of the infrared image"},
       {"depth_size_px",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) {
@@ -187,7 +183,6 @@ std::span<const Field<SensorModel>> sensor_fields() {
                       return Json{sensor.width, sensor.height};
                     },
                     kSizeSchema, kSize},
-       {},
        "width and height of the depth image: half of `ir_size_px`; rows beyond are cropped"},
       {"focal_px", &Sensor::focal_px, kFocalPx, "focal length of the depth image"},
       {"principal_px", &Sensor::principal_px, kPrincipalPx,
@@ -202,7 +197,6 @@ std::span<const Field<SensorModel>> sensor_fields() {
               Choice<DepthLaw>{{"device", "off"},
                                [](const DepthLaw& law) { return law.quantized ? std::size_t{0} : std::size_t{1}; },
                                [](DepthLaw& law, std::size_t choice) { law.quantized = choice == 0; }},
-              {},
               "device: depths are rounded to the device's steps of 1/8 px of disparity; off: they are not"}),
       in_law({"depth_step_phase",
               &DepthLaw::step_phase,
@@ -217,13 +211,11 @@ std::span<const Field<SensorModel>> sensor_fields() {
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_fields(json, optics_fields(), sensor.optics); },
                     [](const Sensor& sensor) { return json_from_fields(optics_fields(), sensor.optics); },
                     "#/$defs/optics", "an object"},
-       {},
        "lenses: speckle's grain, defocus, distortion"},
       {"noise",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { sensor.noise = noise_from_json(json); },
                     [](const Sensor& sensor) { return json_from_noise(sensor.noise); }, noise_schema(),
                     "a name or an object"},
-       {},
        "`off`; `basic`: speckle of the dots, shot and read noise; `landau_2016`: constants as published; `device`: "
        "speckle of the pixels, in the reference image as well, shot and read noise, ambient light, blooming; or an "
        "object of parts"},
@@ -231,20 +223,17 @@ std::span<const Field<SensorModel>> sensor_fields() {
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { sensor.unit = unit_from_json(json, sensor.unit); },
                     [](const Sensor& sensor) { return json_from_fields(unit_fields(), sensor.unit); },
                     R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/unit"}]})", "a path or an object"},
-       {},
        "how this individual device differs from its model: a unit.json of fathom calibrate, which switches residue_px "
        "off, or an object"},
       {"pattern",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_pattern(json, sensor.pattern); },
                     [](const Sensor& sensor) { return json_from_fields(pattern_fields(), sensor.pattern); },
                     "#/$defs/pattern", "an object"},
-       {},
        "the projected dots"},
       {"matcher",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { read_matcher(json, sensor.matcher); },
                     [](const Sensor& sensor) { return json_from_fields(matcher_fields(), sensor.matcher); },
                     "#/$defs/matcher", "an object"},
-       {},
        "how disparities are found"},
       {"believed",
        Part<Sensor>{[](const JsonReader& json, Sensor& sensor) { sensor.believed = calibration_from_json(json); },
@@ -252,7 +241,6 @@ std::span<const Field<SensorModel>> sensor_fields() {
                       return sensor.believed ? json_from_fields(calibration_fields(), *sensor.believed) : Json();
                     },
                     "#/$defs/calibration", "an object"},
-       {},
        "calibration that the device computes depths and points with, where it differs from the true one"}};
   return fields;
 }
@@ -320,17 +308,13 @@ Pose pose_from_json(const JsonReader& json, double baseline) {
 /// Which sensor, and where it stands: keys that rig_from_json() reads together.
 std::span<const Field<SensorModel>> place_fields() {
   static const Field<SensorModel> fields[] = {
-      {"model",
-       unread<SensorModel>(R"({"type": "string"})", "a name"),
-       {},
+      {"model", unread<SensorModel>(R"({"type": "string"})", "a name"),
        "a model of `fathom list sensors`; the other keys change it. `xtion_pro_live` and `kinect_v1` match ideally, "
        "for work "
        "on what light does; names that end in `_device` imitate the real device"},
-      {"name", unread<SensorModel>(R"({"type": "string"})", "a text"), {}, "what a sensor without `model` is called"},
+      {"name", unread<SensorModel>(R"({"type": "string"})", "a text"), "what a sensor without `model` is called"},
       {"height_mm", Part<SensorModel>{}, kLengthMm, "height of the baseline's middle above the desk"},
-      {"aim_mm",
-       unread<SensorModel>("#/$defs/place3", "[x, y, z]"),
-       {},
+      {"aim_mm", unread<SensorModel>("#/$defs/place3", "[x, y, z]"),
        "the point of the world that the baseline's middle looks at; or `pitch_deg`"},
       {"pitch_deg", Part<SensorModel>{}, kPitchDeg, "angle below the horizontal; 90: straight down"},
       {"roll_deg", Part<SensorModel>{}, kRollDeg, "turn about the optical axis, clockwise as seen from behind"},
@@ -338,7 +322,6 @@ std::span<const Field<SensorModel>> place_fields() {
        unread<SensorModel>(
            R"({"type": "array", "items": {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}, "minItems": 4, "maxItems": 4})",
            "4 rows of 4 numbers"),
-       {},
        "pose of the infrared camera instead of height and angles: rotation, and translation in metres"}};
   return fields;
 }

@@ -31,7 +31,7 @@ std::span<const Field<Coat>> glaze_fields() {
 std::span<const Field<Desk>> desk_fields() {
   static const Field<Desk> fields[] = {
       {"albedo", &Desk::albedo, kAlbedo, "share of the light that it scatters back"},
-      {"glaze", unread<Desk>("#/$defs/glaze", "an object"), {}, "a clear coat, which mirrors"},
+      {"glaze", unread<Desk>("#/$defs/glaze", "an object"), "a clear coat, which mirrors"},
       {"size_mm", Lengths{&Desk::size}, kLengthMm, "along x and y"},
       {"centre_mm", Lengths{&Desk::centre}, kPlaceMm, "its middle"}};
   return fields;
@@ -57,29 +57,25 @@ std::span<const Field<CupShape>> shape_fields() {
   using Shape = CupShape;
   constexpr std::string_view kPoints = "points [radius, height]";
   static const Field<Shape> fields[] = {
-      {"name", &Shape::name, {}, "what the cup is called"},
+      {"name", &Shape::name, "what the cup is called"},
       {"height_mm", Part<Shape>{}, kCupLengthMm, "of the rim; four lengths describe upright walls on a flat bottom"},
       {"bottom_mm", Part<Shape>{}, kCupLengthMm, "of the inside, above the desk"},
       {"inner_radius_mm", Part<Shape>{}, kCupLengthMm, "of the inside"},
       {"outer_radius_mm", Part<Shape>{}, kCupLengthMm, "of the outside"},
-      {"inner_profile_mm",
-       unread<Shape>("#/$defs/profile", kPoints),
-       {},
+      {"inner_profile_mm", unread<Shape>("#/$defs/profile", kPoints),
        "instead of lengths: the inside from the axis to the rim, heights above the desk"},
-      {"outer_profile_mm", unread<Shape>("#/$defs/profile", kPoints), {}, "the same of the outside"},
+      {"outer_profile_mm", unread<Shape>("#/$defs/profile", kPoints), "the same of the outside"},
       {"albedo", &Shape::albedo, kAlbedo, "of an opaque wall"},
       {"material",
        Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.material = wall_from_json(json); }, nullptr,
                    R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/liquid"}]})", "a name or an object"},
-       {},
        "of a clear wall, which refracts: a name of `fathom list walls` or a description; without it the wall is "
        "opaque"},
       {"handle",
        Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.handle = handle_from_json(json); }, nullptr,
                    "#/$defs/handle", "an object"},
-       {},
        "of an opaque cup"},
-      {"source", &Shape::source, {}, "where the numbers come from"}};
+      {"source", &Shape::source, "where the numbers come from"}};
   return fields;
 }
 

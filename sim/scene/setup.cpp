@@ -34,7 +34,7 @@ std::span<const Field<Circumstances>> circumstance_fields() {
   static const Field<Facts> fields[] = {
       {"time_s", &Facts::time_s, kNonNegative, "since the session began, at frame 0"},
       {"stood_s", &Facts::stood_s, kNonNegative, "how long the cups have been filled by then"},
-      {"liquid", &Facts::liquid, {}, "as labelled, where that is not the liquid's name"},
+      {"liquid", &Facts::liquid, "as labelled, where that is not the liquid's name"},
       {"liquids",
        Part<Facts>{
            [](const JsonReader& json, Facts& facts) {
@@ -43,7 +43,6 @@ std::span<const Field<Circumstances>> circumstance_fields() {
            nullptr,
            R"({"type": "array", "items": {"anyOf": [{"type": "string"}, {"$ref": "#/$defs/liquid"}, {"$ref": "#/$defs/changed_liquid"}]}})",
            "a list"},
-       {},
        "all that are poured, in the order of their labels"}};
   return fields;
 }
@@ -54,33 +53,23 @@ std::span<const Field<Setup>> setup_fields() {
       {"sensor",
        Part<Setup>{[](const JsonReader& json, Setup& setup) { setup.rig = rig_from_json(json); }, nullptr,
                    "#/$defs/sensor", "an object"},
-       {},
-       "the device, and where it stands",
-       true},
-      {"desk",
-       unread<Setup>(R"({"anyOf": [{"$ref": "#/$defs/desk"}, {"type": "null"}]})", "an object or null"),
-       {},
+       "the device, and where it stands", true},
+      {"desk", unread<Setup>(R"({"anyOf": [{"$ref": "#/$defs/desk"}, {"type": "null"}]})", "an object or null"),
        "null: no desk"},
-      {"cups",
-       unread<Setup>(R"({"type": "array", "items": {"$ref": "#/$defs/cup"}})", "a list of objects"),
-       {},
+      {"cups", unread<Setup>(R"({"type": "array", "items": {"$ref": "#/$defs/cup"}})", "a list of objects"),
        "cups, and what is in them"},
-      {"objects",
-       unread<Setup>(R"({"type": "array", "items": {"$ref": "#/$defs/object"}})", "a list of objects"),
-       {},
+      {"objects", unread<Setup>(R"({"type": "array", "items": {"$ref": "#/$defs/object"}})", "a list of objects"),
        "what else stands about"},
       {"effects",
        Part<Setup>{[](const JsonReader& json, Setup& setup) {
                      for (const JsonReader& effect : json.items()) setup.effects.push_back(effect.value());
                    },
                    nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/effect"}})", "a list of objects"},
-       {},
        "what the scene has beside the above: names and parameters by `fathom list effects`"},
       {"circumstances",
        Part<Setup>{
            [](const JsonReader& json, Setup& setup) { read_fields(json, circumstance_fields(), setup.circumstances); },
            nullptr, "#/$defs/circumstances", "an object"},
-       {},
        "when it is shot, and of what as far as the laboratory knows; for the effects that go by it"}};
   return fields;
 }

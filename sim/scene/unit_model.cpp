@@ -95,7 +95,6 @@ std::span<const Field<UnitModel>> unit_fields() {
        Part<UnitModel>{[](const JsonReader& json, UnitModel& unit) { unit.learned = learned_unit_from_json(json); },
                        [](const UnitModel& unit) { return unit.learned.map ? Json(unit.learned.file) : Json(); },
                        R"({"type": "string"})", "a path"},
-       {},
        "a unit.json of fathom calibrate, relative to this file; its map of errors is added to those that are drawn"}};
   return fields;
 }

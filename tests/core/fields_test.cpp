@@ -41,13 +41,11 @@ std::span<const Field<Lamp>> lamp_fields() {
        Choice<Lamp>{{"off", "on"},
                     [](const Lamp& lamp) { return lamp.is_on ? std::size_t{1} : std::size_t{0}; },
                     [](Lamp& lamp, std::size_t choice) { lamp.is_on = choice == 1; }},
-       {},
        "whether it shines"},
       {"colour",
        Part<Lamp>{[](const JsonReader& json, Lamp& lamp) { lamp.colour = json.text(); },
                   [](const Lamp& lamp) { return lamp.colour == "white" ? Json() : Json(lamp.colour); },
                   R"({"type": "string"})", "a text"},
-       {},
        "of the light"},
       field_of_part(&Lamp::arm, {"arm_mm", Length{&Arm::length}, {0.0, 2000.0}, "of the arm"})};
   return fields;
