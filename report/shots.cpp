@@ -13,7 +13,7 @@
 #include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/frame_cloud.h"
-#include "diagnosis/measurement/joined.h"
+#include "diagnosis/measurement/read_measurement.h"
 #include "report/observable_words.h"
 
 namespace fathom {

@@ -8,7 +8,7 @@
 #include "diagnosis/decision/decide.h"
 #include "diagnosis/decision/diagnosis_json.h"
 #include "diagnosis/measurement/cup_in_sight.h"
-#include "diagnosis/measurement/joined.h"
+#include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/predictable.h"
 #include "report/diagnosis_words.h"

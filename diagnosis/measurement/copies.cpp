@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <set>
 #include <tuple>
+
+#include "core/rng.h"
 
 namespace fathom {
 namespace {
@@ -29,7 +32,7 @@ std::vector<Pair> equal_clouds(std::span<const CloudPrint> prints) {
   return pairs;
 }
 
-using Placements = std::map<PlacementKey, std::vector<std::size_t>>;  // rows of each
+using PlacementRows = std::map<PlacementKey, std::vector<std::size_t>>;
 
 /// The rows of a placement that stand in the table alone, without clouds.
 std::vector<std::size_t> with_numbers(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& rows) {
@@ -68,7 +71,7 @@ std::size_t coincidences(const std::vector<FrameRecord>& frames, const std::vect
 
 /// Few points on the steps of depth have few different heights and spreads, so that rows are alike by chance: then
 /// rows are nearly alike as well.
-std::vector<Pair> equal_rows(const std::vector<FrameRecord>& frames, const Placements& placements) {
+std::vector<Pair> equal_rows(const std::vector<FrameRecord>& frames, const PlacementRows& placements) {
   constexpr std::size_t kOftener = 10;  // at most, rows are alike by chance than they are but nearly alike
   std::vector<Pair> pairs;
   std::size_t by_chance = 0;
@@ -122,8 +125,26 @@ bool does_desk_scatter(const std::vector<FrameRecord>& frames, std::span<const C
 
 }  // namespace
 
+CloudPrint print_of(std::span<const SensedPoint> points, double focal_px) {
+  constexpr int kColumns = 4, kRows = 3;  // a cup with its shadow stands in few of them
+  constexpr int kFewest = 100;            // fewer noisy depths of whole steps may be alike by chance
+  CloudPrint print;
+  std::array<int, std::tuple_size_v<decltype(print.parts)>> counts{};
+  for (const SensedPoint& sensed : points) {
+    const auto depth = std::bit_cast<std::uint32_t>(sensed.point.z());
+    const std::size_t part = part_of_image(sensed.point, focal_px, kColumns, kRows);
+    print.whole = mix_bits(print.whole ^
+                           (static_cast<std::uint64_t>(depth) << 32 | std::bit_cast<std::uint32_t>(sensed.intensity)));
+    print.parts[part] = mix_bits(print.parts[part] ^ depth);
+    ++counts[part];
+  }
+  for (std::size_t part = 0; part < counts.size(); ++part)
+    if (counts[part] < kFewest) print.parts[part] = 0;
+  return print;
+}
+
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints) {
-  Placements placements;
+  PlacementRows placements;
   for (std::size_t row = 0; row < frames.size(); ++row) placements[placement_of(frames[row])].push_back(row);
   std::vector<Pair> pairs = equal_clouds(prints);
   for (const Pair& pair : equal_rows(frames, placements)) pairs.push_back(pair);

@@ -1,13 +1,23 @@
 // Frames that were not measured but copied: one cloud, or the same numbers, in two rows.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 
-#include "diagnosis/measurement/cloud_print.h"
+#include "diagnosis/measurement/frame_estimates.h"
 #include "diagnosis/measurement/frames.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
+
+/// What tells whether two clouds are the same, or of a sensor without noise.
+struct CloudPrint {
+  std::uint64_t whole = 0;                ///< equal for equal clouds, in whatever file; 0 without points
+  std::array<std::uint64_t, 12> parts{};  ///< of the image, depths alone; 0 with less than a hundred points
+};
+
+CloudPrint print_of(std::span<const SensedPoint> points, double focal_px);
 
 struct Copies {
   std::vector<bool> left_out;     ///< of each frame, whether it does not count

@@ -1,12 +1,17 @@
 // How far the desk of a cloud is off its plane, cell by cell of the image: what a unit's bias is learned from.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <compare>
 #include <map>
+#include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "diagnosis/measurement/frame_estimates.h"
+#include "diagnosis/measurement/frames.h"
+#include "diagnosis/statistics/evidence.h"
 #include "diagnosis/unit/bias_view.h"
 
 namespace fathom {
@@ -39,5 +44,19 @@ class DeskCells {
 
 /// Of every placement that shows a scene.
 using Desks = std::map<DeskScene, std::vector<DeskCells>>;
+
+/// Which part of the image a campaign's clouds show their desk in: a laboratory may cut its clouds out around the cup.
+class DeskSights {
+ public:
+  void add(const FrameRecord& frame, const DeskCells& cells);
+  void add(const DeskSights& others);
+
+  /// The rectangle [px] that holds all desk seen with the cup at that place, or without one; nothing where none was.
+  std::optional<Eigen::AlignedBox2d> at(const Factors& factors) const;
+
+ private:
+  using Place = std::tuple<bool, double, double>;  ///< bare, distance and lateral [mm]
+  std::map<Place, Eigen::AlignedBox2d> boxes_;
+};
 
 }  // namespace fathom

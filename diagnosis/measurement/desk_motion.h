@@ -2,10 +2,34 @@
 // along the rows.
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/measurement/frame_estimates.h"
 #include "diagnosis/measurement/laboratory_rig.h"
+#include "diagnosis/measurement/named_values.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
+
+/// A variance beyond what is known to make one.
+struct VarianceExcess {
+  double value, error;  ///< error: 1 σ
+};
+
+/// The excess as an observation in its root's unit: the root, negative where that is more which is known to make one;
+/// as significant as the variance is, and never less uncertain than the root of its error. `estimates`: how many
+/// numbers the variance is of.
+Observation root_of(const VarianceExcess& excess, std::string observable, Factors factors, int estimates);
+
+/// Of the trials of one placement, all of the region "desk". "desk_rows_px", "desk_columns_px": by how much the mean
+/// disparities of bands of 40 rows and of 40 columns scatter between trials once each frame's plane is taken off: roots
+/// of variances, both as of bands of 25,600 pixels; noise of no direction makes them alike. "desk_height_noise_mm",
+/// "desk_pitch_noise_deg", "desk_roll_noise_deg": by how much the fitted desk should scatter for the noise of its
+/// parts, 1 σ of one trial, from how the thirds' mean disparities scatter, each by its number of pixels, and where the
+/// desk was seen. Nothing of fewer than two trials, or where too little of the desk is seen in any of them.
+std::vector<NamedValue> scatter_values(std::span<const DeskBands> trials, const LaboratoryRig& rig);
 
 /// Bare-desk observations, at the session's start; four for each session with enough repeats, or for each part of a
 /// single one, three at most, of four placements at least. "desk_wander_mm": the root of the variance by which the

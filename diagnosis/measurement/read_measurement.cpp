@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -13,12 +13,10 @@
 #include "core/units.h"
 #include "detector/quiet_pcl.h"
 #include "diagnosis/measurement/copies.h"
-#include "diagnosis/measurement/desk_bands.h"
 #include "diagnosis/measurement/desk_motion.h"
 #include "diagnosis/measurement/frame_cloud.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/places.h"
-#include "diagnosis/measurement/rounding.h"
 #include "diagnosis/measurement/sensed_frame.h"
 
 namespace fathom {
@@ -204,68 +202,86 @@ void leave_out_misplaced(const Table& table, std::vector<FrameReading>& readings
   }
 }
 
+/// Of each height that has no cloud, 1 σ of the error that rounding makes, if all are rounded to 0.05 mm or more.
 /// Clouds have heights of regions, tables of the whole interior.
 void note_rounding(Measurement& measurement) {
-  const double rounding = rounding_mm(measurement.frames);
+  constexpr double kSteps_mm[] = {1.0, 0.5, 0.2, 0.1, 0.05};
+  constexpr double kSame = 1e-6;  // steps
+  std::vector<double> heights_mm;
+  for (const FrameRecord& frame : measurement.frames)
+    if (frame.cloud.empty() && frame.height_mm) heights_mm.push_back(*frame.height_mm);
+  const auto are_rounded_to = [&](double step_mm) {
+    return std::ranges::all_of(heights_mm, [&](double height_mm) {
+      return std::abs(height_mm / step_mm - std::round(height_mm / step_mm)) < kSame;
+    });
+  };
+  const auto step_mm = std::ranges::find_if(kSteps_mm, are_rounded_to);
+  if (heights_mm.empty() || step_mm == std::end(kSteps_mm)) return;
   for (Observation& o : measurement.observations)
-    if (o.observable == "height_mm" && o.factors.region == kWholeInterior) o.rounding = rounding;
+    if (o.observable == "height_mm" && o.factors.region == kWholeInterior) o.rounding = *step_mm / std::sqrt(12.0);
 }
 
-}  // namespace
-
-struct Survey::Content {
+/// A folder before the unit's bias is known.
+struct Survey {
   std::filesystem::path folder;
   bool quiet;
   Table table;
-  Measurement measurement;
-  std::vector<FrameReading> readings;
+  Measurement measurement;             ///< without observations
+  std::vector<FrameReading> readings;  ///< with the bias in them
 };
 
-Survey::Survey(const std::filesystem::path& folder, bool quiet)
-    : content_(new Content{folder, quiet, read_table(folder / "frames.csv"), {}, {}}) {
-  Measurement& measurement = content_->measurement;
+Survey survey_of(const std::filesystem::path& folder, bool quiet) {
+  Survey survey{folder, quiet, read_table(folder / "frames.csv"), {}, {}};
+  Measurement& measurement = survey.measurement;
   measurement.rig = read_rig(folder / "rig.json");
-  measurement.frames = read_frames(content_->table, measurement.rig, folder);
-  const auto read = [&] { content_->readings = read_frames_of(measurement, folder, content_->table, nullptr, quiet); };
+  measurement.frames = read_frames(survey.table, measurement.rig, folder);
+  const auto read = [&] { survey.readings = read_frames_of(measurement, folder, survey.table, nullptr, quiet); };
   read();
   std::vector<StandsElsewhere> elsewhere;
-  for (const FrameReading& reading : content_->readings) elsewhere.push_back(reading.stands_elsewhere);
+  for (const FrameReading& reading : survey.readings) elsewhere.push_back(reading.stands_elsewhere);
   if (put_places_right(elsewhere, measurement)) read();
+  return survey;
 }
 
-Survey::~Survey() = default;
-Survey::Survey(Survey&&) noexcept = default;
-
-const LaboratoryRig& Survey::rig() const { return content_->measurement.rig; }
-
-int Survey::sessions() const {
+/// The largest number and one.
+int sessions_of(const std::vector<FrameRecord>& frames) {
   int count = 0;
-  for (const FrameRecord& frame : content_->measurement.frames) count = std::max(count, frame.session + 1);
+  for (const FrameRecord& frame : frames) count = std::max(count, frame.session + 1);
   return count;
 }
 
-Desks Survey::desks() const {
-  const std::vector<FrameRecord>& frames = content_->measurement.frames;
+/// Sessions are numbered from `first_session` on.
+Desks desks_of(const Survey& survey, int first_session) {
+  const std::vector<FrameRecord>& frames = survey.measurement.frames;
   Desks desks;
   for (const auto& [key, rows] : rows_by_placement(frames, std::vector<bool>(frames.size()))) {
     const FrameRecord& frame = frames[rows.front()];
-    DeskCells& placement = desks[{frame.session, frame.bare_desk(), frame.distance_m, frame.lateral_m}].emplace_back();
-    for (const std::size_t row : rows) placement.add(content_->readings[row].cells);
+    const DeskScene scene{first_session + frame.session, frame.bare_desk(), frame.distance_m, frame.lateral_m};
+    DeskCells& placement = desks[scene].emplace_back();
+    for (const std::size_t row : rows) placement.add(survey.readings[row].cells);
   }
   return desks;
 }
 
-Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
-  Measurement measurement = std::move(content_->measurement);
-  std::vector<FrameReading> readings = std::move(content_->readings);
-  const Table& table = content_->table;
+/// Nothing without desks.
+std::shared_ptr<const UnitBias> learn_unit(const Desks& desks, bool is_calibrated) {
+  const bool is_seen = std::ranges::any_of(desks, [](const auto& scene) {
+    return std::ranges::any_of(scene.second, [](const DeskCells& cells) { return !cells.view().cells.empty(); });
+  });
+  return is_seen ? std::make_shared<const UnitBias>(desks, is_calibrated) : nullptr;
+}
+
+/// What the clouds say without the unit's bias.
+Measurement measured(Survey survey, std::shared_ptr<const UnitBias> unit) {
+  Measurement measurement = std::move(survey.measurement);
+  std::vector<FrameReading> readings = std::move(survey.readings);
   for (std::size_t i = 0; i < readings.size(); ++i)
     measurement.desk_sights.add(measurement.frames[i], readings[i].cells);
   std::vector<CloudPrint> prints;
   for (const FrameReading& reading : readings) prints.push_back(reading.print);
-  if (unit) readings = read_frames_of(measurement, content_->folder, table, &unit->field(), content_->quiet);
+  if (unit) readings = read_frames_of(measurement, survey.folder, survey.table, &unit->field(), survey.quiet);
   measurement.unit = std::move(unit);
-  leave_out_misplaced(table, readings, measurement);
+  leave_out_misplaced(survey.table, readings, measurement);
   Copies copies = find_copies(measurement.frames, prints);
   std::move(copies.mistakes.begin(), copies.mistakes.end(), std::back_inserter(measurement.mistakes));
   for (const auto& [key, rows] : rows_by_placement(measurement.frames, copies.left_out))
@@ -276,17 +292,67 @@ Measurement Survey::measure(std::shared_ptr<const UnitBias> unit) && {
   return measurement;
 }
 
-std::shared_ptr<const UnitBias> learn_unit(const Desks& desks, bool is_calibrated) {
-  const bool is_seen = std::ranges::any_of(desks, [](const auto& scene) {
-    return std::ranges::any_of(scene.second, [](const DeskCells& cells) { return !cells.view().cells.empty(); });
-  });
-  return is_seen ? std::make_shared<const UnitBias>(desks, is_calibrated) : nullptr;
+void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder, const LaboratoryRig& first,
+                  const std::filesystem::path& first_folder) {
+  constexpr double kSame = 1e-7;  // [SI] rig.json is written to the nanometre
+  const auto differs = [&](const std::string& path) {
+    throw Error((folder / "rig.json").string(), path,
+                fmt::format("must be as in {}: folders that are looked at together have one rig",
+                            (first_folder / "rig.json").string()));
+  };
+  if (rig.sensor_model != first.sensor_model) differs("/sensor/model");
+  if (!(rig.unit == first.unit)) differs("/sensor/unit");
+  for (const RigValue& value : kRigValues)
+    if (value.of_sensor && !(std::abs(rig.*value.of_sensor - first.*value.of_sensor) <= kSame))
+      differs(fmt::format("/sensor/{}", value.key));
+  if (!is_same_cup(rig.cup, first.cup)) differs("/cup");
+  for (const auto& [name, medium] : rig.liquids)
+    if (const auto known = first.liquids.find(name); known != first.liquids.end() && known->second != medium)
+      differs("/liquids/" + name);
+}
+
+/// The sessions of `more`, the folder of that number, follow those of `all`.
+void append(Measurement more, std::size_t folder, Measurement& all) {
+  const int sessions = sessions_of(all.frames);
+  for (FrameRecord& frame : more.frames) {
+    frame.session += sessions;
+    frame.folder = folder;
+    all.frames.push_back(std::move(frame));
+  }
+  for (Observation& observation : more.observations) {
+    observation.factors.session += sessions;
+    all.observations.push_back(std::move(observation));
+  }
+  all.desk_sights.add(more.desk_sights);
+  all.rig.liquids.insert(more.rig.liquids.begin(), more.rig.liquids.end());
+  for (std::string& note : more.notes) all.notes.push_back(std::move(note));
+  for (Mistake& mistake : more.mistakes) all.mistakes.push_back(std::move(mistake));
+}
+
+}  // namespace
+
+Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet) {
+  std::vector<Survey> surveys;
+  Desks desks;
+  int sessions = 0;
+  for (const std::filesystem::path& folder : folders) {
+    for (const std::filesystem::path& earlier : folders)
+      if (&earlier < &folder && std::filesystem::equivalent(earlier, folder))
+        throw Error(folder.string(), "is given twice, must be another measurement");
+    surveys.push_back(survey_of(folder, quiet));
+    require_same(surveys.back().measurement.rig, folder, surveys.front().measurement.rig, folders.front());
+    desks.merge(desks_of(surveys.back(), sessions));
+    sessions += sessions_of(surveys.back().measurement.frames);
+  }
+  const bool is_calibrated = surveys.front().measurement.rig.unit.map != nullptr;
+  const std::shared_ptr<const UnitBias> unit = learn_unit(desks, is_calibrated);
+  Measurement all = measured(std::move(surveys.front()), unit);
+  for (std::size_t i = 1; i < surveys.size(); ++i) append(measured(std::move(surveys[i]), unit), i, all);
+  return all;
 }
 
 Measurement read_measurement(const std::filesystem::path& folder, bool quiet) {
-  Survey survey(folder, quiet);
-  std::shared_ptr<const UnitBias> unit = learn_unit(survey.desks(), survey.rig().unit.map != nullptr);
-  return std::move(survey).measure(std::move(unit));
+  return read_measurements({&folder, 1}, quiet);
 }
 
 }  // namespace fathom

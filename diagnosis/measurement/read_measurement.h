@@ -1,10 +1,11 @@
 // A measurement directory as observations: what every placement's clouds say, over their trials.
 #pragma once
 
-#include <map>
+#include <filesystem>
 #include <memory>
+#include <span>
 
-#include "diagnosis/measurement/desk_sights.h"
+#include "diagnosis/measurement/desk_cells.h"
 #include "diagnosis/measurement/frames.h"
 #include "diagnosis/measurement/unit_bias.h"
 #include "diagnosis/statistics/evidence.h"
@@ -29,25 +30,9 @@ struct Measurement {
 /// its progress unless `quiet`.
 Measurement read_measurement(const std::filesystem::path& folder, bool quiet = true);
 
-/// The same in two steps, for several folders of one sensor. First what the clouds say with the unit's bias in them …
-class Survey {
- public:
-  Survey(const std::filesystem::path& folder, bool quiet);
-  ~Survey();
-  Survey(Survey&&) noexcept;
-
-  const LaboratoryRig& rig() const;
-  int sessions() const;  ///< the largest number and one
-  Desks desks() const;
-  /// … then what they say without. `unit` as learned from the desks of all folders.
-  Measurement measure(std::shared_ptr<const UnitBias> unit) &&;
-
- private:
-  struct Content;
-  std::unique_ptr<Content> content_;
-};
-
-/// Nothing without desks.
-std::shared_ptr<const UnitBias> learn_unit(const Desks& desks, bool is_calibrated);
+/// Reads all folders of one laboratory as one measurement: the unit's bias is learned from the desks of all, and the
+/// sessions of each folder follow those of the one before. The rig is the first folder's, with the liquids of all.
+/// Throws Error when another folder has another sensor, pose or cup, or another liquid by the same name.
+Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet = true);
 
 }  // namespace fathom

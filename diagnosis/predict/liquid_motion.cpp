@@ -9,7 +9,7 @@
 #include "core/dense.h"
 #include "core/median.h"
 #include "diagnosis/measurement/cup_regions.h"
-#include "diagnosis/measurement/variance_excess.h"
+#include "diagnosis/measurement/desk_motion.h"
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {

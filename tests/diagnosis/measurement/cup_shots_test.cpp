@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "diagnosis/measurement/joined.h"
+#include "diagnosis/measurement/read_measurement.h"
 #include "tests/diagnosis/measurement/written_measurement.h"
 
 namespace fathom {
