@@ -20,7 +20,7 @@
 #include "core/rows.h"
 #include "core/table.h"
 #include "core/units.h"
-#include "diagnosis/predict/uncertain_rig.h"
+#include "diagnosis/measurement/laboratory_rig.h"
 #include "sim/effects/effects_json.h"
 #include "sim/sensor/capture_files.h"
 
@@ -100,8 +100,8 @@ std::vector<Placement> plan(const CampaignSpec& spec, std::uint64_t seed) {
 /// What the laboratory's numbers are off by, as effects.
 Json rig_errors(const CampaignSpec& spec, std::uint64_t seed) {
   Json errors = Json::array();
-  for (std::size_t i = 0; i < kUncertainRig.size(); ++i) {
-    const UncertainValue& value = kUncertainRig[i];
+  for (std::size_t i = 0; i < std::size(kRigValues); ++i) {
+    const RigValue& value = kRigValues[i];
     const auto sigma = spec.nominal.sigma.find(value.key);
     if (sigma == spec.nominal.sigma.end()) continue;
     Rng rng(seed, Draw::rig, i);

@@ -11,7 +11,6 @@
 #include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/measurement/named_values.h"
 #include "diagnosis/measurement/sensed_frame.h"
-#include "diagnosis/predict/uncertain_rig.h"
 
 namespace fathom {
 namespace {
@@ -23,7 +22,7 @@ std::string with_default(const std::string& key) {
   if (key == "placement_sigma_mm") return fmt::format("{} {:g}", key, mm_from_metres(usual.placement_sigma_m));
   if (key == "session_mm") return fmt::format("{} {:g}", key, mm_from_metres(usual.session_m));
   if (key == "session_deg") return fmt::format("{} {:.3g}", key, deg_from_radians(usual.session_rad));
-  for (const UncertainValue& value : kUncertainRig)
+  for (const RigValue& value : kRigValues)
     if (key == value.key) return fmt::format("{} {:g}", key, value.usual_sigma);
   return key;
 }

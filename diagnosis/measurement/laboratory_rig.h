@@ -44,19 +44,23 @@ struct LaboratoryRig {
   std::map<std::string, double> sigma;  ///< 1 σ of the value of that key, in the key's unit, e.g. "height_mm" → 0.5
 };
 
-/// A value of the rig whose standard deviation a laboratory may state.
+/// A value of the rig whose standard deviation a laboratory may state. An effect with one parameter, in the same unit,
+/// moves it.
 struct RigValue {
   const char* key;
   double usual_sigma;                ///< in the key's unit, where none is stated
   double LaboratoryRig::*of_sensor;  ///< null: the cup's
+  const char *effect, *parameter;
+  bool is_pose;  ///< set up anew for each session
 };
-inline constexpr RigValue kRigValues[] = {{"height_mm", 0.5, &LaboratoryRig::height_m},
-                                          {"pitch_deg", 0.05, &LaboratoryRig::pitch_rad},
-                                          {"roll_deg", 0.05, &LaboratoryRig::roll_rad},
-                                          {"baseline_mm", 0.05, &LaboratoryRig::baseline_m},
-                                          {"focal_px", 0.4, &LaboratoryRig::focal_px},
-                                          {"disparity_offset_px", 0.02, &LaboratoryRig::disparity_offset_px},
-                                          {"bottom_mm", 0.1, nullptr}};
+inline constexpr RigValue kRigValues[] = {
+    {"height_mm", 0.5, &LaboratoryRig::height_m, "sensor_height", "height_mm", true},
+    {"pitch_deg", 0.05, &LaboratoryRig::pitch_rad, "sensor_pitch", "pitch_deg", true},
+    {"roll_deg", 0.05, &LaboratoryRig::roll_rad, "sensor_roll", "roll_deg", true},
+    {"baseline_mm", 0.05, &LaboratoryRig::baseline_m, "baseline", "baseline_mm", false},
+    {"focal_px", 0.4, &LaboratoryRig::focal_px, "focal_length", "focal_px", false},
+    {"disparity_offset_px", 0.02, &LaboratoryRig::disparity_offset_px, "disparity_offset", "offset_px", false},
+    {"bottom_mm", 0.1, nullptr, "cup_bottom_height", "height_mm", false}};
 
 /// The shape of a cup of scenes/cups; nothing where that has no such cup. Throws Error when its file is wrong.
 std::optional<CupProfile> library_cup(const std::string& name);

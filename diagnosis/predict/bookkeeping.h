@@ -6,7 +6,7 @@
 namespace fathom {
 
 /// Puts fills in another unit ("unit_error") and liquids whose labels were exchanged in a session ("label_swap") right
-/// where the heights then fit far better, leaves out pours that are none of what they are called (odd_pours.h), and
+/// where the heights then fit far better, leaves out pours that are none of what they are called ("wrong_pour"), and
 /// adds that to the mistakes. `model_effects` and `file` as of Predictor.
 void put_bookkeeping_right(const Json& model_effects, const std::string& file, Measurement& measurement);
 

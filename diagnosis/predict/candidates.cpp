@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "diagnosis/predict/slope.h"
 #include "diagnosis/statistics/evidence.h"
 #include "diagnosis/statistics/groups.h"
 #include "sim/effects/registry.h"

@@ -1,4 +1,5 @@
-// Direct light in an upright opaque cup, in closed form: what a camera's ray sees there, and the projector's way to it.
+// Direct light in and on an upright opaque cup, in closed form: what a camera's ray sees there, and the projector's way
+// to it.
 #pragma once
 
 #include <optional>
@@ -60,6 +61,11 @@ struct LitPoint {
 
 /// Nothing where the ray meets a wall, or the projector's light does before it gets there.
 std::optional<LitPoint> look_into(const CupOptics& cup, const Ray& camera_ray, const Eigen::Vector3d& projector);
+
+/// The outer wall or, through the opening, the inner one above the `surface` of what stands in the cup, if anything
+/// does. Nothing where a ray from the camera meets anything else, or where the projector's light does not come.
+std::optional<LitPoint> look_at_wall(const CupBody& cup, const LiquidTop* surface, const Ray& camera_ray,
+                                     const Eigen::Vector3d& projector);
 
 /// Whether the straight way from a point of the desk to a source passes the cup.
 bool is_hidden(const CupBody& cup, const Eigen::Vector3d& on_desk, const Eigen::Vector3d& source);

@@ -18,18 +18,16 @@
 namespace fathom {
 namespace {
 
-/// Which observations of an observable have the same error.
-enum class SharedBy {
-  all,
-  region,
-  session,
-  place,
-  place_region,
-  liquid,
-  liquid_region,
-  filling,
-  condition,
-  condition_region
+/// What observations of an observable have in common that have the same error.
+enum SharedBy : unsigned {
+  kAllShare = 0,
+  kSameRegion = 1,
+  kSameSession = 2,
+  kSamePlace = 4,
+  kSameLiquid = 8,
+  kSameFill = 16,
+  kSameFilling = kSameLiquid | kSameFill,
+  kSameCondition = kSameFilling | kSamePlace
 };
 
 /// What few rays and direct light leave out of an observable, in its unit. Of heights, walls and the desk's plane these
@@ -41,42 +39,41 @@ enum class SharedBy {
 struct ModelError {
   std::string_view observable;
   double sigma;
-  SharedBy shared_by;
+  unsigned shared_by;      ///< of SharedBy
   double of_pixels = 0.0;  ///< of a mean of so many, and more of fewer; 0: of all alike
 };
 constexpr double kOfWalls_px = 1000.0;
 constexpr std::array kModelErrors{
-    ModelError{"height_mm", 0.05, SharedBy::all}, ModelError{"height_mm", 0.07, SharedBy::liquid_region},
-    ModelError{"height_mm", 0.06, SharedBy::place}, ModelError{"height_mm", 0.085, SharedBy::place_region},
-    ModelError{"height_mm", 0.09, SharedBy::condition}, ModelError{"height_mm", 0.14, SharedBy::condition_region},
-    ModelError{"content_shape_mm", 0.11, SharedBy::region},
-    ModelError{"content_shape_mm", 0.17, SharedBy::liquid_region},  // 0.20, less the 0.1 by which placements scatter
-    ModelError{"cup_x_mm", 0.13, SharedBy::all}, ModelError{"cup_x_mm", 0.10, SharedBy::place, kOfWalls_px},
-    ModelError{"cup_x_mm", 0.06, SharedBy::condition, kOfWalls_px}, ModelError{"cup_y_mm", 0.68, SharedBy::all},
-    ModelError{"cup_y_mm", 0.12, SharedBy::place, kOfWalls_px},
-    ModelError{"cup_y_mm", 0.03, SharedBy::condition, kOfWalls_px},
-    ModelError{"cup_radius_mm", 0.30, SharedBy::all},  // cups are round and straight to some tenths of a millimetre
-    ModelError{"cup_radius_mm", 0.07, SharedBy::place, kOfWalls_px},
-    ModelError{"cup_radius_mm", 0.03, SharedBy::condition, kOfWalls_px},
-    ModelError{"desk_height_mm", 0.05, SharedBy::all},  // beside a plane of bias, which is a nuisance
-    ModelError{"desk_height_mm", 0.003, SharedBy::condition}, ModelError{"desk_pitch_deg", 0.026, SharedBy::all},
-    ModelError{"desk_pitch_deg", 0.002, SharedBy::condition}, ModelError{"desk_roll_deg", 0.010, SharedBy::all},
-    ModelError{"desk_roll_deg", 0.003, SharedBy::condition},
-    ModelError{"desk_residual_mm", 0.10, SharedBy::region},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
-    ModelError{"log_brightness", 0.30, SharedBy::all},       // nobody wrote down albedos; walls light the bottom
-    ModelError{"log_brightness", 0.50, SharedBy::liquid},    // what scatters has an albedo of its own
-    ModelError{"log_brightness", 0.05, SharedBy::place},     // vignetting, and what of the inside is seen
-    ModelError{"log_brightness", 0.05, SharedBy::condition},
+    ModelError{"height_mm", 0.05, kAllShare}, ModelError{"height_mm", 0.07, kSameLiquid | kSameRegion},
+    ModelError{"height_mm", 0.06, kSamePlace}, ModelError{"height_mm", 0.085, kSamePlace | kSameRegion},
+    ModelError{"height_mm", 0.09, kSameCondition}, ModelError{"height_mm", 0.14, kSameCondition | kSameRegion},
+    ModelError{"content_shape_mm", 0.11, kSameRegion},
+    ModelError{"content_shape_mm", 0.17, kSameLiquid | kSameRegion},  // 0.20, less the 0.1 by which placements scatter
+    ModelError{"cup_x_mm", 0.13, kAllShare}, ModelError{"cup_x_mm", 0.10, kSamePlace, kOfWalls_px},
+    ModelError{"cup_x_mm", 0.06, kSameCondition, kOfWalls_px}, ModelError{"cup_y_mm", 0.68, kAllShare},
+    ModelError{"cup_y_mm", 0.12, kSamePlace, kOfWalls_px}, ModelError{"cup_y_mm", 0.03, kSameCondition, kOfWalls_px},
+    ModelError{"cup_radius_mm", 0.30, kAllShare},  // cups are round and straight to some tenths of a millimetre
+    ModelError{"cup_radius_mm", 0.07, kSamePlace, kOfWalls_px},
+    ModelError{"cup_radius_mm", 0.03, kSameCondition, kOfWalls_px},
+    ModelError{"desk_height_mm", 0.05, kAllShare},  // beside a plane of bias, which is a nuisance
+    ModelError{"desk_height_mm", 0.003, kSameCondition}, ModelError{"desk_pitch_deg", 0.026, kAllShare},
+    ModelError{"desk_pitch_deg", 0.002, kSameCondition}, ModelError{"desk_roll_deg", 0.010, kAllShare},
+    ModelError{"desk_roll_deg", 0.003, kSameCondition},
+    ModelError{"desk_residual_mm", 0.10, kSameRegion},  // a matcher's bias by place; a Kinect has -0.3 to 0.7 mm
+    ModelError{"log_brightness", 0.30, kAllShare},      // nobody wrote down albedos; walls light the bottom
+    ModelError{"log_brightness", 0.50, kSameLiquid},    // what scatters has an albedo of its own
+    ModelError{"log_brightness", 0.05, kSamePlace},     // vignetting, and what of the inside is seen
+    ModelError{"log_brightness", 0.05, kSameCondition},
     // Walls light a bottom of their own colour evenly: of its dots' contrast three quarters are left
     // (detector/content_signs.h).
-    ModelError{"log_ir_contrast", 0.30, SharedBy::all}, ModelError{"log_ir_contrast", 0.10, SharedBy::filling},
-    ModelError{"log_ir_contrast", 0.05, SharedBy::place}, ModelError{"log_ir_contrast", 0.15, SharedBy::condition},
+    ModelError{"log_ir_contrast", 0.30, kAllShare}, ModelError{"log_ir_contrast", 0.10, kSameFilling},
+    ModelError{"log_ir_contrast", 0.05, kSamePlace}, ModelError{"log_ir_contrast", 0.15, kSameCondition},
     // Smooth errors of a frame, a quarter of a step of 1/8 px over 40 px, lift and turn a fitted desk by so much.
-    ModelError{"desk_wander_mm", 0.05, SharedBy::all}, ModelError{"desk_pitch_motion_deg", 0.01, SharedBy::all},
-    ModelError{"desk_roll_motion_deg", 0.02, SharedBy::all}, ModelError{"liquid_motion_mm", 0.05, SharedBy::all},
-    ModelError{"comb_strength", 0.10, SharedBy::session},  // depths are no even mixture of steps
-    ModelError{"comb_quarter", 0.05, SharedBy::session},   // what teeth a desk's own codes have
-    ModelError{"comb_half", 0.05, SharedBy::session}, ModelError{"millimetre_comb", 0.02, SharedBy::all}};
+    ModelError{"desk_wander_mm", 0.05, kAllShare}, ModelError{"desk_pitch_motion_deg", 0.01, kAllShare},
+    ModelError{"desk_roll_motion_deg", 0.02, kAllShare}, ModelError{"liquid_motion_mm", 0.05, kAllShare},
+    ModelError{"comb_strength", 0.10, kSameSession},  // depths are no even mixture of steps
+    ModelError{"comb_quarter", 0.05, kSameSession},   // what teeth a desk's own codes have
+    ModelError{"comb_half", 0.05, kSameSession}, ModelError{"millimetre_comb", 0.02, kAllShare}};
 
 /// The same of an effect, above clear liquids or everywhere.
 struct EffectError {
@@ -93,48 +90,27 @@ struct EffectError {
 /// matcher's. What windows of a device's width do so is in the errors above.
 constexpr double kUsualWindows = (kDeviceWindow_px - kNoWindow_px) / 8.0;  // px, over a typical departure
 constexpr std::array kEffectErrors{
-    EffectError{"foam", {"height_mm", 0.3, SharedBy::liquid_region}},     // the same holes at each pour, …
-    EffectError{"foam", {"height_mm", 0.3, SharedBy::place_region}},      // … seen from elsewhere, …
-    EffectError{"foam", {"height_mm", 0.3, SharedBy::condition_region}},  // … by other dots
-    EffectError{"foam", {"liquid_motion_mm", 0.3, SharedBy::liquid}},
-    EffectError{"foam", {"log_ir_contrast", 0.5, SharedBy::filling}},  // bubbles scatter
-    EffectError{
-        "ripples", {"log_ir_contrast", 0.3, SharedBy::filling}, 0.0},  // as lenses do, waves gather and spread dots
-    EffectError{"ripples", {"log_brightness", 0.08, SharedBy::filling}, 0.0},
-    EffectError{"ripples", {"liquid_motion_mm", 0.15, SharedBy::liquid}, 0.0},
-    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::place_region}, kUsualWindows, true},
-    EffectError{"window_averaging", {"height_mm", 0.12, SharedBy::condition_region}, kUsualWindows, true},
-    EffectError{"window_averaging", {"cup_x_mm", 0.4, SharedBy::condition}, kUsualWindows, true},
-    EffectError{"window_averaging", {"cup_y_mm", 0.4, SharedBy::condition}, kUsualWindows, true},
-    EffectError{"window_averaging", {"cup_radius_mm", 0.4, SharedBy::condition}, kUsualWindows, true}};
+    EffectError{"foam", {"height_mm", 0.3, kSameLiquid | kSameRegion}},     // the same holes at each pour, …
+    EffectError{"foam", {"height_mm", 0.3, kSamePlace | kSameRegion}},      // … seen from elsewhere, …
+    EffectError{"foam", {"height_mm", 0.3, kSameCondition | kSameRegion}},  // … by other dots
+    EffectError{"foam", {"liquid_motion_mm", 0.3, kSameLiquid}},
+    EffectError{"foam", {"log_ir_contrast", 0.5, kSameFilling}},          // bubbles scatter
+    EffectError{"ripples", {"log_ir_contrast", 0.3, kSameFilling}, 0.0},  // as lenses do, waves gather and spread dots
+    EffectError{"ripples", {"log_brightness", 0.08, kSameFilling}, 0.0},
+    EffectError{"ripples", {"liquid_motion_mm", 0.15, kSameLiquid}, 0.0},
+    EffectError{"window_averaging", {"height_mm", 0.12, kSamePlace | kSameRegion}, kUsualWindows, true},
+    EffectError{"window_averaging", {"height_mm", 0.12, kSameCondition | kSameRegion}, kUsualWindows, true},
+    EffectError{"window_averaging", {"cup_x_mm", 0.4, kSameCondition}, kUsualWindows, true},
+    EffectError{"window_averaging", {"cup_y_mm", 0.4, kSameCondition}, kUsualWindows, true},
+    EffectError{"window_averaging", {"cup_radius_mm", 0.4, kSameCondition}, kUsualWindows, true}};
 
-std::string shared_key(const Observation& observation, SharedBy shared_by) {
+/// Never empty: that would be no group.
+std::string shared_key(const Observation& observation, unsigned shared_by) {
   const Factors& f = observation.factors;
-  const std::string place = fmt::format("({:g}, {:g}) mm", f.lateral_mm, f.distance_mm);
-  const std::string condition = fmt::format("{}, {:g} mm, at {}", f.liquid, f.fill_mm, place);
-  switch (shared_by) {
-    case SharedBy::all:
-      return "all";
-    case SharedBy::region:
-      return f.region;
-    case SharedBy::session:
-      return fmt::format("{}", f.session);
-    case SharedBy::place:
-      return place;
-    case SharedBy::place_region:
-      return f.region + " at " + place;
-    case SharedBy::liquid:
-      return f.liquid;
-    case SharedBy::liquid_region:
-      return f.region + " of " + f.liquid;
-    case SharedBy::filling:
-      return fmt::format("{}, {:g} mm", f.liquid, f.fill_mm);
-    case SharedBy::condition:
-      return condition;
-    case SharedBy::condition_region:
-      return f.region + " of " + condition;
-  }
-  return {};
+  const auto part = [&](SharedBy what, const std::string& key) { return shared_by & what ? key : std::string(); };
+  return fmt::format("={}/{}/{}/{}/{}", part(kSameRegion, f.region), part(kSameSession, session_key(observation)),
+                     part(kSamePlace, fmt::format("{:g}, {:g}", f.lateral_mm, f.distance_mm)),
+                     part(kSameLiquid, f.liquid), part(kSameFill, fmt::format("{:g}", f.fill_mm)));
 }
 
 /// Told from how trials scatter, not from rays.
@@ -179,7 +155,7 @@ std::vector<SharedError> errors_of_views(const std::vector<Observation>& observa
   const double ahead = rig.height_m / std::max(std::tan(rig.pitch_rad), kFlattest);
   Groups parts = group_by(observations, [](const Observation& o) {
     if (o.observable != "desk_height_mm") return std::string();
-    return session_key(o) + " " + (has_cup(o.factors) ? shared_key(o, SharedBy::place) : "bare desk");
+    return session_key(o) + " " + (has_cup(o.factors) ? shared_key(o, kSamePlace) : "bare desk");
   });
   if (parts.count > 0)
     errors.push_back({"desk_height_mm", std::move(parts.of), mm_from_metres(ahead * slope / height)});
@@ -199,8 +175,7 @@ std::vector<SharedError> model_errors(const std::vector<Observation>& observatio
   for (const ModelError& error : kModelErrors) {
     Groups groups = groups_of(error, observations);
     if (groups.count == 0) continue;
-    const bool is_by_condition =
-        error.shared_by == SharedBy::condition || error.shared_by == SharedBy::condition_region;
+    const bool is_by_condition = (error.shared_by & kSameCondition) == kSameCondition;
     errors.push_back(
         {std::string(error.observable), std::move(groups.of), error.sigma, error.of_pixels, is_by_condition});
   }

@@ -9,16 +9,10 @@
 
 #include "core/units.h"
 #include "diagnosis/measurement/cup_in_sight.h"
-#include "diagnosis/predict/slope.h"
-#include "diagnosis/predict/uncertain_rig.h"
 #include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {
-
-std::vector<std::size_t> all_conditions(const Predictor& predictor) {
-  return conditions_where(predictor, [](const Factors&) { return true; });
-}
 
 /// Only those conditions' part of a sensitivity.
 Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& sensitivity,
@@ -45,12 +39,12 @@ void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<
 
 void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
   const std::map<std::string, double>& sigmas = predictor.model().laboratory.sigma;
-  for (const UncertainValue& value : kUncertainRig) {
+  for (const RigValue& value : kRigValues) {
     const auto given = sigmas.find(value.key);
     const double sigma = given != sigmas.end() ? given->second : value.usual_sigma;
     if (sigma <= 0.0) continue;
     const auto at = [&](double x) { return switch_on({{value.effect, {x}}}); };
-    const Nuisance nuisance{value.key, sigma, slope(predictor, at, -sigma, sigma, all_conditions(predictor))};
+    const Nuisance nuisance{value.key, sigma, slope(predictor, at, -sigma, sigma, predictor.all_conditions())};
     nuisances.push_back(nuisance);
     if (value.is_pose) add_sessions(predictor, nuisance, nuisances);
   }
@@ -124,7 +118,7 @@ Nuisance usual_windows(const Predictor& predictor) {
   constexpr double kWidth_px = kDeviceWindow_px - kNoWindow_px;
   const auto at = [](double x) { return switch_on({{"window_averaging", {x}}}); };
   return {"matching window", 0.5,
-          kWidth_px * slope(predictor, at, kNoWindow_px, kDeviceWindow_px, all_conditions(predictor))};
+          kWidth_px * slope(predictor, at, kNoWindow_px, kDeviceWindow_px, predictor.all_conditions())};
 }
 
 double left_to_usual_windows(const std::vector<EffectValue>& effects) {

@@ -5,7 +5,7 @@
 
 namespace fathom {
 
-/// The rig's uncertain values (1 σ from the rig, else from uncertain_rig.h), the sensor's pose in each session where
+/// The rig's uncertain values (1 σ from the rig, else the usual of kRigValues), the sensor's pose in each session where
 /// there are several, the fill of every pour, and the place of every placement.
 std::vector<Nuisance> nuisances_of(const Predictor& predictor);
 

@@ -1,18 +1,19 @@
 #include "diagnosis/predict/predictor.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
-#include "diagnosis/predict/desk_of_rays.h"
-#include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/groups.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 
@@ -80,6 +81,47 @@ double pitch_of_wander_deg(double height_mm, const Plane& desk) {
                           (desk.offset * down));
 }
 
+/// The desk of a few rays, as far as it is no plane: what a unit's bias would be learned from. The points' disparities
+/// off their own plane, between pixels bilinear.
+DeskError desk_of_rays(std::span<const SensedPoint> desk, const LaboratoryRig& rig) {
+  constexpr double kAcross_px = kImageWidth_px / kDeskColumns, kDown_px = kImageHeight_px / kDeskRows;
+  const auto place = [](int column, int row) { return static_cast<std::size_t>(row) * kDeskColumns + column; };
+  const double of_inverse = rig.focal_px * rig.baseline_m;
+  Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const auto sight = [](const SensedPoint& p) { return Eigen::Vector3d(p.point.cast<double>() / p.point.z()); };
+  for (const SensedPoint& p : desk) {
+    normal += sight(p) * sight(p).transpose();
+    right += sight(p) * of_inverse / static_cast<double>(p.point.z());
+  }
+  const Eigen::Vector3d plane = normal.ldlt().solve(right);
+  // On the raster of the rays; NaN where no desk is seen.
+  std::vector<double> errors_px(static_cast<std::size_t>(kDeskColumns) * kDeskRows,
+                                std::numeric_limits<double>::quiet_NaN());
+  for (const SensedPoint& p : desk) {
+    const Eigen::Vector2d pixel = bias_point(p.point, rig).pixel_px;
+    const int column = std::clamp(static_cast<int>(pixel.x() / kAcross_px), 0, kDeskColumns - 1),
+              row = std::clamp(static_cast<int>(pixel.y() / kDown_px), 0, kDeskRows - 1);
+    errors_px[place(column, row)] = of_inverse / p.point.z() - plane.dot(sight(p));
+  }
+  return [errors_px = std::move(errors_px), place](const BiasCell& cell) -> std::optional<double> {
+    const double x = cell.column_px / kAcross_px - 0.5, y = cell.row_px / kDown_px - 0.5;
+    const int left = std::clamp(static_cast<int>(std::floor(x)), 0, kDeskColumns - 2),
+              top = std::clamp(static_cast<int>(std::floor(y)), 0, kDeskRows - 2);
+    double sum = 0.0, weights = 0.0;
+    for (int row = top; row <= top + 1; ++row)
+      for (int column = left; column <= left + 1; ++column) {
+        const double error = errors_px[place(column, row)];
+        if (std::isnan(error)) continue;
+        const double weight = std::max(1.0 - std::abs(x - column), 0.0) * std::max(1.0 - std::abs(y - row), 0.0) + 1e-6;
+        sum += weight * error;
+        weights += weight;
+      }
+    if (weights == 0.0) return std::nullopt;
+    return sum / weights;
+  };
+}
+
 }  // namespace
 
 Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects,
@@ -131,7 +173,7 @@ BiasField Predictor::bias_by(const Change& change) const {
     const Condition& condition = conditions_[i];
     const SurrogateFrame frame =
         surrogate_points(setup(condition, change), model_.laboratory, condition.pixels, condition.nominal.get());
-    desks[session] = DeskOfRays(frame.desk, model_.laboratory);
+    desks[session] = desk_of_rays(frame.desk, model_.laboratory);
   }
   return unit_->learn(desks);
 }
@@ -414,6 +456,29 @@ Change switch_on(const std::vector<EffectValue>& effects) {
             for (const On& on : switched) on.effect->apply(setup, {on.values, on.liquid});
           },
           of_time};
+}
+
+std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < predictor.conditions().size(); ++i)
+    if (is(predictor.conditions()[i].factors)) found.push_back(i);
+  return found;
+}
+
+std::vector<std::size_t> conditions_touched(const Predictor& predictor, const Effect& effect,
+                                            const std::string& liquid) {
+  return conditions_where(predictor, [&](const Factors& f) {
+    return liquid.empty() ? !effect.of_liquids || has_liquid(f) : f.liquid == liquid;
+  });
+}
+
+Eigen::VectorXd slope(const Predictor& predictor, const std::function<Change(double)>& at, double low, double high,
+                      const std::vector<std::size_t>& conditions) {
+  Eigen::VectorXd difference =
+      (predictor.predict(at(high), conditions) - predictor.predict(at(low), conditions)) / (high - low);
+  for (double& value : difference)
+    if (!std::isfinite(value)) value = 0.0;
+  return difference;
 }
 
 }  // namespace fathom

@@ -83,6 +83,7 @@ class Predictor {
   void keep(const std::vector<bool>& kept);
 
   const std::vector<Condition>& conditions() const { return conditions_; }
+  std::vector<std::size_t> all_conditions() const;  ///< their indices
   const NominalModel& model() const { return model_; }
 
  private:
@@ -107,7 +108,6 @@ class Predictor {
   /// Where some change leaves every session's desk as it is, nominal_bias_; else `own`.
   const BiasField* bias_of(const Change& change, BiasField& own) const;
   Eigen::VectorXd predict_from(const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const;
-  std::vector<std::size_t> all_conditions() const;
   std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;
   double value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const;
   /// Rows of conditions that are alike.
@@ -135,5 +135,18 @@ FrameView view_of(const Factors& factors);
 /// Switches effects on, each named as by EffectName. Values outside their bounds are taken at the bound. Throws
 /// Error on an unknown id.
 Change switch_on(const std::vector<EffectValue>& effects);
+
+/// Indices of the predictor's conditions.
+std::vector<std::size_t> conditions_where(const Predictor& predictor, const std::function<bool(const Factors&)>& is);
+
+/// Those that an effect (named as by EffectName) can change: of one of liquids, the ones with a liquid, or with its
+/// own.
+std::vector<std::size_t> conditions_touched(const Predictor& predictor, const Effect& effect,
+                                            const std::string& liquid);
+
+/// Change per unit of every observation between the set-ups with `low` and `high` of a quantity, in those conditions;
+/// the same rays look at both. 0 elsewhere, and where either sees nothing.
+Eigen::VectorXd slope(const Predictor& predictor, const std::function<Change(double)>& at, double low, double high,
+                      const std::vector<std::size_t>& conditions);
 
 }  // namespace fathom

@@ -9,7 +9,6 @@
 #include "core/estimate.h"
 #include "core/units.h"
 #include "diagnosis/measurement/named_values.h"
-#include "diagnosis/predict/cup_walls.h"
 #include "diagnosis/predict/turbid_dots.h"
 #include "theory/raised_bottom.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/rng.h"
-#include "diagnosis/predict/slope.h"
 #include "diagnosis/ray_traced/frame.h"
 #include "diagnosis/statistics/evidence.h"
 #include "sim/effects/registry.h"
