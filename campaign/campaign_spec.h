@@ -41,6 +41,11 @@ struct CampaignSpec {
   double deepest_fill() const { return cup.height() - cup.bottom(); }
 };
 
+/// What a laboratory would write down about a simulated sensor and cup: the rig without any liquids. A measurement
+/// directory names its sensor's model and cannot say that the sensor looks aside: throws Error, as coming from `file`,
+/// when the rig has no model or a yaw.
+LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string& file);
+
 /// Throws Error naming file, path, what is wrong and what is allowed.
 CampaignSpec read_campaign_spec(const std::filesystem::path& path);
 

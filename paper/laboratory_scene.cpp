@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "campaign/nominal_rig.h"
+#include "campaign/campaign_spec.h"
 
 namespace fathom {
 namespace {
