@@ -2,13 +2,20 @@
 // that a matcher makes of it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "diagnosis/predict/predictor.h"
 
 namespace fathom {
+
+/// The cloud of a set-up by the whole simulated camera: infrared image, matcher, depth. The points are those of two
+/// shots of one scene, each half a pixel of its cloud. The light is that of a measurement (measured_light), the unit
+/// one without wander. Equal seeds give equal noise, so that set-ups that differ a little differ in nothing else.
+std::vector<SensedPoint> ray_traced_points(const Setup& setup, std::uint64_t seed);
 
 /// A prior scale off nominal.
 EffectValue typical_departure(const Candidate& candidate);

@@ -17,8 +17,9 @@ struct RayTracedDiagnosis {
   std::size_t not_traced = 0;             ///< sets that would have taken too long
 };
 
-/// Decides again, with predictions of whole frames for what is and for the sets that few rays left (plan.h). The same
-/// for any number of threads.
+/// Decides again, with predictions of whole frames for what is and for the sets that few rays left: the named one, each
+/// effect that lets in light, and the likeliest of the ambiguity set, as far as time allows. The same for any number of
+/// threads.
 RayTracedDiagnosis ray_traced_diagnosis(const Physics& physics, const Diagnosis& by_few_rays, const Designs& designs,
                                         const DecisionSettings& settings, bool quiet);
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "diagnosis/measurement/cup_regions.h"
-#include "diagnosis/ray_traced/frame.h"
 #include "diagnosis/ray_traced/traced_evidence.h"
 #include "tests/diagnosis/predict/paper_laboratory.h"
 
