@@ -1,6 +1,5 @@
 #include "diagnosis/decision/decide.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -53,20 +52,17 @@ std::optional<Refit> sure_fit(const Case& c, const Posterior& posterior, const s
     if (probability_of(best.effects[e], posterior.options, kinds) > kSure) sure.push_back(e);
   if (sure.empty()) return std::nullopt;
   const Hypothesis part = part_of(c.problem, {best.effects, best.parameters}, sure);
-  const auto known = std::find_if(posterior.fits.begin(), posterior.fits.end(),
-                                  [&](const Refit& fit) { return fit.hypothesis.effects == part.effects; });
-  const Refit fit =
-      known != posterior.fits.end() ? *known : refit(c.evidence, c.predict, c.covariance, c.problem, part);
+  const Refit* known = find_fit(posterior.fits, part.effects);
+  const Refit fit = known ? *known : refit(c.evidence, c.predict, c.covariance, c.problem, part);
   return with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
 }
 
 /// The fit of what stands first in the set; of no effects, where that has no fit.
 Refit first_fit(const Case& c, const Posterior& posterior, const AmbiguitySet& set) {
   for (const Option& option : set.classes.front().options)
-    for (const Refit& fit : posterior.fits)
-      if (fit.hypothesis.effects == option.effects)
-        return with_differences(c.evidence, c.predict, c.covariance, c.problem, fit);
-  return posterior.fit_of({});
+    if (const Refit* fit = find_fit(posterior.fits, option.effects))
+      return with_differences(c.evidence, c.predict, c.covariance, c.problem, *fit);
+  return *find_fit(posterior.fits, {});
 }
 
 /// What effects leave of the residual, with whatever changes of their parameters would make taken out.
@@ -112,7 +108,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
   const bool is_unknown = needs_unknown(shares);
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
-  const Refit& fit = sure ? *sure : posterior.fit_of({});
+  const Refit& fit = sure ? *sure : *find_fit(posterior.fits, {});
   const Rest rest = rest_of(c, fit);
   // What the likeliest explanation makes of sessions is no excess, even if others could stand for it.
   const Rest likely = rest_of(c, first_fit(c, posterior, set));

@@ -148,21 +148,8 @@ Json json_from(const Gap& gap) {
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::none:
-      return "none";
-    case Verdict::named:
-      return "named";
-    case Verdict::ambiguous:
-      return "ambiguous";
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::named_and_unknown:
-      return "named+unknown";
-    case Verdict::insufficient:
-      return "insufficient";
-  }
-  return {};
+  constexpr std::string_view kNames[] = {"none", "named", "ambiguous", "unknown", "named+unknown", "insufficient"};
+  return kNames[static_cast<int>(verdict)];
 }
 
 Json json_from(const Diagnosis& diagnosis) {

@@ -5,20 +5,23 @@
 #include <vector>
 
 #include "diagnosis/decision/diagnosis.h"
+#include "diagnosis/decision/held_out.h"
 #include "diagnosis/statistics/case.h"
 #include "diagnosis/statistics/refit.h"
 
 namespace fathom {
 
-/// The observable whose differences are a gap's size: heights in cups; where there are none, the sensor's above the
-/// desk.
-std::string compared_height(const std::vector<Observation>& observations);
-
-/// Of some observations' differences before and after, and of their errors' variance.
-GapSize gap_size(const Eigen::VectorXd& before, const Eigen::VectorXd& after, const Eigen::VectorXd& variance,
-                 const std::vector<Eigen::Index>& rows);
-
 /// Before: as predicted. After: with the effects, and with nuisances as the (other) data want them within their priors.
 void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis);
+
+/// The heights of one level of one factor: whether effects that were fitted at some distances, or to some liquids, hold
+/// at another.
+struct LeftOutLevel {
+  std::string stratum;  ///< "distance_mm=400"
+  GapSize gap;          ///< after: predicted by a fit to all other levels
+};
+
+/// Each liquid and each distance in turn, where the effects are seen at the others as well.
+std::vector<LeftOutLevel> left_out_levels(const Evidence& evidence, const LinearFit& fit);
 
 }  // namespace fathom

@@ -58,6 +58,29 @@ void for_each_fold(const LinearFit& fit, const std::vector<int>& folds, const Us
 
 }  // namespace
 
+LinearFit linear_fit(const Covariance& covariance, const Problem& problem, const Refit& fit) {
+  const auto unwhitened = [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd {
+    if (x.cols() == 0) return x;  // Eigen's product would look at its first number
+    return covariance.factor.matrixL() * x;
+  };
+  LinearFit linear{covariance, {}, {}, {}, {}};
+  const Leeway leeway = leeway_beside(problem, fit.hypothesis.effects, fit.hypothesis.parameters);
+  if (leeway.along.cols() > 0) {
+    const Eigen::MatrixXd own = unwhitened(leeway.along * leeway.variance.cwiseSqrt().asDiagonal());
+    linear.covariance.total += own * own.transpose();
+    linear.covariance.factor.compute(linear.covariance.total);
+  }
+  linear.jacobian = unwhitened(fit.jacobian);
+  linear.residual = unwhitened(problem.residual - fit.change + fit.jacobian * fit.hypothesis.parameters);
+  linear.prior = prior_precisions(fit.hypothesis.parameters);
+  Eigen::Index first = 0;
+  for (const int effect : fit.hypothesis.effects) {
+    linear.columns.emplace_back();
+    for (std::size_t k = 0; k < problem.columns[effect].size(); ++k) linear.columns.back().push_back(first++);
+  }
+  return linear;
+}
+
 std::vector<int> deal_folds(const std::vector<Observation>& observations, std::uint64_t seed) {
   Groups units = group_by(observations, pour_key);
   const bool has_desk = std::any_of(units.of.begin(), units.of.end(), [](int unit) { return unit < 0; });

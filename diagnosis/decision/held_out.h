@@ -5,10 +5,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "diagnosis/decision/linear_fit.h"
 #include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/refit.h"
 
 namespace fathom {
+
+/// A set of effects at its fit, as a linear model of the observations, not whitened: residual ≈ jacobian · parameters +
+/// errors.
+struct LinearFit {
+  Covariance covariance;  ///< of errors, and of what comes with the effects and nobody predicts
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;                        ///< per prior scale
+  Eigen::VectorXd prior;                           ///< precision of each parameter
+  std::vector<std::vector<Eigen::Index>> columns;  ///< of each effect
+};
+
+LinearFit linear_fit(const Covariance& covariance, const Problem& problem, const Refit& fit);
 
 inline constexpr int kFolds = 6;
 

@@ -10,6 +10,7 @@
 
 #include "core/median.h"
 #include "diagnosis/statistics/groups.h"
+#include "diagnosis/statistics/problem.h"
 
 namespace fathom {
 
@@ -18,12 +19,6 @@ namespace {
 constexpr double kFarBetter = 3.0;    // ratio of the heights' residuals: most of them is gone
 constexpr double kOtherCup_mm = 4.0;  // shift of one pour against the others: no error of filling
 constexpr std::size_t kFewestTwins = 4;
-
-Eigen::VectorXd residual(const Evidence& evidence) {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(evidence.observations.size()));
-  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = evidence.observations[i].value - evidence.predicted[i];
-  return result;
-}
 
 void check_unit(const Evidence& evidence, std::vector<std::string>& warnings) {
   std::vector<double> ratios;
@@ -117,7 +112,7 @@ void check_swapped(const Evidence& evidence, std::vector<std::string>& warnings)
 }
 
 void check_other_cup(const Evidence& evidence, std::vector<std::string>& warnings) {
-  const Eigen::VectorXd off = residual(evidence);
+  const Eigen::VectorXd off = measured_minus_predicted(evidence);
   const Groups pours = group_by(evidence.observations, [](const Observation& o) {
     return o.observable == "height_mm" ? pour_key(o) : std::string();
   });
@@ -142,7 +137,7 @@ void check_other_cup(const Evidence& evidence, std::vector<std::string>& warning
 /// Such clouds have the same axes, but begin where the colour camera is; their points keep their depths.
 void check_colour_view(const Evidence& evidence, std::vector<std::string>& warnings) {
   constexpr double kColourCamera_mm = 25.0, kByHand_mm = 3.0;  // of Carmine, Xtion and Kinect; a place's error
-  const Eigen::VectorXd off = residual(evidence);
+  const Eigen::VectorXd off = measured_minus_predicted(evidence);
   const auto median_of = [&](std::string_view observable) -> std::optional<double> {
     std::vector<double> values;
     for (Eigen::Index i = 0; i < off.size(); ++i)

@@ -6,7 +6,6 @@
 
 #include "core/dense.h"
 #include "diagnosis/decision/held_out.h"
-#include "diagnosis/decision/linear_fit.h"
 #include "diagnosis/statistics/distributions.h"
 
 namespace fathom {

@@ -8,7 +8,6 @@
 
 #include "core/dense.h"
 #include "diagnosis/decision/explanations.h"
-#include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/leeway.h"
 #include "diagnosis/statistics/problem.h"
 #include "diagnosis/statistics/shared_errors.h"
@@ -48,29 +47,12 @@ class RepeatVariances {
   std::map<std::pair<std::string, std::string>, Mean> means_;
 };
 
-/// The same component in other observations.
+/// The same component in other observations; of the model's errors nothing (see model_variances()).
 VarianceComponent component_in(const std::vector<Observation>& observations, VarianceComponent component) {
-  int row = 0;
   component.scale = component.level == ErrorLevel::observation
                         ? relative_errors(observations)
                         : Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
-  component.groups = group_by(observations, [&](const Observation& o) {
-    ++row;
-    if (o.observable != component.observable) return std::string();
-    switch (component.level) {
-      case ErrorLevel::observation:
-        return std::to_string(row);
-      case ErrorLevel::placement:
-        return placement_key(o);
-      case ErrorLevel::pour:
-        return pour_key(o);
-      case ErrorLevel::session:
-        return session_key(o);
-      case ErrorLevel::model:  // see model_variances()
-        break;
-    }
-    return std::string();
-  });
+  component.groups = groups_of(component.level, component.observable, observations);
   return component;
 }
 

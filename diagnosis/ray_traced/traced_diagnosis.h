@@ -2,7 +2,7 @@
 #pragma once
 
 #include "diagnosis/decision/decide.h"
-#include "diagnosis/decision/left_out.h"
+#include "diagnosis/decision/gap_size.h"
 #include "diagnosis/predict/physics.h"
 #include "diagnosis/ray_traced/traced_evidence.h"
 

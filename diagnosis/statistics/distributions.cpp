@@ -28,10 +28,6 @@ double normal_quantile(double p) {
   return bm::quantile(bm::complement(bm::normal_distribution<double, Quiet>(), in_range(p)));
 }
 
-double student_tail(double t, double dof) {
-  return bm::cdf(bm::complement(bm::students_t_distribution<double, Quiet>(dof), t));
-}
-
 double student_quantile(double p, double dof) {
   return bm::quantile(bm::complement(bm::students_t_distribution<double, Quiet>(dof), in_range(p)));
 }

@@ -10,9 +10,9 @@ namespace fathom {
 double normal_tail(double z);
 /// The z that a standard normal exceeds with probability `p`; p below 1e-300 is taken as that.
 double normal_quantile(double p);
-/// Probability that Student's t of `dof` degrees of freedom exceeds `t`.
-double student_tail(double t, double dof);
+/// The t that Student's t of `dof` degrees of freedom exceeds with probability `p`.
 double student_quantile(double p, double dof);
+/// Probability that χ² of `dof` degrees of freedom exceeds `x`.
 double chi_squared_tail(double x, double dof);
 /// The standard normal |z| with the tail that Student's |t| of `dof` degrees of freedom has (Wallace 1959; within 0.03
 /// from 5 degrees of freedom and up to |t| = 6).

@@ -58,10 +58,6 @@ Refit fitted(const Case& c, const Hypothesis& hypothesis) {
   return with_variances(c, refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
 }
 
-bool is_known(const std::vector<Refit>& fits, const std::vector<int>& effects) {
-  return std::any_of(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == effects; });
-}
-
 Hypothesis without_effect(const Problem& problem, const Hypothesis& whole, std::size_t left_out) {
   std::vector<std::size_t> others;
   for (std::size_t e = 0; e < whole.effects.size(); ++e)
@@ -77,7 +73,7 @@ void add_without_one(const Case& c, std::vector<Refit>& fits) {
     if (likeliest.effects.size() < 2) return;
     for (std::size_t left_out = 0; left_out < likeliest.effects.size(); ++left_out) {
       const Hypothesis less = without_effect(c.problem, likeliest, left_out);
-      if (!is_known(fits, less.effects)) fits.push_back(fitted(c, less));
+      if (!find_fit(fits, less.effects)) fits.push_back(fitted(c, less));
     }
     sort_by_evidence(fits);
     is_better = fits.front().hypothesis.effects != likeliest.effects;
@@ -114,7 +110,7 @@ void add_confusable(const Case& c, std::vector<Refit>& fits) {
   std::stable_sort(alike.begin(), alike.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   if (alike.size() > kMost) alike.erase(alike.begin() + kMost, alike.end());
   for (const auto& [cosine, hypothesis] : alike)
-    if (!is_known(fits, hypothesis.effects)) fits.push_back(fitted(c, hypothesis));
+    if (!find_fit(fits, hypothesis.effects)) fits.push_back(fitted(c, hypothesis));
   sort_by_evidence(fits);
 }
 
@@ -196,7 +192,7 @@ Option with_nothing_of(const Case& c, int effect, const Refit& fit) {
 void keep_unfitted(const Problem& problem, const std::vector<Refit>& fits, std::vector<Refit>& sets) {
   const std::vector<int> gone = vanished(problem, fits);
   std::erase_if(sets, [&](const Refit& set) {
-    return holds_any(set.hypothesis.effects, gone) || is_known(fits, set.hypothesis.effects);
+    return holds_any(set.hypothesis.effects, gone) || find_fit(fits, set.hypothesis.effects);
   });
 }
 
@@ -235,8 +231,10 @@ void add_unfitted(const Case& c, const std::vector<Refit>& sets, const std::vect
 
 }  // namespace
 
-const Refit& Posterior::fit_of(const std::vector<int>& effects) const {
-  return *std::find_if(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == effects; });
+const Refit* find_fit(const std::vector<Refit>& fits, const std::vector<int>& effects) {
+  const auto found =
+      std::find_if(fits.begin(), fits.end(), [&](const Refit& f) { return f.hypothesis.effects == effects; });
+  return found == fits.end() ? nullptr : &*found;
 }
 
 Posterior posterior_of(const Case& c) {
@@ -249,7 +247,7 @@ Posterior posterior_of(const Case& c) {
     beside.insert(posterior.fits[k].hypothesis.effects);
   for (const Hypothesis& h : screened_beside_unknown(c)) {
     beside.insert(h.effects);
-    if (!is_known(posterior.fits, h.effects)) posterior.fits.push_back(fitted(c, h));
+    if (!find_fit(posterior.fits, h.effects)) posterior.fits.push_back(fitted(c, h));
   }
   sort_by_evidence(posterior.fits);
   keep_unfitted(c.problem, posterior.fits, sets);

@@ -14,10 +14,10 @@ namespace fathom {
 struct Posterior {
   std::vector<Option> options;
   std::vector<Refit> fits;  ///< likeliest first, that of no effects among them
-
-  /// The fit of these effects; there must be one.
-  const Refit& fit_of(const std::vector<int>& effects) const;
 };
+
+/// The fit of these effects; null where there is none.
+const Refit* find_fit(const std::vector<Refit>& fits, const std::vector<int>& effects);
 
 /// Sets of up to four effects by their sensitivities; the likeliest fitted with the model itself; each fit alone and
 /// beside a discrepancy; and what was not worth a fit but is not excluded.

@@ -26,10 +26,20 @@ Eigen::VectorXd standard_errors(const Eigen::MatrixXd& jacobian) {
 /// The model with some effects on, in whitened units.
 class Model {
  public:
-  Model(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const std::vector<int>& effects)
-      : evidence_(evidence), predict_(predict), covariance_(covariance), effects_(effects) {}
+  Model(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
+        const std::vector<int>& effects)
+      : evidence_(evidence),
+        predict_(predict),
+        covariance_(covariance),
+        effects_(effects),
+        lower_(problem.lower(columns_of(problem, effects))),
+        upper_(problem.upper(columns_of(problem, effects))) {}
 
-  Eigen::VectorXd change(const Eigen::VectorXd& parameters) {
+  /// The parameters' bounds.
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
+
+  Eigen::VectorXd change(const Eigen::VectorXd& parameters) const {
     std::vector<EffectValue> values;
     Eigen::Index next = 0;
     for (const int effect : effects_) {
@@ -38,7 +48,6 @@ class Model {
       for (const Parameter& parameter : candidate.parameters)
         values.back().values.push_back(parameter.nominal + parameter.prior_scale * parameters[next++]);
     }
-    ++predictions_;
     return covariance_.whiten(predict_(values) - evidence_.predicted);
   }
 
@@ -47,22 +56,20 @@ class Model {
   /// by being there than by how much there is of them. What goes in steps answers to no small difference: its slope is
   /// the chord from where it is absent.
   Eigen::MatrixXd differences(const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
-                              const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& lower,
-                              const Eigen::VectorXd& upper) {
+                              const Eigen::MatrixXd& jacobian) const {
     Eigen::MatrixXd slopes(change_at.size(), at.size());
-    for (Eigen::Index k = 0; k < at.size(); ++k) slopes.col(k) = difference(k, at, change_at, jacobian, lower, upper);
+    for (Eigen::Index k = 0; k < at.size(); ++k) slopes.col(k) = difference(k, at, change_at, jacobian);
     return slopes;
   }
 
   /// The same of one parameter.
   Eigen::VectorXd difference(Eigen::Index k, const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
-                             const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& lower,
-                             const Eigen::VectorXd& upper) {
+                             const Eigen::MatrixXd& jacobian) const {
     const double step = std::max(standard_errors(jacobian)[k], kDifference);
-    double low = std::max(at[k] - step, lower[k]), high = std::min(at[k] + step, upper[k]);
+    double low = std::max(at[k] - step, lower_[k]), high = std::min(at[k] + step, upper_[k]);
     if (low <= 0.0 && at[k] > 0.0) low = at[k];
     if (high >= 0.0 && at[k] < 0.0) high = at[k];
-    if (low == high) (low > lower[k] ? low -= kDifference : high += kDifference);  // at a bound or next to absence
+    if (low == high) (low > lower_[k] ? low -= kDifference : high += kDifference);  // at a bound or next to absence
     Eigen::VectorXd moved = at;
     moved[k] = high;
     Eigen::VectorXd slope = high == at[k] ? change_at : change(moved);
@@ -74,14 +81,12 @@ class Model {
     return (change_at - change(moved)) / at[k];
   }
 
-  int predictions() const { return predictions_; }
-
  private:
   const Evidence& evidence_;
   const Predict& predict_;
   const Covariance& covariance_;
   std::vector<int> effects_;
-  int predictions_ = 0;
+  Eigen::VectorXd lower_, upper_;
 };
 
 /// Slopes do not know that some effects, such as foam, are all there as soon as there is any of them: a step towards
@@ -96,9 +101,8 @@ Eigen::VectorXd without_switching_off(const Eigen::VectorXd& from, Eigen::Vector
 
 Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& covariance, const Problem& problem,
             const Hypothesis& start) {
-  Model model(evidence, predict, covariance, start.effects);
+  const Model model(evidence, predict, covariance, problem, start.effects);
   const std::vector<Eigen::Index> columns = columns_of(problem, start.effects);
-  const Eigen::VectorXd lower = problem.lower(columns), upper = problem.upper(columns);
   const auto objective = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& change) {
     const Leeway leeway = leeway_beside(problem, start.effects, x);
     return leeway.whiten(problem.residual - change).squaredNorm() + leeway.log_det + prior_penalty(x);
@@ -108,7 +112,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   double value = objective(x, change), damping = 0.0;
   // What changes nothing where its effect is absent, such as the time of a warm-up, may change something here.
   for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
-    if (jacobian.col(k).isZero(0.0)) jacobian.col(k) = model.difference(k, x, change, jacobian, lower, upper);
+    if (jacobian.col(k).isZero(0.0)) jacobian.col(k) = model.difference(k, x, change, jacobian);
   bool is_differenced = false;
   for (int step = 0; step < kSteps; ++step) {
     const Leeway leeway = leeway_beside(problem, start.effects, x);
@@ -117,7 +121,8 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
     const Eigen::VectorXd prior = prior_precisions(x);
     const Eigen::VectorXd b = slopes.transpose() * leeway.whiten(problem.residual - change) - prior.cwiseProduct(x);
     G.diagonal() = G.diagonal() * (1.0 + damping) + prior;
-    const Eigen::VectorXd move = without_switching_off(x, box_least_squares(G, b, lower - x, upper - x));
+    const Eigen::VectorXd move =
+        without_switching_off(x, box_least_squares(G, b, model.lower() - x, model.upper() - x));
     if (move.isZero(1e-9)) break;
     const Eigen::VectorXd next_change = model.change(x + move);
     const double next_value = objective(x + move, next_change);
@@ -132,7 +137,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
     } else if (next_value - value < kEnough) {
       break;
     } else if (!is_differenced) {
-      jacobian = model.differences(x, change, jacobian, lower, upper);
+      jacobian = model.differences(x, change, jacobian);
       is_differenced = true;
     } else {
       damping = std::max(4.0 * damping, 1e-2);
@@ -140,11 +145,8 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
   }
   // What is there as a whole as soon as there is any of it answers to its amount otherwise than to its beginning.
   const Eigen::VectorXd straight = problem.sensitivities(Eigen::all, columns) * x;
-  if ((change - straight).norm() > kBent * change.norm())
-    jacobian = model.differences(x, change, jacobian, lower, upper);
-  Refit fit = weighed(problem, start.effects, x, std::move(change), std::move(jacobian));
-  fit.predictions = model.predictions();
-  return fit;
+  if ((change - straight).norm() > kBent * change.norm()) jacobian = model.differences(x, change, jacobian);
+  return weighed(problem, start.effects, x, std::move(change), std::move(jacobian));
 }
 
 Refit weighed(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters,
@@ -162,11 +164,8 @@ Refit weighed(const Problem& problem, const std::vector<int>& effects, const Eig
 
 Refit with_differences(const Evidence& evidence, const Predict& predict, const Covariance& covariance,
                        const Problem& problem, Refit fit) {
-  Model model(evidence, predict, covariance, fit.hypothesis.effects);
-  const std::vector<Eigen::Index> columns = columns_of(problem, fit.hypothesis.effects);
-  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.change, fit.jacobian, problem.lower(columns),
-                                   problem.upper(columns));
-  fit.predictions += model.predictions();
+  const Model model(evidence, predict, covariance, problem, fit.hypothesis.effects);
+  fit.jacobian = model.differences(fit.hypothesis.parameters, fit.change, fit.jacobian);
   return fit;
 }
 

@@ -13,7 +13,6 @@ struct Refit {
   Eigen::VectorXd change;      ///< the same without
   Eigen::VectorXd rest;        ///< what it leaves, in units of errors and leeway together
   Eigen::MatrixXd jacobian;    ///< of it, whitened, n × parameters in prior scales
-  int predictions = 0;         ///< asked for
 };
 
 /// Levenberg and Marquardt's method within the bounds, from the linear solution; nuisances are free within their priors

@@ -21,23 +21,16 @@ std::vector<VarianceComponent> candidates_of(const std::string& observable,
                                              const std::vector<Observation>& observations) {
   const Eigen::VectorXd alike = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(observations.size()));
   std::vector<VarianceComponent> result;
-  const auto add = [&](ErrorLevel level, const std::function<std::string(const Observation&)>& key) {
-    int row = 0;
-    Groups groups = group_by(observations, [&](const Observation& o) {
-      ++row;
-      if (o.observable != observable) return std::string();
-      return level == ErrorLevel::observation ? std::to_string(row) : key(o);
-    });
+  for (const ErrorLevel level :
+       {ErrorLevel::observation, ErrorLevel::placement, ErrorLevel::pour, ErrorLevel::session}) {
+    if (level == ErrorLevel::pour && observable.starts_with("desk_")) continue;  // what is poured moves no desk
+    Groups groups = groups_of(level, observable, observations);
     if (!result.empty() && result.back().groups.count == groups.count)
       result.back().coarsest = level;
     else if (groups.count >= 2)
       result.push_back({observable, level, level, 0.0, std::move(groups),
                         level == ErrorLevel::observation ? relative_errors(observations) : alike});
-  };
-  add(ErrorLevel::observation, cell_key);
-  add(ErrorLevel::placement, placement_key);
-  if (!observable.starts_with("desk_")) add(ErrorLevel::pour, pour_key);  // what is poured moves no desk
-  add(ErrorLevel::session, session_key);
+  }
   return result;
 }
 
@@ -150,19 +143,29 @@ void fit_unrepeated(const Evidence& evidence, const std::vector<Eigen::Index>& r
 }  // namespace
 
 std::string name_of(ErrorLevel level) {
-  switch (level) {
-    case ErrorLevel::observation:
-      return "observation";
-    case ErrorLevel::placement:
-      return "placement";
-    case ErrorLevel::pour:
-      return "pour";
-    case ErrorLevel::session:
-      return "session";
-    case ErrorLevel::model:
-      return "model";
-  }
-  return {};
+  constexpr const char* kNames[] = {"observation", "placement", "pour", "session", "model"};
+  return kNames[static_cast<int>(level)];
+}
+
+Groups groups_of(ErrorLevel level, const std::string& observable, const std::vector<Observation>& observations) {
+  int row = 0;
+  return group_by(observations, [&](const Observation& o) {
+    ++row;
+    if (o.observable != observable) return std::string();
+    switch (level) {
+      case ErrorLevel::observation:
+        return std::to_string(row);
+      case ErrorLevel::placement:
+        return placement_key(o);
+      case ErrorLevel::pour:
+        return pour_key(o);
+      case ErrorLevel::session:
+        return session_key(o);
+      case ErrorLevel::model:
+        break;
+    }
+    return std::string();
+  });
 }
 
 Eigen::MatrixXd columns_of(const VarianceComponent& component) {

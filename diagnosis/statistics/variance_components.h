@@ -15,6 +15,9 @@ namespace fathom {
 enum class ErrorLevel { observation, placement, pour, session, model };
 std::string name_of(ErrorLevel level);
 
+/// Which observations of an observable share an error of that level; none of the model's, whose groups evidence names.
+Groups groups_of(ErrorLevel level, const std::string& observable, const std::vector<Observation>& observations);
+
 /// A random error that is shared by all observations of one observable in a group.
 struct VarianceComponent {
   std::string observable;

@@ -131,23 +131,14 @@ Eigen::MatrixXd ViewSums::gram(int state, int first, int count) const {
   return gram / noise_;
 }
 
-void ViewSums::add_planes(const View& view, Eigen::MatrixXd& planes, double& weight) const {
-  planes += view.own_projected.leftCols(kOfPlane);
-  weight += view.weight.sum();
-}
-
-Eigen::MatrixXd ViewSums::planes(int state) const {
+Eigen::MatrixXd ViewSums::planes(std::optional<int> state) const {
   Eigen::MatrixXd planes = Eigen::MatrixXd::Zero(2 * cosines_.size(), kOfPlane);
   double weight = 1e-12;
-  for (const View& view : views_)
-    if (view.state == state) add_planes(view, planes, weight);
-  return planes / weight;
-}
-
-Eigen::MatrixXd ViewSums::planes() const {
-  Eigen::MatrixXd planes = Eigen::MatrixXd::Zero(2 * cosines_.size(), kOfPlane);
-  double weight = 1e-12;
-  for (const View& view : views_) add_planes(view, planes, weight);
+  for (const View& view : views_) {
+    if (state && view.state != *state) continue;
+    planes += view.own_projected.leftCols(kOfPlane);
+    weight += view.weight.sum();
+  }
   return planes / weight;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,9 @@ class ViewSums {
   Eigen::VectorXd field(std::size_t view, const Eigen::VectorXd& factors) const;
   /// N⁻¹ values.
   Eigen::VectorXd whitened(std::size_t view, const Eigen::VectorXd& values) const;
-  /// Mean of the field times 1, column and row over all cells (of a state, or of all views): three columns.
-  Eigen::MatrixXd planes(int state) const;
-  Eigen::MatrixXd planes() const;
+  /// Mean of the field times 1, column and row over all cells of a state's views, without one of all views: three
+  /// columns.
+  Eigen::MatrixXd planes(std::optional<int> state = {}) const;
 
   // For the prior.
   const Eigen::VectorXd& weight(std::size_t view) const { return views_[view].weight; }
@@ -57,7 +58,6 @@ class ViewSums {
     Eigen::LLT<Eigen::MatrixXd> eliminated;  ///< of own_gram and what is thought of the steps
   };
   Eigen::VectorXd from_rows(const Eigen::MatrixXd& sums) const;
-  void add_planes(const View& view, Eigen::MatrixXd& planes, double& weight) const;
 
   Cosines cosines_;
   double noise_, steps_;  ///< [px²]
