@@ -18,9 +18,10 @@ Evidence deciding_evidence(const Evidence& evidence, const std::vector<Eigen::In
 /// The same rows of what `predict` says.
 Predict predict_rows(const Predict& predict, const std::vector<Eigen::Index>& rows);
 
-/// Of a diagnosis by all observations and one by those that decide: the first where it is `none` or `insufficient`,
-/// where the second finds a gap too, and where what the first finds has a name. Otherwise the second; observables that
-/// depart all the same are listed in `beside`. `deciding`: the rows of the second.
+/// Of a diagnosis by all observations and one by those that decide. The first where it is `none` or `named`, or the
+/// second `insufficient`; where it finds something unknown, if the second does too; where it is `ambiguous`, unless the
+/// second is `none`. Otherwise the second, with the first's residuals of the other observations and what of these
+/// departs all the same in `beside`. `deciding`: the rows of the second.
 Diagnosis joined_tiers(Diagnosis by_all, Diagnosis by_deciding, const Evidence& evidence,
                        const std::vector<Eigen::Index>& deciding);
 

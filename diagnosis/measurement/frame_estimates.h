@@ -39,7 +39,7 @@ struct SensedPoint {
 /// Mean over points.
 struct RegionEstimate {
   double mean = 0.0, sd = 0.0;
-  double weight = 0.0;  ///< points
+  double weight = 0.0;  ///< sum of the points' weights [pixels]
 };
 
 /// Mean disparity off the fitted desk's [px], of bands of 40 rows and of 40 columns of the image, and of its thirds.

@@ -16,13 +16,13 @@ inline constexpr std::string_view kUnitPattern = "bias of the unit, pattern";
 /// place of the cup.
 std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vector<Observation>& observations);
 
-/// Width over which disparities are as good as averaged, in pixels of the depth image: where nothing is, and by a
-/// device. A device's blocks are 9 pixels wide; dots' own width and the images' gradients make 12 of them
+/// Widths of the window, in pixels of the depth image, over which disparities are as good as averaged: none, and a
+/// device's. A device's blocks are 9 pixels wide; dots' own width and the images' gradients make 12 of them
 /// (bench/matching_window.py, on surfaces that bend as gently as a bottom under water).
 inline constexpr double kNoWindow_px = 1.0, kDeviceWindow_px = 12.0;
 
-/// What a device's windows change, and half of it, by which clouds that have averaged over them and clouds that have
-/// not both lie beside what is in the middle of the two.
+/// What windows of a device's width change, with a σ of half of it: predictions are to lie in the middle, 1 σ from
+/// clouds that have averaged over such windows and 1 σ from clouds that have not.
 Nuisance usual_windows(const Predictor& predictor);
 
 /// How much of that middle is left where effects may say how wide windows are: 1 to 0.

@@ -105,7 +105,8 @@ class Predictor {
   void find_desks();
   /// What would be learned of a unit without bias, were its desks as this change makes them.
   BiasField bias_by(const Change& change) const;
-  /// Where some change leaves every session's desk as it is, nominal_bias_; else `own`.
+  /// The same, or nominal_bias_ where the change leaves every session's desk as it is; null without a unit. `own` holds
+  /// what is not nominal.
   const BiasField* bias_of(const Change& change, BiasField& own) const;
   Eigen::VectorXd predict_from(const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const;
   std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;

@@ -47,9 +47,8 @@ struct AmbiguitySet {
 std::set<int> kinds_of(const Option& option, const std::vector<int>& kinds);
 
 /// Options within `delta` of the best log posterior; probabilities are shared among them. Those whose predictions
-/// differ by less than one σ of all the data together are aliased, of one class. Supersets of an option (other than
-/// none) that are no likelier go with it; one with something unknown besides does until it is likelier by more than
-/// `doubt_of_unknown`, a log of odds.
+/// differ by less than one σ of all the data together are aliased, of one class. A superset of a non-empty option joins
+/// its class unless it is likelier; one with something unknown must be likelier by `doubt_of_unknown`, a log of odds.
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta,
                            double doubt_of_unknown = 0.0);
 

@@ -71,8 +71,8 @@ struct Parameter {
 /// What comes with an effect and nobody can predict (statistics/leeway.h).
 struct OwnErrors {
   Eigen::MatrixXd columns{};  ///< observations × errors, 1 σ each
-  /// Variances go with the first parameter. Up to this many typical departures there are none, one beyond they are
-  /// these. Empty: they are these at any size.
+  /// The variance is max(0, |first parameter| − grow_from) times that of `columns`, in typical departures; empty: 1
+  /// times.
   std::optional<double> grow_from{};
 };
 

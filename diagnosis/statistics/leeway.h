@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-/// Beside the unit variance of whitened residuals, which stays as it is across the columns of `along`.
+/// Variance along some directions, on top of the unit variance that whitened residuals have in all.
 struct Leeway {
   Eigen::MatrixXd along;               ///< n × k, orthonormal; no columns: none
   Eigen::VectorXd variance;            ///< along each

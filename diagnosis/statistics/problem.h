@@ -18,8 +18,7 @@ struct Problem {
   std::vector<std::vector<Eigen::Index>> columns;  ///< of each candidate
   std::vector<double> log_odds;                    ///< of each candidate, before anything is measured
   std::vector<Leeway> leeways;                     ///< of each candidate
-  /// Of each candidate those that are the same effect, in one liquid instead of all or in all instead of one: both
-  /// together say no more than that it differs from liquid to liquid, which those of one liquid do.
+  /// Of each candidate, for "id" every "id@liquid", and the reverse. No set holds both.
   std::vector<std::vector<int>> said_by;
 };
 
@@ -36,10 +35,10 @@ bool holds_any(const std::vector<int>& effects, const std::vector<int>& others);
 /// Whether an effect beside others is one of them, or the same in fewer liquids or more.
 bool is_said(const Problem& problem, const std::vector<int>& effects, int effect);
 
-/// Which of several candidates, at least one, has the widest leeway: that stands for all of theirs.
+/// The effect with the widest leeway, of at least one. A set gets the widest leeway of its effects, not their sum.
 int widest_leeway(const Problem& problem, const std::vector<int>& effects);
 
-/// The same of those of which there is any: what is not there brings nothing with it.
+/// The widest leeway among effects whose parameters are not all 0, each at its size.
 Leeway leeway_beside(const Problem& problem, const std::vector<int>& effects, const Eigen::VectorXd& parameters);
 
 /// A set of effects that may be what the model lacks.
@@ -57,13 +56,12 @@ Hypothesis part_of(const Problem& problem, const Hypothesis& whole, const std::v
 Hypothesis with_effect(const Problem& problem, const Hypothesis& part, int effect, const Eigen::VectorXd& parameters);
 
 /// Laplace's log evidence: the parameters' prior below, and one effect expected among all candidates, shared out by
-/// their plausibility. `gram`:
-/// parameters × parameters, of the whitened jacobian.
+/// their plausibility. `gram`: parameters × parameters, of the whitened jacobian.
 double log_evidence(const Problem& problem, double gain, const std::vector<int>& effects,
                     const Eigen::VectorXd& parameters, const Eigen::MatrixXd& gram);
 
-/// What one parameter costs there, −2 log: the wider its prior beside what the data tell, of `information` in squared
-/// prior scales, the more.
+/// What Laplace's integral takes off for one parameter, −2 log: log(1 + w² information), w the width of the normal that
+/// is as high as the prior at its peak; `information` is the data's, per squared prior scale.
 double parameter_cost(double information);
 
 /// −2 log of the prior density, from its peak: Cauchy, three typical departures wide, for each parameter. What is

@@ -26,8 +26,8 @@ class BiasLearner {
   BiasField learn(std::span<const Eigen::VectorXd> errors_px) const;
   /// Of the errors that the views hold.
   BiasField learn() const;
-  /// Errors of each view's cells times the inverse of their covariance, in which are the bias, a plane of each view and
-  /// the cells' own errors. Of a prior without states.
+  /// The inverse of the covariance of all cells' errors, times `errors_px`: in the covariance are the bias, each view's
+  /// plane, of any size, its steps of columns and the cells' own errors. Of a prior without states.
   std::vector<Eigen::VectorXd> weighted(std::span<const Eigen::VectorXd> errors_px) const;
   /// Of the errors that the views hold.
   std::vector<Eigen::VectorXd> weighted() const { return weighted(errors_); }
