@@ -308,7 +308,7 @@ void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder,
   if (!is_same_cup(rig.cup, first.cup)) differs("/cup");
   for (const auto& [name, medium] : rig.liquids)
     if (const auto known = first.liquids.find(name); known != first.liquids.end() && known->second != medium)
-      differs("/liquids/" + name);
+      differs(fmt::format("/liquids/{}", name));
 }
 
 /// The sessions of `more`, the folder of that number, follow those of `all`.

@@ -155,7 +155,7 @@ std::vector<SharedError> errors_of_views(const std::vector<Observation>& observa
   const double ahead = rig.height_m / std::max(std::tan(rig.pitch_rad), kFlattest);
   Groups parts = group_by(observations, [](const Observation& o) {
     if (o.observable != "desk_height_mm") return std::string();
-    return session_key(o) + " " + (has_cup(o.factors) ? shared_key(o, kSamePlace) : "bare desk");
+    return has_cup(o.factors) ? shared_key(o, kSameSession | kSamePlace) : session_key(o);
   });
   if (parts.count > 0)
     errors.push_back({"desk_height_mm", std::move(parts.of), mm_from_metres(ahead * slope / height)});
