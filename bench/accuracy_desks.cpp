@@ -3,7 +3,6 @@
 #include <array>
 
 #include "bench/accuracy.h"
-#include "bench/comparison.h"
 #include "bench/desk_noise.h"
 #include "bench/measured_desks.h"
 #include "bench/sensor_scenes.h"

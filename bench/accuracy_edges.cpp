@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "bench/accuracy.h"
-#include "bench/comparison.h"
 #include "bench/sensor_scenes.h"
 #include "core/units.h"
 #include "tests/core/temporary_folder.h"
@@ -43,17 +42,11 @@ EdgeFigures edges_of(const Image<float>& depth, double nearer_than, int first_ro
     shadow += gap;
     edge.push_back(right);
   }
-  const double n = static_cast<double>(edge.size());
-  double mean = 0.0, moment = 0.0, squares = 0.0, variance = 0.0;
-  for (const double x : edge) mean += x / n;
-  for (std::size_t i = 0; i < edge.size(); ++i) {
-    const double row = static_cast<double>(i) - 0.5 * (n - 1.0);
-    moment += row * edge[i], squares += row * row;
-  }
-  for (std::size_t i = 0; i < edge.size(); ++i) {
-    const double row = static_cast<double>(i) - 0.5 * (n - 1.0);
-    variance += std::pow(edge[i] - mean - moment / squares * row, 2.0) / (n - 2.0);
-  }
+  const Eigen::Map<const Eigen::ArrayXd> x(edge.data(), static_cast<Eigen::Index>(edge.size()));
+  const double n = static_cast<double>(edge.size()), half = 0.5 * (n - 1.0);
+  const Eigen::ArrayXd row = Eigen::ArrayXd::LinSpaced(x.size(), -half, half);
+  const double slope = (row * x).sum() / row.square().sum();
+  const double variance = (x - x.mean() - slope * row).square().sum() / (n - 2.0);
   return {shadow / n, std::sqrt(variance)};
 }
 

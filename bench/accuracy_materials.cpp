@@ -5,9 +5,7 @@
 
 #include "bench/accuracy.h"
 #include "bench/bench_scene.h"
-#include "bench/comparison.h"
 #include "bench/sensor_scenes.h"
-#include "bench/temporal_noise.h"
 #include "core/units.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/render/gltf_slab.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bench/accuracy.h"
-#include "bench/comparison.h"
 #include "bench/measured_desks.h"
 #include "bench/sensor_scenes.h"
 #include "core/units.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "bench/accuracy.h"
-#include "bench/comparison.h"
 #include "bench/desk_noise.h"
 #include "bench/sensor_scenes.h"
 #include "core/units.h"

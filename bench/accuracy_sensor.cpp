@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "bench/accuracy.h"
-#include "bench/comparison.h"
 #include "core/input_policy.h"
 
 namespace fathom {

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "bench/accuracy.h"
-#include "bench/comparison.h"
 #include "bench/sensor_scenes.h"
-#include "bench/temporal_noise.h"
 #include "core/units.h"
 
 namespace fathom {

@@ -7,7 +7,6 @@
 
 #include "bench/accuracy.h"
 #include "bench/bench_scene.h"
-#include "bench/comparison.h"
 #include "core/estimate.h"
 #include "core/units.h"
 

@@ -6,7 +6,6 @@ namespace fathom {
 void register_geometric();
 void register_photometric();
 void register_light();
-void register_convergence();
 void register_match();
 void register_detect();
 void register_generate();

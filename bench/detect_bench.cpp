@@ -10,6 +10,7 @@
 
 #include "bench/bench_scene.h"
 #include "bench/benchmark_groups.h"
+#include "bench/measure.h"
 #include "bench/pcl_pipeline.h"
 #include "core/files.h"
 #include "detector/detector.h"
@@ -46,15 +47,10 @@ Cloud cluttered_cloud() {
 void add_cloud(const std::string& name, Cloud cloud, const std::shared_ptr<const DetectorSettings>& settings) {
   const auto shared = std::make_shared<const Cloud>(std::move(cloud));
   const auto add = [&](std::string_view side, auto work) {
-    return benchmark::RegisterBenchmark(fmt::format("detect/{}/{}", name, side).c_str(),
-                                        [work](benchmark::State& state) {
-                                          const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
-                                                                        1);
-                                          for (auto _ : state) benchmark::DoNotOptimize(work());
-                                        })
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    return register_timed(fmt::format("detect/{}/{}", name, side), [work](benchmark::State& state) {
+      const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+      for (auto _ : state) benchmark::DoNotOptimize(work());
+    });
   };
   for (const char* name_of_method : {"robust", "paper", "sac-ia"}) {
     const Method& method = method_named(name_of_method);

@@ -5,9 +5,9 @@
   bench/device_campaigns.py build/release/app/fathom --nulls 12 --mode photometric -o out/device_photometric
 
 Prints one row a campaign and counts with Clopper–Pearson intervals. Campaigns whose report is in the
-folder already are not run again; a folder of other options is refused.
+folder already are not run again; a folder of other options is refused. Needs Debian's python3-scipy.
 """
-import argparse, json, math, pathlib, shutil, subprocess, sys
+import argparse, json, pathlib, shutil, subprocess, sys
 
 SENSORS = ("xtion_pro_live_device", "kinect_v1_device")
 PAINT = {"index": 1.336, "absorption_per_mm": 0.003, "scattering_per_mm": 1000}
@@ -61,17 +61,9 @@ def require_same_options(args):
 
 
 def interval(k, n):
-    """Clopper and Pearson, by bisection of the binomial's tails."""
-    def tail(p, at_least):
-        terms = range(k, n + 1) if at_least else range(0, k + 1)
-        return sum(math.comb(n, i) * p**i * (1 - p) ** (n - i) for i in terms)
-    def solve(at_least):
-        low, high = 0.0, 1.0
-        for _ in range(60):
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if (tail(middle, at_least) > 0.025) == at_least else (middle, high)
-        return 0.5 * (low + high)
-    return (0.0 if k == 0 else solve(True)), (1.0 if k == n else solve(False))
+    """Clopper and Pearson's at 95 %."""
+    from scipy.stats import beta
+    return (0.0 if k == 0 else beta.ppf(0.025, k, n - k + 1)), (1.0 if k == n else beta.ppf(0.975, k + 1, n - k))
 
 
 def share(what, k, n):

@@ -77,10 +77,6 @@ void register_generate() {
   const auto alone = std::make_shared<Generated>("geometric", "direct", kGeometric);
   measure_alone("generate/geometric_one_thread", 0.0, [alone] { alone->make(); });
 
-  struct Yardstick {
-    BenchScene scene{paper_water()};
-    EmbreeLoop embree{scene.geometry};
-  };
   const auto yardstick = std::make_shared<const Yardstick>();
   Recording rays = record_camera_rays(yardstick->scene.world, yardstick->scene.setup.rig, kSamplesAcross);
   const auto shared = std::make_shared<const Recording>(rays);

@@ -43,13 +43,13 @@ struct Case {
   }
 };
 
-/// Over the pixels that see a cup or a liquid: of the images root mean squares [DN], of the disparities that are
-/// matched in them median deviations [px], as those of a Gaussian.
+/// Standard deviations of one image, over the pixels that see a cup or a liquid: of the infrared image by root mean
+/// squares [DN], of the disparities that are matched in it by medians [px], scaled to what they are of a Gaussian.
 struct Noise {
-  double of_walks;   ///< what another seed of the walks changes, as the deviation of one image
-  double of_sensor;  ///< the same for another speckle, and shot noise, read noise and rounding from the sensor's model
-  double of_walks_px;  ///< of disparity
-  double of_sensor_px;
+  double of_walks;      ///< by another seed of the walks
+  double of_sensor;     ///< by another speckle; shot noise, read noise and rounding as the sensor's model states them
+  double of_walks_px;   ///< by another seed of the walks, all else equal
+  double of_sensor_px;  ///< by another speckle, shot noise and read noise
 };
 
 /// Median deviation of what two images of disparities differ by, where both have one, as the deviation of one image.

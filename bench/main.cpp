@@ -18,11 +18,10 @@ struct Group {
   std::string_view summary;
 };
 
-constexpr std::array<Group, 8> kGroups{{
+constexpr std::array<Group, 7> kGroups{{
     {"geometric", fathom::register_geometric, "trace_truth() beside a bare Embree loop over the same rays"},
-    {"photometric", fathom::register_photometric, "render_ir() beside a bare Embree loop, and a whole frame"},
+    {"photometric", fathom::register_photometric, "render_ir() beside a bare Embree loop"},
     {"light", fathom::register_light, "render_ir() with all light in clear, turbid and glass scenes, with its noise"},
-    {"convergence", fathom::register_convergence, "the error of render_ir() with all light, sample by sample"},
     {"match", fathom::register_match, "match() beside OpenCV's StereoBM and StereoSGBM, one thread"},
     {"detect", fathom::register_detect,
      "the methods beside a pipeline of PCL's tutorials, one thread; FATHOM_REAL_DATA adds measured clouds"},

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/utility.hpp>
 
 #include "bench/benchmark_groups.h"
-#include "bench/match_error.h"
+#include "bench/measure.h"
 #include "bench/stereo_pair.h"
+#include "core/median.h"
 #include "sim/sensor/depth.h"
 #include "sim/sensor/match.h"
 
@@ -17,6 +20,38 @@ namespace fathom {
 namespace {
 
 constexpr float kInvalid = std::numeric_limits<float>::quiet_NaN();
+
+struct MatchError {
+  double valid = 0;      ///< share of the lit pixels that have a disparity
+  double median_px = 0;  ///< of |e| over the valid pixels
+  double rms_px = 0;     ///< of the inliers, |e| < 1 px
+  double outliers = 0;   ///< share of the valid pixels with |e| ≥ 1 px
+};
+
+/// Compares disparities relative to the reference plane [px], NaN = invalid, with the truth. Columns whose search range
+/// leaves OpenCV's images, and rows whose window does, are left out for every matcher.
+MatchError match_error(const StereoPair& pair, const Image<float>& disparity_px) {
+  const MatcherModel& matcher = pair.sensor.matcher;
+  const int half_columns = matcher.window_columns / 2, half_rows = matcher.window_rows / 2;
+  const int first = std::max(matcher.disparity_max_px, 0) + half_columns;
+  const int last = disparity_px.width() - 1 + std::min(matcher.disparity_min_px, 0) - half_columns;
+  double lit = 0, inliers = 0, squares = 0;
+  std::vector<double> errors;
+  for (int y = half_rows; y < disparity_px.height() - half_rows; ++y)
+    for (int x = first; x <= last; ++x) {
+      if (std::isnan(pair.true_disparity_px(x, y))) continue;
+      ++lit;
+      if (std::isnan(disparity_px(x, y))) continue;
+      const double error = std::fabs(disparity_px(x, y) - pair.true_disparity_px(x, y));
+      errors.push_back(error);
+      if (error >= 1.0) continue;
+      ++inliers;
+      squares += error * error;
+    }
+  if (inliers == 0) return {};
+  const double valid = static_cast<double>(errors.size());
+  return {valid / lit, median(std::move(errors)), std::sqrt(squares / inliers), 1.0 - inliers / valid};
+}
 
 Image<float> relative_to_reference(const SensorModel& sensor, const Image<float>& disparity_px) {
   const auto at_reference = static_cast<float>(disparity_of_depth(sensor, sensor.reference));
@@ -78,12 +113,7 @@ void measure_opencv(benchmark::State& state, const StereoPair& pair, const cv::P
 void register_pair(const std::string& name, const Setup& setup, const NoiseModel& noise) {
   const auto pair = std::make_shared<const StereoPair>(make_stereo_pair(setup, noise));
   const MatcherModel& matcher = pair->sensor.matcher;
-  const auto add = [&](const char* side, auto work) {
-    benchmark::RegisterBenchmark(fmt::format("match/{}/{}", name, side).c_str(), work)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-  };
+  const auto add = [&](const char* side, auto work) { register_timed(fmt::format("match/{}/{}", name, side), work); };
   add("fathom", [pair](benchmark::State& state) { measure_match(state, *pair); });
   add("bm", [pair, bm = block_matcher(matcher)](benchmark::State& state) { measure_opencv(state, *pair, bm); });
   add("sgbm",

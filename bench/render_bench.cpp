@@ -11,18 +11,11 @@
 #include "bench/measure.h"
 #include "bench/ray_recorder.h"
 #include "sim/render/truth.h"
-#include "sim/sensor/capture.h"
-#include "sim/sensor/depth.h"
 #include "sim/sensor/ir_camera.h"
-#include "sim/sensor/match.h"
 
 namespace fathom {
 namespace {
 
-struct Yardstick {
-  BenchScene scene{paper_water()};
-  EmbreeLoop embree{scene.geometry};
-};
 std::shared_ptr<const EmbreeLoop> embree_of(const std::shared_ptr<const Yardstick>& yardstick) {
   return {yardstick, &yardstick->embree};
 }
@@ -33,16 +26,6 @@ void require_same_hits(const Yardstick& yardstick, const Recording& recording) {
   const double hits = static_cast<double>(yardstick.embree.trace(recording));
   if (std::fabs(hits - static_cast<double>(recording.hits)) > 1e-4 * static_cast<double>(recording.rays()))
     throw std::runtime_error("the bare Embree loop hits other surfaces than the capture");
-}
-
-/// From the scene to the cloud, as Camera does it for one frame.
-Image<CloudPoint> whole_frame(const BenchScene& scene, const Pattern& pattern, const Reference& reference) {
-  const SensorModel& sensor = scene.setup.rig.sensor;
-  const Image<float> radiance =
-      render_ir(scene.projector, scene.setup.rig, pattern, kSamplesAcross, LightModel::direct, 1).projected;
-  const Image<float> ir = expose(radiance, sensor.noise, 1, 0);
-  const Image<float> depth = depth_image(sensor, match(sensor, ir, reference));
-  return cloud_of_depth(sensor, depth, Image<float>(sensor.width, sensor.height));
 }
 
 }  // namespace
@@ -62,31 +45,14 @@ void register_photometric() {
   const BenchScene& scene = yardstick->scene;
   const SensorModel& sensor = scene.setup.rig.sensor;
   const auto pattern = std::make_shared<Pattern>(sensor.pattern, sensor.ir_scale());
-  const int margin = reference_margin(sensor.matcher);
-  const auto reference = std::make_shared<const Reference>(
-      memorise(sensor, reference_image(sensor, *pattern, margin, kSamplesAcross), margin));
   pattern->set_dot_gains(speckle_gains(sensor.noise, *pattern, 1));
 
   Recording recording = record_render(scene.world, scene.setup.rig, kSamplesAcross);
   require_same_hits(*yardstick, recording);
-  const std::map<std::string, double> rays{{"rays", static_cast<double>(recording.rays())}};
-  measure("photometric/fathom", rays, [yardstick, &scene, pattern] {
+  measure("photometric/fathom", {{"rays", static_cast<double>(recording.rays())}}, [yardstick, &scene, pattern] {
     benchmark::DoNotOptimize(
         render_ir(scene.projector, scene.setup.rig, *pattern, kSamplesAcross, LightModel::direct, 1));
   });
-  measure("photometric/frame", rays, [yardstick, &scene, pattern, reference] {
-    benchmark::DoNotOptimize(whole_frame(scene, *pattern, *reference));
-  });
-  // The same scene without an image, noise by statistics: whole, and each further frame.
-  const auto device = std::make_shared<Setup>(scene.setup);
-  const Json preset = "device";
-  device->rig.sensor.noise = noise_from_json(JsonReader(preset, "noise"));
-  measure("photometric/geometric_first", {},
-          [device] { benchmark::DoNotOptimize(Camera(*device, CaptureMode::geometric, 1, 1).shoot(0)); });
-  const auto camera = std::make_shared<Camera>(*device, CaptureMode::geometric, 1, 1);
-  measure("photometric/geometric_frame", {}, [camera] { benchmark::DoNotOptimize(camera->shoot(1)); });
-  measure_embree("photometric/camera_rays", embree_of(yardstick),
-                 record_camera_rays(scene.world, scene.setup.rig, kSamplesAcross));
   measure_embree("photometric/embree", embree_of(yardstick), std::move(recording));
 }
 

@@ -1,22 +1,51 @@
 #!/usr/bin/env python3
 """usage: bench/report.py FOLDER GROUP...
-Prints the measurements in FOLDER/GROUP.json: first a table of ours, what stands beside it, their ratio and the goal; then
-error against time, with pictures in FOLDER. Times are medians over the repetitions, of the whole process's processor
-time; "by wall" is the ratio of the times that passed. U is what Embree alone needs for ten million camera rays. RMSE of
-dots is relative to their own root mean square, after a scale of the whole image has been taken off."""
+Prints the measurements in FOLDER/GROUP.json: first a table of ours, what stands beside it, their ratio and the goal; then,
+of the group others, error against time, with a picture in FOLDER. Times are medians over the repetitions, of the whole
+process's processor time; "by wall" is the ratio of the times that passed. U is what Embree alone needs for ten million
+camera rays. RMSE of dots is relative to their own root mean square, after a scale of the whole image has been taken
+off."""
+import csv
 import json
+import subprocess
 import sys
 from pathlib import Path
+from statistics import median
 
-from error_over_time import report_convergence, report_others
-from runs import UNIT_RAYS, Runs, aligned
-
+UNIT_RAYS = 10e6  # camera rays in the unit of work U
 MATCHERS = {"bm": ("StereoBM", 1.5), "sgbm": ("StereoSGBM", 0.5)}  # goals of the time ratio
 LIGHT_SCENES = {  # goals in U
     "paper_water": 1.6, "barley_tea": 15.0, "meniscus_water": 3.0, "paper_milk_tea": 4.0, "orange_juice": 15.0,
     "tomato_juice": 15.0, "whole_milk": 3.0, "glass_water": 12.0}
 DETECT_GOALS = {"robust": 0.125, "paper": 0.25}
 MATCH_CASES = ["water_clean", "water_noisy", "plane_clean", "plane_noisy"]
+RENDERERS = {"fathom": ("Fathom", "spp"), "povray": ("POV-Ray photon map", "photons"),
+             "cycles": ("Cycles shadow caustics", "spp")}
+
+
+class Runs:
+    def __init__(self, folder, groups):
+        self.repetitions = {}  # of each benchmark
+        for file in (folder / f"{group}.json" for group in groups):
+            for run in json.loads(file.read_text()).get("benchmarks", []) if file.exists() else []:
+                if run["run_type"] == "iteration":
+                    name = run["run_name"].split("/process_time")[0].split("/iterations:")[0]
+                    self.repetitions.setdefault(name, []).append(run)
+
+    def __contains__(self, name):
+        return name in self.repetitions
+
+    def value(self, name, key):
+        return median(run[key] for run in self.repetitions[name])
+
+    def times(self, name, scale=1):
+        """Of the processor, then of the wall's clock [ms]."""
+        return [scale * self.value(name, key) for key in ("cpu_time", "real_time")]
+
+    def cases(self, prefix):
+        """Names below a prefix such as "group/case", by rising number at their end."""
+        return sorted((name for name in self.repetitions if name.startswith(prefix + "/")),
+                      key=lambda name: int(name.rsplit("/", 1)[1]))
 
 
 class Table:
@@ -30,17 +59,24 @@ class Table:
         self.rows.append((what, ours, beside, number(ratio), number(wall), goal and f"{sign} {goal:g}" or "", met))
 
     def add_time(self, what, name, beside, goal):
-        cpu, wall = ([self.runs.value(side, key) for side in (name, beside)] for key in ("cpu_time", "real_time"))
+        cpu, wall = zip(self.runs.times(name), self.runs.times(beside))
         self.add(f"{what}: time", f"{cpu[0]:.1f} ms", f"{cpu[1]:.1f} ms", cpu[0] / cpu[1], wall[0] / wall[1], goal)
 
     def add_rays(self, what, name):
         rays = self.runs.value(name, "rays")
-        cpu, wall = (rays / self.runs.value(name, key) * 1e-3 for key in ("cpu_time", "real_time"))
+        cpu, wall = (rays / time * 1e-3 for time in self.runs.times(name))
         self.add(f"{what}: Mray per cpu s (per wall s)", f"{cpu:.2f} ({wall:.2f})")
 
 
 def number(value):
     return "" if value is None else f"{value:.2f}"
+
+
+def aligned(rows):
+    """The first column to the left, the others to the right."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return "\n".join(
+        "  ".join([row[0].ljust(widths[0])] + [c.rjust(w) for c, w in zip(row[1:], widths[1:])]).rstrip() for row in rows)
 
 
 def report_tracing(table):
@@ -50,19 +86,6 @@ def report_tracing(table):
             table.add_time(what, f"{group}/fathom", f"{group}/embree", 1.6)
             table.add_rays("  ours", f"{group}/fathom")
             table.add_rays("  Embree", f"{group}/embree")
-    unit = "photometric/camera_rays"
-    if unit in table.runs:
-        scale = UNIT_RAYS / table.runs.value(unit, "rays")
-        cpu, wall = (scale * table.runs.value(unit, key) for key in ("cpu_time", "real_time"))
-        table.add("U: 10 million camera rays", "", f"{cpu:.0f} ms")
-        table.add_rays("  Embree", unit)
-        frame_cpu, frame_wall = (table.runs.value("photometric/frame", key) for key in ("cpu_time", "real_time"))
-        table.add("render + match + depth + cloud / U", f"{frame_cpu:.0f} ms", f"{cpu:.0f} ms", frame_cpu / cpu,
-                  frame_wall / wall, 5.0)
-        for name, what in (("first", "first frame, scene built and traced"), ("frame", "each further frame")):
-            cpu_ms, wall_ms = (table.runs.value(f"photometric/geometric_{name}", key) for key in ("cpu_time", "real_time"))
-            table.add(f"geometric with statistical noise, {what} / U", f"{cpu_ms:.0f} ms", f"{cpu:.0f} ms", cpu_ms / cpu,
-                      wall_ms / wall, 0.5)
 
 
 def report_light(table):
@@ -71,7 +94,7 @@ def report_light(table):
         if ours not in table.runs:
             continue
         scale = UNIT_RAYS / table.runs.value(beside, "rays")
-        cpu, wall = ([table.runs.value(ours, key), scale * table.runs.value(beside, key)] for key in ("cpu_time", "real_time"))
+        cpu, wall = zip(table.runs.times(ours), table.runs.times(beside, scale))
         table.add(f"{scene}: infrared image, all light / U", f"{cpu[0]:.0f} ms", f"{cpu[1]:.0f} ms", cpu[0] / cpu[1],
                   wall[0] / wall[1], goal)
         walks, sensor = table.runs.value(ours, "walks_dn"), table.runs.value(ours, "sensor_dn")
@@ -86,11 +109,10 @@ def report_generate(table):
     unit = "generate/embree"
     if unit not in table.runs:
         return
-    scale = UNIT_RAYS / table.runs.value(unit, "rays")
-    cpu, wall = (scale * table.runs.value(unit, key) for key in ("cpu_time", "real_time"))
+    cpu, wall = table.runs.times(unit, UNIT_RAYS / table.runs.value(unit, "rays"))
     for mode, goal in (("geometric", 0.12), ("photometric", 1.6)):
         frames = table.runs.value(f"generate/{mode}", "frames")
-        cpu_ms, wall_ms = (table.runs.value(f"generate/{mode}", key) / frames for key in ("cpu_time", "real_time"))
+        cpu_ms, wall_ms = table.runs.times(f"generate/{mode}", 1 / frames)
         table.add(f"labelled {mode} frame / U", f"{cpu_ms:.0f} ms", f"{cpu:.0f} ms", cpu_ms / cpu, wall_ms / wall, goal)
         table.add("  its files [MB]", f"{table.runs.value(f'generate/{mode}', 'bytes') * 1e-6:.2f}", "",
                   table.runs.value(f"generate/{mode}", "bytes") * 1e-6, None, 1.2)
@@ -137,6 +159,27 @@ def report_diagnosis(table, folder):
               cost["traced_wall_s"] / 60, None, 10.0)
 
 
+def report_others(runs, folder):
+    if "others/embree" not in runs:
+        return
+    unit_s = 1e-3 * UNIT_RAYS / runs.value("others/embree", "rays") * runs.value("others/embree", "cpu_time")
+    rows = []
+    for key, (renderer, unit) in RENDERERS.items():
+        for name in runs.cases(f"others/{key}"):
+            cpu_s = 1e-3 * runs.value(name, "cpu_time") if key == "fathom" else runs.value(name, "cpu_s")
+            errors = (runs.value(name, error) for error in ("place_ir_px", "brightness", "rmse"))
+            rows.append((renderer, f"{runs.value(name, 'effort'):.0f} {unit}", cpu_s, cpu_s / unit_s, *errors))
+    print("\nDots on the bottom under 30 mm of clear water, 640 × 512 pixels, direct light, against exact refraction")
+    print(aligned([("renderer", "effort", "cpu s", f"U of {unit_s:.2f} s", "place, rms [px]", "bottom / desk over exact", "RMSE")] +
+                  [(renderer, effort, f"{cpu_s:.2f}", f"{units:.2f}", f"{place:.4f}", f"{brightness:.4f}", f"{rmse:.2%}")
+                   for renderer, effort, cpu_s, units, place, brightness, rmse in rows]))
+    with open(folder / "others.csv", "w", newline="") as file:
+        columns = ("renderer", "effort", "cpu_s", "units", "place_ir_px", "brightness", "rmse")
+        csv.writer(file).writerows([columns, *rows])
+    subprocess.run(["gnuplot", "-d", Path(__file__).resolve().with_name("others.gp")], cwd=folder, check=True)
+    print(f"picture: {folder / 'others.png'}")
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 3:
         sys.exit(__doc__)
@@ -154,5 +197,4 @@ if __name__ == "__main__":
         report_diagnosis(everything, results)
     if len(everything.rows) > 1:
         print(aligned(everything.rows))
-    report_convergence(runs, results)
     report_others(runs, results)

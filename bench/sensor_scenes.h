@@ -23,4 +23,13 @@ Frame shoot(const Setup& setup, std::uint64_t seed, CaptureMode mode = CaptureMo
 /// Share of pixels with a depth among those at least `border` from every edge.
 double valid_share(const Image<float>& depth, int border);
 
+/// What changes from frame to frame of a still scene.
+struct TemporalNoise {
+  double median_mm, mean_mm;  ///< of the deviations of those pixels' depths that half of the frames have
+  double valid;               ///< share of pixels with a depth, over all frames, inside the border
+};
+
+/// Of sixteen frames.
+TemporalNoise temporal_noise(Camera& camera);
+
 }  // namespace fathom

@@ -1,5 +1,4 @@
-// What a diagnosis promises, on campaigns of which the truth is known. Rates over many sets:
-// bench/diagnosis_statistics.
+// What a diagnosis promises, on campaigns of which the truth is known.
 #include "diagnosis/decision/decide.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "bench/comparison.h"
+#include "bench/accuracy.h"
 
 #include <fmt/format.h>
 
