@@ -18,12 +18,10 @@
 #include "core/units.h"
 #include "detector/settings_json.h"
 #include "report/gnuplot.h"
-#include "trials/clutter_templates.h"
-#include "trials/detection_rates.h"
 #include "trials/failure_gallery.h"
 #include "trials/labelled_clouds.h"
-#include "trials/liquid_rates.h"
-#include "trials/share_rows.h"
+#include "trials/random_desk.h"
+#include "trials/rates.h"
 #include "trials/trial_tables.h"
 
 namespace fathom {

@@ -11,8 +11,7 @@
 #include "detector/settings_json.h"
 #include "report/gnuplot.h"
 #include "trials/dataset_trials.h"
-#include "trials/detection_rates.h"
-#include "trials/liquid_rates.h"
+#include "trials/rates.h"
 #include "trials/report_card.h"
 #include "trials/trial_tables.h"
 

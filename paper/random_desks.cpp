@@ -5,7 +5,6 @@
 #include "core/files.h"
 #include "core/proportion.h"
 #include "core/rng.h"
-#include "trials/clutter_templates.h"
 #include "trials/random_desk.h"
 
 namespace fathom {

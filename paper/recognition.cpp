@@ -1,7 +1,6 @@
 // The paper's first experiment, section VI-A: an empty cup among other things, placed anew 20 times.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 #include "core/proportion.h"
@@ -41,45 +40,27 @@ constexpr std::array<Condition, 12> kConditions{
 /// SAC-IA takes seconds for a cloud, so only the first condition has it.
 constexpr std::array<std::string_view, 3> kMethods{"paper", "robust", "sac-ia"};
 
-struct Tally {
-  int cups = 0, found = 0, false_cups = 0;
-  std::array<int, kMisses.size()> missed{};
-};
-
-Tally tally_of(const std::vector<TrialResult>& trials) {
-  Tally tally;
-  for (const TrialResult& trial : trials) {
-    tally.false_cups += static_cast<int>(trial.false_cups.size());
-    for (const TrialCup& cup : trial.cups) {
-      ++tally.cups;
-      tally.found += cup.found;
-      for (std::size_t i = 0; i < kMisses.size(); ++i) tally.missed[i] += cup.miss == kMisses[i];
-    }
-  }
-  return tally;
-}
-
-std::string misses_text(const Tally& tally) {
+std::string misses_text(const CupCounts& counts) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < kMisses.size(); ++i)
-    texts.push_back(fmt::format("{} {}", tally.missed[i], name_of(kMisses[i])));
-  return fmt::format("{}; {} other things taken for a cup", fmt::join(texts, ", "), tally.false_cups);
+    texts.push_back(fmt::format("{} {}", counts.missed[i], name_of(kMisses[i])));
+  return fmt::format("{}; {} other things taken for a cup", fmt::join(texts, ", "), counts.false_cups);
 }
 
-std::string found_text(const Tally& tally) { return share_text(tally.found, tally.cups); }
+std::string found_text(const CupCounts& counts) { return share_text(counts.found, counts.cups); }
 
 }  // namespace
 
 Figure reproduce_recognition(const ReproduceSettings& settings) {
   const int desks = settings.trials.value_or(kPaperDesks);
-  std::vector<std::vector<Tally>> tallies;  // of each condition, of each method
+  std::vector<std::vector<CupCounts>> all_counts;  // of each condition, of each method
   Progress progress("desk", kConditions.size() * desks, settings.quiet);
   for (const Condition& condition : kConditions) {
-    const std::size_t methods = tallies.empty() ? kMethods.size() : kMethods.size() - 1;
-    std::vector<Tally>& row = tallies.emplace_back();
+    const std::size_t methods = all_counts.empty() ? kMethods.size() : kMethods.size() - 1;
+    std::vector<CupCounts>& row = all_counts.emplace_back();
     for (const auto& trials : search_desks(changed_clutter("desk.json", condition.patch),
                                            std::span(kMethods).first(methods), desks, settings.seed, progress))
-      row.push_back(tally_of(trials));
+      row.push_back(counts_of(trials));
   }
 
   Figure figure{
@@ -93,7 +74,7 @@ Figure reproduce_recognition(const ReproduceSettings& settings) {
       .facts = {},
       .table = Table({"condition", "value", "method", "cups", "recognised", "share", "share_low", "share_high",
                       "merged", "occluded", "refused", "false_cups"})};
-  const std::vector<Tally>& assumed = tallies.front();
+  const std::vector<CupCounts>& assumed = all_counts.front();
   figure.facts = {
       {"Proposed method, recognised", share_text(15, 20), found_text(assumed[0])},
       {"SAC-IA, recognised", share_text(4, 20), found_text(assumed[2])},
@@ -104,21 +85,21 @@ Figure reproduce_recognition(const ReproduceSettings& settings) {
   for (std::size_t i = 0; i < kConditions.size(); ++i) {
     const auto& [what, value, patch] = kConditions[i];
     std::vector<std::string> bar{fmt::format("{}: {}", what, value)};
-    for (std::size_t j = 0; j < tallies[i].size(); ++j) {
-      const Tally& tally = tallies[i][j];
-      const Interval interval = wilson_95(tally.found, tally.cups);
-      const std::array shares{static_cast<double>(tally.found) / tally.cups, interval.low, interval.high};
-      std::vector<std::string> row{what, value, std::string(kMethods[j]), fmt::format("{}", tally.cups),
-                                   fmt::format("{}", tally.found)};
+    for (std::size_t j = 0; j < all_counts[i].size(); ++j) {
+      const CupCounts& counts = all_counts[i][j];
+      const Interval interval = wilson_95(counts.found, counts.cups);
+      const std::array shares{static_cast<double>(counts.found) / counts.cups, interval.low, interval.high};
+      std::vector<std::string> row{what, value, std::string(kMethods[j]), fmt::format("{}", counts.cups),
+                                   fmt::format("{}", counts.found)};
       for (const double share : shares) row.push_back(fmt::format("{:.4f}", share));
       if (j < 2) bar.insert(bar.end(), row.end() - 3, row.end());
-      for (const int missed : tally.missed) row.push_back(fmt::format("{}", missed));
-      row.push_back(fmt::format("{}", tally.false_cups));
+      for (const int missed : counts.missed) row.push_back(fmt::format("{}", missed));
+      row.push_back(fmt::format("{}", counts.false_cups));
       figure.table.add(row);
     }
     bars.add(bar);
     if (i > 0)
-      figure.facts.push_back({fmt::format("Proposed method, {}: {}", what, value), "–", found_text(tallies[i][0])});
+      figure.facts.push_back({fmt::format("Proposed method, {}: {}", what, value), "–", found_text(all_counts[i][0])});
   }
   write_table(settings.folder / "recognition.csv", figure.table);
   write_table(settings.folder / "recognition_bars.csv", bars);

@@ -1,7 +1,6 @@
 // The paper's second experiment, Table I: 16 contents of a cup among other things, each placed anew 10 times.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 #include "core/error.h"
@@ -41,58 +40,38 @@ constexpr std::array<PrintedRow, 16> kPrinted{{{8, 1},
 
 constexpr std::array<std::string_view, 2> kTableMethods{"paper", "robust"};
 
-struct RowTally {
-  int cups = 0, recognised = 0, liquid = 0, unknown = 0;
-
-  void add(const RowTally& other) {
-    cups += other.cups, recognised += other.recognised, liquid += other.liquid, unknown += other.unknown;
-  }
-  int sure() const { return recognised - unknown; }
-};
-
-RowTally row_tally_of(const std::vector<TrialResult>& trials) {
-  RowTally tally;
-  for (const TrialResult& trial : trials)
-    for (const TrialCup& cup : trial.cups) {
-      ++tally.cups;
-      tally.recognised += cup.found;
-      tally.liquid += cup.liquid_found == "yes";
-      tally.unknown += cup.liquid_found == "unknown";
-    }
-  return tally;
-}
-
 std::string label_of(const Json& filling) {
   if (filling.empty()) return "empty";
   return fmt::format("{} {:g} mm", filling["liquid"].get<std::string>(), filling["fill_mm"].get<double>());
 }
 
-/// Of one kind of desk: the tally of each filling by each method.
-using Tallies = std::vector<std::array<RowTally, kTableMethods.size()>>;
+/// Of one kind of desk: what came of each filling by each method.
+using TableCounts = std::vector<std::array<CupCounts, kTableMethods.size()>>;
 
-Tallies fill_in(const ClutterSpec& clutter, int desks, std::uint64_t seed, Progress& progress) {
-  Tallies tallies;
+TableCounts fill_in(const ClutterSpec& clutter, int desks, std::uint64_t seed, Progress& progress) {
+  TableCounts counts;
   for (std::size_t i = 0; i < clutter.fillings.size(); ++i) {
     ClutterSpec one = clutter;
     one.fillings = {clutter.fillings[i]};
     const auto trials = search_desks(one, kTableMethods, desks, seed + i, progress);
-    tallies.push_back({row_tally_of(trials[0]), row_tally_of(trials[1])});
+    counts.push_back({counts_of(trials[0]), counts_of(trials[1])});
   }
-  return tallies;
+  return counts;
 }
 
-void add_facts(const Tallies& tallies, std::size_t method, const std::string& words, std::vector<Fact>& facts) {
-  RowTally all, filled;
-  for (std::size_t i = 0; i < tallies.size(); ++i) {
-    all.add(tallies[i][method]);
-    if (i > 0) filled.add(tallies[i][method]);
+void add_facts(const TableCounts& counts, std::size_t method, const std::string& words, std::vector<Fact>& facts) {
+  CupCounts all, filled;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    all += counts[i][method];
+    if (i > 0) filled += counts[i][method];
   }
-  const RowTally& empty = tallies[0][method];
-  facts.push_back({words + ": cups recognised", share_text(116, 160), share_text(all.recognised, all.cups)});
+  const CupCounts& empty = counts[0][method];
+  const auto told = [](const CupCounts& one) { return one.found - one.unknown; };
+  facts.push_back({words + ": cups recognised", share_text(116, 160), share_text(all.found, all.cups)});
   facts.push_back({words + ": of the recognised filled ones called so", share_text(108, 108),
-                   share_text(filled.liquid, filled.sure())});
+                   share_text(filled.liquid, told(filled))});
   facts.push_back({words + ": of the recognised empty ones called empty", share_text(7, 8),
-                   share_text(empty.sure() - empty.liquid, empty.sure())});
+                   share_text(told(empty) - empty.liquid, told(empty))});
   facts.push_back({words + ": recognised, but its content is unknown", "–", fmt::format("{}", all.unknown)});
 }
 
@@ -105,8 +84,8 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
   if (crowd.fillings.size() != kPrinted.size())
     throw Error("scenes/clutter/liquids.json", "fillings", "must be the 16 of Table I");
   Progress progress("desk", 2 * kPrinted.size() * desks, settings.quiet);
-  const Tallies among_many = fill_in(crowd, desks, settings.seed, progress),
-                beside_one = fill_in(one, desks, settings.seed, progress);
+  const TableCounts among_many = fill_in(crowd, desks, settings.seed, progress),
+                    beside_one = fill_in(one, desks, settings.seed, progress);
 
   Figure figure{
       .name = "table1",
@@ -124,18 +103,18 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
     const Json& filling = crowd.fillings[i];
     for (const bool many : {false, true})
       for (std::size_t j = 0; j < kTableMethods.size(); ++j) {
-        const RowTally& tally = (many ? among_many : beside_one)[i][j];
+        const CupCounts& counts = (many ? among_many : beside_one)[i][j];
         figure.table.add({filling.value("liquid", "empty"), fmt::format("{:g}", filling.value("fill_mm", 0.0)), "10",
                           fmt::format("{}", kPrinted[i].recognised), fmt::format("{}", kPrinted[i].liquid),
-                          many ? "3 to 6" : "1", std::string(kTableMethods[j]), fmt::format("{}", tally.cups),
-                          fmt::format("{}", tally.recognised), fmt::format("{}", tally.liquid),
-                          fmt::format("{}", tally.unknown)});
+                          many ? "3 to 6" : "1", std::string(kTableMethods[j]), fmt::format("{}", counts.cups),
+                          fmt::format("{}", counts.found), fmt::format("{}", counts.liquid),
+                          fmt::format("{}", counts.unknown)});
       }
     const auto share = [&](int count) { return fmt::format("{:.3f}", static_cast<double>(count) / desks); };
     const auto& row = beside_one[i];
     labels.push_back(label_of(filling));
-    bars.add({labels.back(), fmt::format("{:.1f}", 0.1 * kPrinted[i].recognised), share(row[0].recognised),
-              share(row[1].recognised), fmt::format("{:.1f}", 0.1 * kPrinted[i].liquid), share(row[0].liquid),
+    bars.add({labels.back(), fmt::format("{:.1f}", 0.1 * kPrinted[i].recognised), share(row[0].found),
+              share(row[1].found), fmt::format("{:.1f}", 0.1 * kPrinted[i].liquid), share(row[0].liquid),
               share(row[1].liquid)});
   }
   add_facts(beside_one, 0, "Method as printed, one thing beside the cup", figure.facts);

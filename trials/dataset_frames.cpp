@@ -123,9 +123,6 @@ LabelledFrame DatasetFrames::read(const SceneFolder& scene, int image) const {
                       .world_from_camera = camera_from_world.inverse(),
                       .focal_px = matrix[0],
                       .principal_px = Eigen::Vector2d(matrix[2] + 0.5, matrix[5] + 0.5),
-                      .cloud = {},
-                      .cups = {},
-                      .others = {},
                       .owners = Image<int>(depth.width(), depth.height(), LabelledFrame::kNobody)};
   frame.cloud =
       cloud_of(depth, kMetresPerMm * camera.number("depth_scale", {1e-3, 1e3}), frame.focal_px, frame.principal_px);

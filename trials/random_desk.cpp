@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "core/timed.h"
 #include "core/units.h"
+#include "detector/make_template.h"
 #include "sim/render/intersect.h"
 #include "sim/scene/cup.h"
 #include "sim/scene/scene.h"
@@ -65,8 +67,6 @@ LabelledFrame labelled(const Setup& setup, const Camera& camera, const Frame& fr
                        .focal_px = rig.sensor.focal_px,
                        .principal_px = rig.sensor.principal_px,
                        .cloud = cloud_from_image(frame.cloud),
-                       .cups = {},
-                       .others = {},
                        .owners = owners_of(camera.geometry(), camera.truth())};
   for (const Cup& cup : setup.scene.cups) {
     const int seen = pixels_of(static_cast<int>(result.cups.size()), result.owners), whole = pixels_alone(setup, cup);
@@ -90,6 +90,24 @@ DeskShot shoot_desk(const Json& scene, const std::string& file, std::uint64_t se
   });
   LabelledFrame truth = labelled(setup, camera, frame, scene.at("sensor").value("model", ""));
   return {std::move(setup), std::move(camera), std::move(frame), std::move(truth), shoot_s};
+}
+
+std::vector<CupTemplate> templates_of(const ClutterSpec& clutter) {
+  std::vector<CupTemplate> templates;
+  for (const ClutterThing& kind : clutter.cup_kinds) {
+    Json cup = kind.entry;
+    cup["position_mm"] = {mm_from_metres(clutter.region.center().x()), mm_from_metres(clutter.region.min().y())};
+    Setup setup = setup_from_json({{"sensor", clutter.sensor}, {"desk", clutter.desk}, {"cups", {cup}}}, clutter.file);
+    setup.rig.sensor.noise = {};
+    const Frame frame = Camera(setup, CaptureMode::geometric, 1, 0).shoot(0);
+    try {
+      templates.push_back(template_of_only_cup(cup_name(setup.scene.cups.front()), cloud_from_image(frame.cloud),
+                                               prior_of(setup.rig.world_from_camera), std::nullopt, "template's desk"));
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  return templates;
 }
 
 }  // namespace fathom

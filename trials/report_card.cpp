@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "core/files.h"
 #include "report/gnuplot.h"
@@ -16,14 +15,6 @@
 
 namespace fathom {
 namespace {
-
-constexpr const char* kRecognised = "recognised";
-constexpr const char* kLiquidTold = "liquid told";
-constexpr const char* kLiquidRight = "liquid right";
-constexpr const char* kFalseCup = "false cup";
-/// With their colours.
-constexpr std::array kRates{std::pair{kRecognised, "blue"}, std::pair{kLiquidTold, "orange"},
-                            std::pair{kLiquidRight, "green"}, std::pair{kFalseCup, "red"}};
 
 /// A class of a factor: its place among the classes, and its words.
 using Group = std::pair<double, std::string>;
@@ -88,6 +79,17 @@ struct Tally {
   }
 };
 
+struct Rate {
+  const char* name;
+  const char* colour;
+  int Tally::*hits;
+  int Tally::*of;
+};
+constexpr std::array kRates{Rate{"recognised", "blue", &Tally::recognised, &Tally::cups},
+                            Rate{"liquid told", "orange", &Tally::told, &Tally::recognised},
+                            Rate{"liquid right", "green", &Tally::right, &Tally::told},
+                            Rate{"false cup", "red", &Tally::false_frames, &Tally::frames}};
+
 std::map<Group, Tally> tallies(const Factor& factor, const std::vector<TrialResult>& trials) {
   std::map<Group, Tally> groups;
   for (const TrialResult& frame : trials) {
@@ -135,20 +137,19 @@ void draw_card(const std::filesystem::path& folder, const std::vector<CardRow>& 
     if (is_new_factor || row.group != group) labels.push_back(row.group);
     factor = row.factor, group = row.group;
     const Interval interval = row.interval();
-    const auto rate =
-        std::find_if(kRates.begin(), kRates.end(), [&](const auto& one) { return one.first == row.rate; });
+    const auto rate = std::find_if(kRates.begin(), kRates.end(), [&](const Rate& one) { return one.name == row.rate; });
     const double aside = kAside * static_cast<double>(rate - kRates.begin() - 1);
     points[row.rate] += fmt::format("{},{},{},{}\n", static_cast<double>(labels.size()) - 1.0 + aside, row.share(),
                                     interval.low, interval.high);
   }
   std::string blocks;
   std::vector<std::string> series;
-  for (const auto& [rate, colour] : kRates) {
-    if (!points.contains(rate)) continue;
+  for (const Rate& rate : kRates) {
+    if (!points.contains(rate.name)) continue;
     const std::size_t number = series.size();
-    blocks += fmt::format("$rate{} << END\nx,share,low,high\n{}END\n", number, points[rate]);
+    blocks += fmt::format("$rate{} << END\nx,share,low,high\n{}END\n", number, points[rate.name]);
     series.push_back(fmt::format("$rate{} using 1:2:3:4 with yerrorbars pt 7 ps 1.1 lw 2 lc rgb {} title '{}'", number,
-                                 colour, rate));
+                                 rate.colour, rate.name));
   }
   draw(folder, "card",
        fmt::format(
@@ -164,11 +165,9 @@ std::vector<CardRow> report_card(const std::vector<TrialResult>& trials) {
   std::vector<CardRow> card;
   for (const Factor& factor : kFactors)
     for (const auto& [group, tally] : tallies(factor, trials))
-      for (const auto& [rate, hits, of] :
-           {std::tuple{kRecognised, tally.recognised, tally.cups},
-            std::tuple{kLiquidTold, tally.told, tally.recognised}, std::tuple{kLiquidRight, tally.right, tally.told},
-            std::tuple{kFalseCup, tally.false_frames, tally.frames}})
-        if (of > 0) card.push_back({factor.name, group.second, rate, hits, of});
+      for (const Rate& rate : kRates)
+        if (tally.*rate.of > 0)
+          card.push_back({factor.name, group.second, rate.name, tally.*rate.hits, tally.*rate.of});
   return card;
 }
 

@@ -1,7 +1,5 @@
 #include "trials/trial.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -139,6 +137,30 @@ std::string_view name_of(Miss miss) {
       break;
   }
   return "refused";
+}
+
+void CupCounts::add(const TrialCup& cup) {
+  ++cups;
+  found += cup.found;
+  liquid += cup.liquid_found == "yes";
+  unknown += cup.liquid_found == "unknown";
+  for (std::size_t i = 0; i < kMisses.size(); ++i) missed[i] += cup.miss == kMisses[i];
+}
+
+CupCounts& CupCounts::operator+=(const CupCounts& other) {
+  cups += other.cups, found += other.found, liquid += other.liquid, unknown += other.unknown;
+  for (std::size_t i = 0; i < missed.size(); ++i) missed[i] += other.missed[i];
+  false_cups += other.false_cups;
+  return *this;
+}
+
+CupCounts counts_of(const std::vector<TrialResult>& trials) {
+  CupCounts counts;
+  for (const TrialResult& trial : trials) {
+    for (const TrialCup& cup : trial.cups) counts.add(cup);
+    counts.false_cups += static_cast<int>(trial.false_cups.size());
+  }
+  return counts;
 }
 
 DeskPrior prior_of(const Pose& world_from_camera) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,7 +33,7 @@ struct TrialCup {
   std::string kind;             ///< "transparent" or "opaque"; of an empty cup ""
   Eigen::Vector2d position_mm;  ///< of its axis, world
   double distance_mm = 0.0;     ///< of its foot from the camera
-  double visible = 0.0;         ///< share of the pixels it would fill alone on the desk
+  double visible = 0.0;         ///< pixels in which it is seen, as a share of those that it would fill alone
   bool found = false;
   std::string liquid_found;  ///< "yes", "no", "unknown"; of a cup that was found
   std::optional<double> surface_mm, fill_found_mm, fill_sigma_mm, p_liquid;
@@ -53,6 +52,19 @@ struct TrialResult {
   std::map<std::string, double> stages_s;  ///< of the method
 };
 
+/// What came of some cups.
+struct CupCounts {
+  int cups = 0, found = 0;
+  int liquid = 0, unknown = 0;               ///< found cups whose content was called liquid, or could not be told
+  std::array<int, kMisses.size()> missed{};  ///< in the order of kMisses
+  int false_cups = 0;
+
+  void add(const TrialCup& cup);
+  CupCounts& operator+=(const CupCounts& other);
+};
+
+CupCounts counts_of(const std::vector<TrialResult>& trials);
+
 /// To and from the file that keeps a trial.
 Json json_of(const TrialResult& result);
 TrialResult trial_from_json(const JsonReader& json);
@@ -63,10 +75,10 @@ struct LabelledFrame {
   Pose world_from_camera;
   double focal_px;
   Eigen::Vector2d principal_px;  ///< of an image whose first pixel has its centre at (0.5, 0.5)
-  Cloud cloud;
-  std::vector<TrialCup> cups;       ///< what stands there, nothing found
-  std::vector<std::string> others;  ///< names of the other things
-  Image<int> owners;                ///< of each pixel the cup that it shows, or after these the other thing; kNobody
+  Cloud cloud{};
+  std::vector<TrialCup> cups{};       ///< what stands there, nothing found
+  std::vector<std::string> others{};  ///< names of the other things
+  Image<int> owners;                  ///< of each pixel the cup that it shows, or after these the other thing; kNobody
 
   static constexpr int kNobody = -1;
 };

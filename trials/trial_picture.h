@@ -6,9 +6,9 @@
 
 namespace fathom {
 
-/// The cups that stand there are outlined, green when found and red when missed; blue are the circles of what was taken
-/// for a cup, 45 mm above the desk and at the rim. `picture` shows the frame so many times side by side in its upper
-/// left.
+/// Draws into `picture`, which shows the frame `panels` times side by side from its upper left corner. In each of them
+/// the cups that stand there get outlines, green when found and red when missed, and all that was taken for a cup gets
+/// two blue circles, 45 mm above the desk and at the rim.
 void draw_trial(const LabelledFrame& frame, const Trial& trial, int panels, Image<Rgb>& picture);
 
 }  // namespace fathom

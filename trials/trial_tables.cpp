@@ -29,26 +29,24 @@ Table cups_table(const std::vector<TrialResult>& trials) {
 }
 
 Table fillings_table(const std::vector<TrialResult>& trials) {
-  struct Tally {
+  struct Filling {
     std::string liquid;
     double fill_mm;
-    int cups = 0, recognised = 0, detected = 0;
+    CupCounts counts{};
   };
-  std::vector<Tally> fillings;  // in the order of the trials
+  std::vector<Filling> fillings;  // in the order of the trials
   for (const TrialResult& trial : trials)
     for (const TrialCup& cup : trial.cups) {
-      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const Tally& tally) {
-        return tally.liquid == cup.liquid && tally.fill_mm == cup.fill_mm;
+      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const Filling& filling) {
+        return filling.liquid == cup.liquid && filling.fill_mm == cup.fill_mm;
       });
       if (known == fillings.end()) known = fillings.insert(known, {cup.liquid, cup.fill_mm});
-      ++known->cups;
-      known->recognised += cup.found;
-      known->detected += cup.liquid_found == "yes";
+      known->counts.add(cup);
     }
   Table table({"liquid", "fill_mm", "cups", "recognised", "liquid_detected"});
-  for (const Tally& tally : fillings)
-    table.add({tally.liquid, fmt::format("{:g}", tally.fill_mm), fmt::format("{}", tally.cups),
-               fmt::format("{}", tally.recognised), fmt::format("{}", tally.detected)});
+  for (const auto& [liquid, fill_mm, counts] : fillings)
+    table.add({liquid, fmt::format("{:g}", fill_mm), fmt::format("{}", counts.cups), fmt::format("{}", counts.found),
+               fmt::format("{}", counts.liquid)});
   return table;
 }
 

@@ -1,15 +1,17 @@
-#include "trials/liquid_rates.h"
+#include "trials/rates.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/files.h"
+#include "core/median.h"
+#include "core/proportion.h"
 #include "report/gnuplot.h"
-#include "trials/share_rows.h"
 
 namespace fathom {
 namespace {
@@ -95,8 +97,7 @@ constexpr std::size_t kMostDepths = 20;
 
 std::string number(double value) { return fmt::format("{:.4f}", value); }
 
-}  // namespace
-
+/// Of recognised cups.
 std::vector<Row> liquid_rates(const std::vector<TrialResult>& trials) {
   const std::vector<const TrialCup*> cups = found_cups(trials);
   std::vector<Row> rows;
@@ -126,6 +127,48 @@ std::vector<Row> liquid_rates(const std::vector<TrialResult>& trials) {
       "kind_unknown", cups,
       [&](const TrialCup& cup) { return is_filled(cup) && said_yes(cup) && cup.kind_found == "unknown"; }, rows);
   add_levels(cups, rows);
+  return rows;
+}
+
+/// Nothing where no time was kept.
+void add_median(const std::string& name, const std::vector<TrialResult>& trials, double TrialResult::*time,
+                std::vector<Row>& rows) {
+  std::vector<double> times;
+  for (const TrialResult& trial : trials)
+    if (trial.*time > 0.0) times.push_back(trial.*time);
+  if (!times.empty()) rows.push_back({name, median(std::move(times)), "s"});
+}
+
+}  // namespace
+
+void add_share(const std::string& name, int hits, int trials, std::vector<Row>& rows) {
+  const Interval interval = wilson_95(hits, trials);
+  rows.push_back({name, fmt::format("{}/{}", hits, trials)});
+  rows.push_back({name + "_low", interval.low});
+  rows.push_back({name + "_high", interval.high});
+}
+
+std::vector<Row> detection_rates(std::string_view method, const std::vector<TrialResult>& trials) {
+  constexpr double kInSight = 0.3;  // cups of which less is in sight are not asked for
+  const CupCounts counts = counts_of(trials);
+  int in_sight = 0, found_in_sight = 0;
+  for (const TrialResult& trial : trials)
+    for (const TrialCup& cup : trial.cups)
+      if (cup.visible >= kInSight) ++in_sight, found_in_sight += cup.found;
+  std::vector<Row> rows{{"method", std::string(method)}, {"trials", static_cast<double>(trials.size())}};
+  add_share("recognised", counts.found, counts.cups, rows);
+  add_share("recognised_in_sight", found_in_sight, in_sight, rows);
+  for (std::size_t i = 0; i < kMisses.size(); ++i)
+    rows.push_back({fmt::format("missed_{}", name_of(kMisses[i])), static_cast<double>(counts.missed[i])});
+  add_share("precision", counts.found, counts.found + counts.false_cups, rows);
+  for (Row& row : liquid_rates(trials)) rows.push_back(std::move(row));
+  add_median("shoot_median", trials, &TrialResult::shoot_s, rows);
+  add_median("detect_median", trials, &TrialResult::detect_s, rows);
+  std::map<std::string, std::vector<double>> stages;  // a trial in which nothing came so far has fewer
+  for (const TrialResult& trial : trials)
+    for (const auto& [stage, seconds] : trial.stages_s) stages[stage].push_back(seconds);
+  for (auto& [stage, seconds] : stages)
+    rows.push_back({fmt::format("detect_{}_median", stage), median(std::move(seconds)), "s"});
   return rows;
 }
 
