@@ -22,7 +22,7 @@ struct Figure {
   std::string name;  ///< "fig14": of NAME.csv, NAME.gp, NAME.png and NAME.svg
   std::string title;
   std::string sentence;  ///< what one sees
-  std::vector<Fact> facts;
+  std::vector<Fact> facts{};
   Table table{{}};
 };
 
@@ -52,6 +52,9 @@ Figure reproduce_table1(const ReproduceSettings& settings);       ///< section V
 Figure reproduce_liquids(const ReproduceSettings& settings);
 /// Not a figure of the paper: at which scattering milk tea reads as the paper says.
 Figure reproduce_scattering(const ReproduceSettings& settings);
+
+/// Writes NAME.csv, and by `plot` the pictures (report/gnuplot.h). The caller writes what other data `plot` reads.
+void draw_figure(const ReproduceSettings& settings, const Figure& figure, const std::string& plot);
 
 /// A length in the figures' tables: three decimals, no "-0.000".
 std::string mm_text(double mm);

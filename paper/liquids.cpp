@@ -7,7 +7,6 @@
 #include "core/progress.h"
 #include "core/rng.h"
 #include "paper/figures.h"
-#include "report/gnuplot.h"
 
 namespace fathom {
 namespace {
@@ -101,7 +100,6 @@ Figure reproduce_liquids(const ReproduceSettings& settings) {
                 .sentence =
                     "Barley tea shows its raised bottom as water does. The more a liquid scatters, the less is "
                     "matched in it; what is, lies below the surface and stays there over the distance.",
-                .facts = {},
                 .table = Table({"liquid", "fill_mm", "distance_mm", "height_mm", "height_sd_mm", "surface_mm", "points",
                                 "matched_share"})};
   const std::optional<double> barley_mm = off_water_mm(rows, "barley_tea");
@@ -119,9 +117,8 @@ Figure reproduce_liquids(const ReproduceSettings& settings) {
                         fmt::format("{:.1f}", cell.points), fmt::format("{:.3f}", cell.matched)});
     }
   }
-  write_table(settings.folder / "liquids.csv", figure.table);
   write_table(settings.folder / "liquids_bars.csv", bars_of(rows));
-  draw(settings.folder, figure.name, R"(
+  draw_figure(settings, figure, R"(
 set title 'Measured height in all the liquids, of all light, and how much of them is matched'
 set ylabel 'height above the desk [mm]'
 set y2label 'share that is matched'

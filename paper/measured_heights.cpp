@@ -5,7 +5,6 @@
 #include <initializer_list>
 
 #include "paper/figures.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 
 namespace fathom {
@@ -170,15 +169,15 @@ Figure reproduce_fig5(const ReproduceSettings& settings, const PaperHeights& hei
                         cell.seen > 1 ? mm_text(cell.sd_mm) : "", fmt::format("{:.1f}", cell.points),
                         fmt::format("{}", cell.seen)});
     }
-  write_table(settings.folder / "fig5.csv", figure.table);
   write_table(settings.folder / "fig5_bars.csv", bars_of(heights));
   const bool any_few = std::any_of(heights.rows.begin(), heights.rows.end(), [](const HeightRow& row) {
     return row[kSeenDistances - 1].seen > 0 && !row[kSeenDistances - 1].enough();
   });
   constexpr const char* kFewPoints = R"(, \
      '' using ($0+0.27):'few_500_mm' with points pt 2 ps 1 lw 2 lc rgb ink title 'few points left by the near wall')";
-  draw(settings.folder, figure.name,
-       fmt::format(R"(
+  draw_figure(
+      settings, figure,
+      fmt::format(R"(
 set title {}
 set ylabel 'height above the desk [mm]'
 set yrange [0:42]; set xrange [-0.6:6.6]; set ytics 5
@@ -195,10 +194,10 @@ plot for [i=1:4] 'fig5_bars.csv' using (column(2*i)):(column(2*i+1)):xtic(1) lc 
        title sprintf('%d mm', 100*i+100), \
      '' using ($0-0.42):'true_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red \
        title 'true surface (empty: bottom)'{})",
-                   gnuplot_text(fmt::format("Measured height of the liquid's surface or the raised bottom (simulated "
-                                            "captures, {} each, ±1σ)",
-                                            settings.shots())),
-                   any_few ? kFewPoints : ""));
+                  gnuplot_text(fmt::format("Measured height of the liquid's surface or the raised bottom (simulated "
+                                           "captures, {} each, ±1σ)",
+                                           settings.shots())),
+                  any_few ? kFewPoints : ""));
   return figure;
 }
 

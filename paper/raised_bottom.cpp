@@ -7,7 +7,6 @@
 
 #include "core/units.h"
 #include "paper/figures.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "theory/raised_bottom.h"
 #include "theory/triangulation.h"
@@ -84,7 +83,6 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
       .sentence =
           "Where enough of the bottom is seen, Eq. 7, the exact triangulation and the simulated measurement agree "
           "better than to the 1–2 mm of the paper's measurement.",
-      .facts = {},
       .table = Table({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm", "simulated_mm",
                       "simulated_sd_mm", "simulated_minus_exact_mm", "points", "geometric_mm"})};
   Table curves({"fill_mm", "distance_mm", "eq7_mm", "exact_n1333_mm", "exact_n830nm_mm"});
@@ -120,10 +118,9 @@ Figure reproduce_fig14(const ReproduceSettings& settings, const PaperHeights& he
                         noise_free.seen > 0 ? mm_text(noise_free.mean_mm - kPaperBottomMm) : ""});
     }
   }
-  write_table(settings.folder / "fig14.csv", figure.table);
   write_table(settings.folder / "fig14_curves.csv", curves);
-  draw(settings.folder, figure.name,
-       R"(
+  draw_figure(settings, figure,
+              R"(
 set title 'Height of the raised bottom over the distance of the cup'
 set xlabel 'horizontal distance of the cup from the sensor [mm]'
 set ylabel 'height of the raised bottom above the bottom [mm]'
@@ -136,7 +133,7 @@ plot for [i=1:3] 'fig14_curves.csv' using 'distance_mm':(column('fill_mm') == 10
        with lines lw 3 lc rgb colour[i] title (i == 2 ? 'Eq. 7, n = 1.333' : ''), \
      for [i=1:3] '' using 'distance_mm':(column('fill_mm') == 10*i ? column('exact_n830nm_mm') : NaN) \
        with lines lw 2 dt 3 lc rgb ink title (i == 2 ? 'exact, n of water at 830 nm' : ''))" +
-           measured_series(heights));
+                  measured_series(heights));
   figure.facts = {
       {"Largest difference of measurement and theory", "approximately 1–2 mm",
        fmt::format("{} (photometric capture against exact with n = {:.4f} at 830 nm, where enough is seen)",

@@ -6,7 +6,6 @@
 #include "core/proportion.h"
 #include "paper/figures.h"
 #include "paper/random_desks.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 
 namespace fathom {
@@ -71,7 +70,6 @@ Figure reproduce_recognition(const ReproduceSettings& settings) {
           "its rate is that of the clutter, of which the paper does not say how much there was. What the sensor's "
           "height "
           "and the cup's shape change, which it does not give either, stands below.",
-      .facts = {},
       .table = Table({"condition", "value", "method", "cups", "recognised", "share", "share_low", "share_high",
                       "merged", "occluded", "refused", "false_cups"})};
   const std::vector<CupCounts>& assumed = all_counts.front();
@@ -101,11 +99,11 @@ Figure reproduce_recognition(const ReproduceSettings& settings) {
     if (i > 0)
       figure.facts.push_back({fmt::format("Proposed method, {}: {}", what, value), "–", found_text(all_counts[i][0])});
   }
-  write_table(settings.folder / "recognition.csv", figure.table);
   write_table(settings.folder / "recognition_bars.csv", bars);
-  draw(settings.folder, figure.name,
-       fmt::format(
-           R"(
+  draw_figure(
+      settings, figure,
+      fmt::format(
+          R"(
 set title {}
 set ylabel 'share of the cups that are recognised'
 set yrange [0:1.05]; set xrange [-0.6:{}.6]; set ytics 0.25
@@ -117,10 +115,10 @@ plot 'recognition_bars.csv' using ($0-0.1):'paper':'paper_low':'paper_high':xtic
      0.75 with lines lw 1.5 dt 2 lc rgb blue title 'printed: 15/20', \
      'recognition.csv' using (strcol('method') eq 'sac-ia' ? 0.3 : NaN):'share':'share_low':'share_high' with yerrorbars pt 9 ps 1.6 lw 2 lc rgb red title 'SAC-IA', \
      0.20 with lines lw 1.5 dt 2 lc rgb red title 'printed SAC-IA: 4/20')",
-           gnuplot_text(fmt::format("Cups recognised on random desks, {} of each kind (95 % intervals), over what "
-                                    "the paper does not say",
-                                    desks)),
-           kConditions.size() - 1));
+          gnuplot_text(fmt::format("Cups recognised on random desks, {} of each kind (95 % intervals), over what "
+                                   "the paper does not say",
+                                   desks)),
+          kConditions.size() - 1));
   return figure;
 }
 

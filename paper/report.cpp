@@ -1,8 +1,9 @@
-// report.html: the remade figures in one file that needs no other.
+// The remade figures as files: each with its table, and all in report.html, which needs no other file.
 #include <fmt/format.h>
 
 #include "core/files.h"
 #include "paper/figures.h"
+#include "report/gnuplot.h"
 #include "report/html.h"
 
 namespace fathom {
@@ -15,6 +16,11 @@ std::string facts_html(const std::vector<Fact>& facts) {
 }
 
 }  // namespace
+
+void draw_figure(const ReproduceSettings& settings, const Figure& figure, const std::string& plot) {
+  write_table(settings.folder / (figure.name + ".csv"), figure.table);
+  draw(settings.folder, figure.name, plot);
+}
 
 void write_report(const std::filesystem::path& folder, const std::vector<Figure>& figures) {
   std::string html =

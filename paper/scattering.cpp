@@ -1,12 +1,11 @@
 // How strongly the paper's milk tea scatters: what is matched in it, and how far below its surface, over μs′.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "core/progress.h"
 #include "core/units.h"
 #include "paper/figures.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "sim/sensor/capture.h"
 
@@ -70,7 +69,6 @@ Figure reproduce_scattering(const ReproduceSettings& settings) {
                 .sentence =
                     "The less a liquid scatters the deeper its light comes from, and the more its dots blur, until "
                     "nothing can be matched.",
-                .facts = {},
                 .table = Table({"reduced_scattering_per_mm", "matched_share", "low_mm"})};
   std::vector<double> matched, low, both;
   Progress progress("milk tea", kReducedScatteringPerMm.size(), settings.quiet);
@@ -89,10 +87,10 @@ Figure reproduce_scattering(const ReproduceSettings& settings) {
       {"μs′ at which at least half of the milk tea's surface is matched", "matched", interval_text(matched)},
       {"μs′ at which it reads 1 to 2 mm low", "1–2 mm", interval_text(low)},
       {"μs′ at which both hold", "both", interval_text(both)}};
-  write_table(settings.folder / "scattering.csv", figure.table);
-  draw(settings.folder, figure.name,
-       fmt::format(
-           R"(
+  draw_figure(
+      settings, figure,
+      fmt::format(
+          R"(
 set title {}
 set xlabel 'reduced scattering coefficient μs'' [1/mm]'
 set ylabel 'mean depth below the surface of what is matched [mm]' textcolor rgb blue
@@ -104,9 +102,9 @@ set label 1 'the paper: 1–2 mm low' at graph 0.02, first 1.5 textcolor rgb ink
 plot 'scattering.csv' using 'reduced_scattering_per_mm':'low_mm' with linespoints lw 3 pt 7 lc rgb blue title 'reads low by', \
      '' using 'reduced_scattering_per_mm':'matched_share' axes x1y2 with linespoints lw 3 pt 5 lc rgb orange \
        title 'matched share')",
-           gnuplot_text(fmt::format("{:g} mm of milk tea, {:g} mm away: what the sensor matches, over its reduced "
-                                    "scattering",
-                                    kFillMm, kDistanceMm))));
+          gnuplot_text(fmt::format("{:g} mm of milk tea, {:g} mm away: what the sensor matches, over its reduced "
+                                   "scattering",
+                                   kFillMm, kDistanceMm))));
   return figure;
 }
 

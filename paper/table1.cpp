@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "paper/figures.h"
 #include "paper/random_desks.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 
 namespace fathom {
@@ -94,7 +93,6 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
           "Whatever fills a cup is to be told from its bottom. How many cups are recognised says how much "
           "stood about, which the paper does not tell. Where a cup is recognised but its bottom is hidden, the "
           "content is unknown.",
-      .facts = {},
       .table = Table({"liquid", "fill_mm", "printed_of", "printed_recognised", "printed_liquid", "things", "method",
                       "cups", "recognised", "liquid_yes", "liquid_unknown"})};
   Table bars({"filling", "printed", "paper", "robust", "printed_liquid", "paper_liquid", "robust_liquid"});
@@ -121,10 +119,9 @@ Figure reproduce_table1(const ReproduceSettings& settings) {
   add_facts(among_many, 0, "Method as printed, 3 to 6 things", figure.facts);
   add_facts(beside_one, 1, "Robust, one thing", figure.facts);
   add_facts(among_many, 1, "Robust, 3 to 6 things", figure.facts);
-  write_table(settings.folder / "table1.csv", figure.table);
   write_table(settings.folder / "table1_bars.csv", bars);
-  draw(settings.folder, figure.name,
-       fmt::format(R"(
+  draw_figure(settings, figure,
+              fmt::format(R"(
 set title 'Table I: cups recognised (bars) and liquids detected in them (dots), one thing beside the cup'
 set ylabel 'share of the cups'
 set yrange [0:1.05]; set xrange [-0.6:15.6]; set ytics 0.25
@@ -140,7 +137,7 @@ array colour[3] = [pale, blue, green]
 array who[3] = ['printed', 'method as printed, here', 'robust']
 plot for [i=1:3] 'table1_bars.csv' using (column(i+1)) lc rgb colour[i] title who[i], \
      for [i=1:3] '' using ($0+(i-2)/4.0):(column(i+4)) with points pt 7 ps 1.1 lc rgb orange title (i == 1 ? 'liquid detected' : ''))",
-                   gnuplot_xtics(labels)));
+                          gnuplot_xtics(labels)));
   return figure;
 }
 

@@ -6,8 +6,6 @@
 
 #include "core/units.h"
 #include "paper/figures.h"
-#include "paper/laboratory_scene.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "theory/raised_bottom.h"
 #include "theory/triangulation.h"
@@ -40,7 +38,6 @@ Figure reproduce_fig10(const ReproduceSettings& settings) {
   Figure figure{.name = "fig10",
                 .title = "Fig. 10: height of the raised bottom over the incidence angle",
                 .sentence = "The flatter the beam and the deeper the water, the higher the bottom seems to stand.",
-                .facts = {},
                 .table = Table({"fill_mm", "incidence_deg", "eq3_mm"})};
   Table exact({"fill_mm", "incidence_deg", "exact_mm"});
   for (const double fill : {10.0, 20.0, 30.0}) {
@@ -54,9 +51,8 @@ Figure reproduce_fig10(const ReproduceSettings& settings) {
       exact.add({number(fill), number(deg_from_radians(point.incidence_camera)), number(mm_from_metres(point.height))});
     }
   }
-  write_table(settings.folder / "fig10.csv", figure.table);
   write_table(settings.folder / "fig10_exact.csv", exact);
-  draw(settings.folder, figure.name, R"(
+  draw_figure(settings, figure, R"(
 set title 'Raised bottom of a cup of water over the incidence angle (n = 1.333)'
 set xlabel 'incidence angle of the beam [deg]'
 set ylabel 'height of the raised bottom [mm]'
@@ -83,7 +79,6 @@ Figure reproduce_fig12(const ReproduceSettings& settings) {
                 .sentence =
                     "The printed 6.95° is the difference at that edge of the camera's field of view which lies "
                     "away from the projector, 500 mm away; right below the camera it is larger.",
-                .facts = {},
                 .table = Table({"field_deg", "skew_at_500_mm_range_deg", "skew_at_500_mm_depth_deg"})};
   const int steps = 234;
   for (int i = 0; i <= steps; ++i) {
@@ -92,8 +87,7 @@ Figure reproduce_fig12(const ReproduceSettings& settings) {
     figure.table.add({number(field_deg), number(deg_from_radians(skew(field, kMinimumRange * std::cos(field)))),
                       number(deg_from_radians(skew(field, kMinimumRange)))});
   }
-  write_table(settings.folder / "fig12.csv", figure.table);
-  draw(settings.folder, figure.name, R"(
+  draw_figure(settings, figure, R"(
 set title 'Difference of the incidence angles of projected and received beam, sensor looking straight down'
 set xlabel 'angle of the camera''s ray from its axis [deg], positive away from the projector'
 set ylabel '|θ_1 − θ_4| [deg]'
@@ -126,7 +120,6 @@ Figure reproduce_fig13(const ReproduceSettings& settings) {
                 .sentence =
                     "The farther the cup, the flatter the beams; Eq. 6 ignores that they bend in the water, "
                     "which makes them a little flatter still.",
-                .facts = {},
                 .table = Table({"distance_mm", "eq6_deg", "exact_30_mm_water_deg"})};
   const auto eq6 = [](double d) { return deg_from_radians(theory::incidence_angle_at(d, kBaseline, kHeight)); };
   const auto exact = [](double d) {
@@ -136,11 +129,10 @@ Figure reproduce_fig13(const ReproduceSettings& settings) {
   };
   for (int mm = 0; mm <= 1000; mm += 10)
     figure.table.add({number(mm), number(eq6(metres_from_mm(mm))), number(exact(metres_from_mm(mm)))});
-  write_table(settings.folder / "fig13.csv", figure.table);
   const std::string title =
       fmt::format("Incidence angle of the beams over the distance of the cup (sensor {:g} mm above the bottom)",
                   mm_from_metres(kHeight));
-  draw(settings.folder, figure.name, "set title " + gnuplot_text(title) + R"(
+  draw_figure(settings, figure, "set title " + gnuplot_text(title) + R"(
 set xlabel 'horizontal distance of the bottom point from the sensor [mm]'
 set ylabel 'incidence angle [deg]'
 set xrange [0:1000]; set yrange [0:60]; set xtics 100; set ytics 10

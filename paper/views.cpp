@@ -7,8 +7,6 @@
 #include "campaign/cup_height.h"
 #include "core/units.h"
 #include "paper/figures.h"
-#include "paper/laboratory_scene.h"
-#include "report/gnuplot.h"
 #include "report/gnuplot_text.h"
 #include "sim/sensor/capture.h"
 #include "theory/raised_bottom.h"
@@ -125,15 +123,11 @@ Figure reproduce_view(const View& view, const ReproduceSettings& settings) {
   const Image<CloudPoint> cloud = camera.shoot(0).cloud;
   const auto found = height_in_cup(cloud_from_image(cloud), paper_rig(setup), {0.0, metres_from_mm(kViewedMm)});
   const InteriorHeight* height = std::get_if<InteriorHeight>(&found);
-  Figure figure{.name = view.name,
-                .title = view.title,
-                .sentence = view.sentence,
-                .facts = {},
-                .table = slice(cloud, setup.rig, cup)};
-  write_table(settings.folder / (figure.name + ".csv"), figure.table);
+  Figure figure{
+      .name = view.name, .title = view.title, .sentence = view.sentence, .table = slice(cloud, setup.rig, cup)};
   std::optional<double> measured_mm;
   if (height) measured_mm = mm_from_metres(height->mean_m);
-  draw(settings.folder, figure.name, plot_of(view, cup, figure.table, measured_mm));
+  draw_figure(settings, figure, plot_of(view, cup, figure.table, measured_mm));
   figure.facts.push_back({"Mean height inside the cup above the desk", view.printed,
                           height ? fmt::format("{:.1f} mm, {} points with σ = {:.1f} mm", *measured_mm, height->points,
                                                mm_from_metres(height->sd_m))
