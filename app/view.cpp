@@ -16,11 +16,8 @@
 #include "core/view_page.h"
 #include "report/kept_detection.h"
 #include "sim/sensor/capture_files.h"
-#include "view/capture_scene.h"
-#include "view/detection_scene.h"
-#include "view/diagnosis_scene.h"
 #include "view/page.h"
-#include "view/page_parts.h"
+#include "view/scenes.h"
 
 namespace fathom {
 namespace {

@@ -1,5 +1,4 @@
-#include "view/capture_scene.h"
-
+// A capture's folder as the page's data.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "sim/sensor/capture_files.h"
 #include "view/packed.h"
 #include "view/pixel_table.h"
+#include "view/scenes.h"
 
 namespace fathom {
 namespace {

@@ -1,5 +1,4 @@
-#include "view/detection_scene.h"
-
+// A detection's folder as the page's data.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -13,6 +12,7 @@
 #include "detector/read_cloud.h"
 #include "report/kept_detection.h"
 #include "view/packed.h"
+#include "view/scenes.h"
 
 namespace fathom {
 namespace {

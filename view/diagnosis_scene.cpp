@@ -1,12 +1,10 @@
-#include "view/diagnosis_scene.h"
-
+// A diagnosis' folder as the page's data.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <set>
-#include <span>
 #include <tuple>
 
 #include "core/cup_profile.h"
@@ -19,6 +17,7 @@
 #include "report/diagnosis_words.h"
 #include "report/observable_words.h"
 #include "view/packed.h"
+#include "view/scenes.h"
 
 namespace fathom {
 namespace {

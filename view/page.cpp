@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "report/html.h"
-#include "view/page_parts.h"
 
 namespace fathom {
 namespace {

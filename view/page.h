@@ -15,8 +15,13 @@ inline constexpr const char* kThreeFolder = "/usr/share/javascript/three";
 /// What a page shows: its data and the script that draws them.
 struct PageContent {
   Json data;
-  std::string_view script;  ///< of page_parts.h
+  std::string_view script;  ///< one of the three below
 };
+
+/// page.css and script/*/*.js, as they were when the program was built: a script for each kind of page, and what all
+/// pages have.
+extern const std::string_view kCaptureScript, kDetectionScript, kDiagnosisScript;
+extern const std::string_view kCommonScript, kPageStyle;
 
 /// `title` is plain text. Throws Error naming the file of three.js that is missing in `three`.
 std::string view_page(std::string_view title, const PageContent& content, const std::filesystem::path& three);

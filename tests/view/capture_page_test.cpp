@@ -1,10 +1,8 @@
 // What the page of a capture is given: every pixel as it was traced, and no text that could do more than be read.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/files.h"
 #include "sim/render/intersect.h"
 #include "sim/render/truth.h"
 #include "tests/core/expect_error.h"
@@ -12,7 +10,6 @@
 #include "tests/view/unpacked.h"
 #include "view/packed.h"
 #include "view/page.h"
-#include "view/page_parts.h"
 #include "view/pixel_table.h"
 
 namespace fathom {

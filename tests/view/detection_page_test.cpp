@@ -3,14 +3,13 @@
 
 #include "core/files.h"
 #include "detector/robust.h"
-#include "detector/settings_json.h"
 #include "report/detection_report.h"
 #include "report/kept_detection.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/detector/synthetic.h"
 #include "tests/view/unpacked.h"
-#include "view/detection_scene.h"
+#include "view/scenes.h"
 
 namespace fathom {
 namespace {

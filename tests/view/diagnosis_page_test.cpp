@@ -7,7 +7,7 @@
 #include "tests/core/expect_error.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/view/unpacked.h"
-#include "view/diagnosis_scene.h"
+#include "view/scenes.h"
 
 namespace fathom {
 namespace {

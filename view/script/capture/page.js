@@ -48,7 +48,7 @@ function build(scene, page) {
     } };
   const boxes = {
     cut: tick("Cut open at the chosen pixel", false, on => { state.cut = on; cut(); }),
-    bodies: tick("Cups and liquids", true, on => stage.showBodies(on)) };
+    bodies: tick("Cups and liquids", true, on => stage.show(stage.bodies, on)) };
   buttons.append(button("Whole scene", views.whole), button("Cup", views.cup), button("From the side, cut open", views.side),
                  button("From above", views.above), button("The two rays", views.rays));
   panel.append(

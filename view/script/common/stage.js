@@ -169,8 +169,9 @@ class Stage {
     this.draw();
   }
 
-  showAllPoints(on) {
-    this.points.visible = on;
+  // A part of the picture: its points, its bodies or another group.
+  show(part, on) {
+    part.visible = on;
     this.draw();
   }
 
@@ -180,11 +181,6 @@ class Stage {
     const planes = place ? [this.cut] : [];
     this.materials.points.clippingPlanes = planes;
     for (const body of this.bodies.children) body.material.clippingPlanes = planes;
-    this.draw();
-  }
-
-  showBodies(on) {
-    this.bodies.visible = on;
     this.draw();
   }
 

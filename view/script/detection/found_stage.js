@@ -75,14 +75,4 @@ class FoundStage extends Stage {
     }
     this.draw();
   }
-
-  showModels(on) {
-    this.models.visible = this.bodies.visible = on;
-    this.draw();
-  }
-
-  showOutlines(on) {
-    this.outlines.visible = on;
-    this.draw();
-  }
 }

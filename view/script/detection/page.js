@@ -61,9 +61,9 @@ function build(data, page) {
       card(thing, `${oneDecimal(thing.candidate.width_mm)} mm wide, ${oneDecimal(thing.candidate.height_mm)} mm high`, thing.candidate.reason)))] : []),
     choice("Colour of the points", "colouring", { class: "what they belong to", height: "height above the desk" }, state.colouring,
            value => { state.colouring = value; paint(); }),
-    element("fieldset", {}, element("legend", {}, "Show"), tick("Models of the cups", true, on => stage.showModels(on)),
-            tick("Outlines of what is no cup", true, on => stage.showOutlines(on)),
-            tick("Points", true, on => stage.showAllPoints(on))));
+    element("fieldset", {}, element("legend", {}, "Show"), tick("Models of the cups", true, on => { stage.show(stage.models, on); stage.show(stage.bodies, on); }),
+            tick("Outlines of what is no cup", true, on => stage.show(stage.outlines, on)),
+            tick("Points", true, on => stage.show(stage.points, on))));
   if (data.every > 1) parts.panel.append(element("p", { class: "small" }, `Of the cloud's points every ${data.every}. is drawn.`));
 
   // "#view=above&colouring=height&cup=1" or "&candidate=0", each of them if wanted.

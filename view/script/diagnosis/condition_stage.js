@@ -32,7 +32,7 @@ class ConditionStage extends Stage {
   height() { return this.data.cup.outer[this.data.cup.outer.length - 1][1]; }
 
   // `model`: "before" or "after". Points are coloured by how far they are from it, where `range` metres are the end of the scale.
-  show(condition, model, range) {
+  showCondition(condition, model, range) {
     this.empty(this.plates);
     this.empty(this.marks);
     const key = `${model}_mm`, within = this.data.within_m, levels = new Map(condition.regions.map(each => [each.region, each]));

@@ -25,7 +25,7 @@ function build(data, page) {
   const colouring = { title: "Points: measured minus model", scale: SIGNS_ON_WHITE, ends: [`−${range * MM} mm`, "0", `+${range * MM} mm`] };
   parts.legend.replaceChildren(...legend(colouring));
   const show = () => {
-    stage.show(state.condition, state.model, range);
+    stage.showCondition(state.condition, state.model, range);
     stage.cutAt(state.cut ? stage.axis : null);
     parts.legend.hidden = !state.condition.shot;
     document.documentElement.dataset.model = state.model;
@@ -63,8 +63,8 @@ function build(data, page) {
     element("p", { class: "answer" }, data.answer),
     choice("Model", "model", names, state.model, value => { state.model = value; show(); }),
     element("fieldset", {}, element("legend", {}, "Show"), cut,
-            tick("The cup's walls", true, on => stage.showBodies(on)),
-            tick("The model's levels", true, on => { stage.plates.visible = on; stage.draw(); })),
+            tick("The cup's walls", true, on => stage.show(stage.bodies, on)),
+            tick("The model's levels", true, on => stage.show(stage.plates, on))),
     element("p", { class: "small" }, "Fill and place of the cup; then measured minus model in mm: ", word("before", "● before"), ", ", word("after", "● after"), ". Choose a condition to see it."),
     list);
   list.append(...lists.flatMap(({ liquid, made }) => [element("h3", {}, liquid), ...made]));
