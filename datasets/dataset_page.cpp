@@ -1,5 +1,4 @@
-#include "datasets/dataset_page.h"
-
+// The page of a data set that is complete.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <map>
 
 #include "core/files.h"
+#include "datasets/scene_folder.h"
 #include "report/html.h"
 
 namespace fathom {

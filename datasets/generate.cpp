@@ -5,7 +5,6 @@
 #include "core/folder_owner.h"
 #include "core/input_record.h"
 #include "core/progress.h"
-#include "datasets/dataset_page.h"
 
 namespace fathom {
 namespace {

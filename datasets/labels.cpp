@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/median.h"
 #include "core/units.h"
@@ -133,9 +132,7 @@ std::optional<LiquidLabel> liquid_of(const Camera& camera, const Image<int>& fir
                     .fill_mm = mm_from_metres(cup.filling->depth),
                     .surface_mm = mm_from_metres(liquid_level(cup)),
                     .bottom_mm = mm_from_metres(bottom_height(cup)),
-                    .apparent_mm = {},
-                    .mask = mask_of(*number, *number, first),
-                    .runs = {}};
+                    .mask = mask_of(*number, *number, first)};
   label.runs = run_lengths(label.mask);
   std::vector<double> heights;
   const PixelBox box = label.runs.box.value_or(PixelBox{});
@@ -154,11 +151,7 @@ InstanceLabel label_of(const Model& model, std::size_t index, int object, std::o
   InstanceLabel label{.model = &model,
                       .index = index,
                       .camera_from_model = rig.world_from_camera.inverse() * world_from_model,
-                      .whole = {},
-                      .visible = mask_of(object, liquid.value_or(object), pixels.first_object),
-                      .visible_runs = {},
-                      .whole_box = {},
-                      .liquid = {}};
+                      .visible = mask_of(object, liquid.value_or(object), pixels.first_object)};
   label.visible_runs = run_lengths(label.visible);
   see_alone(world_from_model, rig, pixels.measured, label);
   return label;

@@ -32,23 +32,23 @@ struct LiquidLabel {
   bool is_turbid;  ///< its surface is what is measured; else what lies under it
   double index;    ///< of refraction, at the sensor's wavelength
   double fill_mm;
-  double surface_mm, bottom_mm;       ///< heights above the desk: of the level, of the inner bottom's centre
-  std::optional<double> apparent_mm;  ///< median height that a camera without noise measures where the liquid is seen
-  Image<std::uint8_t> mask;           ///< 255 where the liquid's surface is the first that is seen
-  RunLengths runs;                    ///< of `mask`
+  double surface_mm, bottom_mm;         ///< heights above the desk: of the level, of the inner bottom's centre
+  std::optional<double> apparent_mm{};  ///< median height that a camera without noise measures where the liquid is seen
+  Image<std::uint8_t> mask;             ///< 255 where the liquid's surface is the first that is seen
+  RunLengths runs{};                    ///< of `mask`
 };
 
 struct InstanceLabel {
   const Model* model;
   std::size_t index;  ///< of the scene's cups, or of its objects
   Pose camera_from_model;
-  Image<std::uint8_t> whole;          ///< 255 where it would be seen alone
-  Image<std::uint8_t> visible;        ///< 255 where it, or a liquid in it, is the first that is seen
-  RunLengths visible_runs;            ///< of `visible`
-  int whole_pixels = 0;               ///< of its silhouette, also beyond the image
-  std::optional<PixelBox> whole_box;  ///< of the silhouette, also beyond the image
-  int valid = 0;                      ///< pixels of `whole` whose depth is in the depth image
-  std::optional<LiquidLabel> liquid;
+  Image<std::uint8_t> whole{};          ///< 255 where it would be seen alone
+  Image<std::uint8_t> visible;          ///< 255 where it, or a liquid in it, is the first that is seen
+  RunLengths visible_runs{};            ///< of `visible`
+  int whole_pixels = 0;                 ///< of its silhouette, also beyond the image
+  std::optional<PixelBox> whole_box{};  ///< of the silhouette, also beyond the image
+  int valid = 0;                        ///< pixels of `whole` whose depth is in the depth image
+  std::optional<LiquidLabel> liquid{};
 };
 
 inline constexpr double kDepthUnitMm = 0.1;  ///< of 16-bit depth images

@@ -153,12 +153,7 @@ void Models::add(bool is_cup, const Json& entry, const std::string& file) {
   Model model{.id = static_cast<int>(models_.size()) + 1,
               .name = is_cup ? cup_name(scene.cups[0]) : object_name(scene.objects[0]),
               .is_cup = is_cup,
-              .mesh = {},
-              .box = {},
-              .diameter = 0.0,
-              .geometry = std::make_unique<Geometry>(build_geometry(scene, kAnyWavelength_nm)),
-              .alone = nullptr,
-              .alone_from_model = {}};
+              .geometry = std::make_unique<Geometry>(build_geometry(scene, kAnyWavelength_nm))};
   model.alone = std::make_unique<Intersector>(*model.geometry);
   model.alone_from_model = model.geometry->world_from_object.at(0);
   for (const Surface& surface : model.geometry->surfaces) model.mesh.append(surface.mesh);

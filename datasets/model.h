@@ -20,12 +20,12 @@ struct Model {
   int id;            ///< from 1, BOP's obj_id
   std::string name;  ///< "mug"
   bool is_cup;
-  Mesh mesh;  ///< own frame [m]
-  Eigen::AlignedBox3d box;
-  double diameter;                     ///< [m] the largest distance of two of its points
-  std::unique_ptr<Geometry> geometry;  ///< alone, without a desk
-  std::unique_ptr<Intersector> alone;  ///< of `geometry`
-  Pose alone_from_model;               ///< where it stands there
+  Mesh mesh{};  ///< own frame [m]
+  Eigen::AlignedBox3d box{};
+  double diameter = 0.0;                 ///< [m] the largest distance of two of its points
+  std::unique_ptr<Geometry> geometry;    ///< alone, without a desk
+  std::unique_ptr<Intersector> alone{};  ///< of `geometry`
+  Pose alone_from_model{};               ///< where it stands there
 };
 
 class Models {

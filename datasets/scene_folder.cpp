@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "core/error.h"
@@ -12,7 +11,8 @@
 #include "core/image_file.h"
 #include "core/parallel.h"
 #include "core/rng.h"
-#include "datasets/frame_picture.h"
+#include "datasets/labels.h"
+#include "report/depth_picture.h"
 #include "sim/sensor/capture_files.h"
 
 namespace fathom {
@@ -79,6 +79,38 @@ void write_images(const SensorModel& sensor, const Frame& frame, const FramePixe
 
 Json runs_json(const RunLengths& runs) { return {{"size", {runs.height, runs.width}}, {"counts", runs.counts}}; }
 
+constexpr Rgb kCup{90, 200, 90}, kThing{100, 140, 230}, kSeenThrough{60, 220, 230}, kSurface{250, 160, 50};
+
+/// Colours of what is seen, black where it is the desk or nothing.
+Image<Rgb> tints(int width, int height, const std::vector<InstanceLabel>& labels) {
+  Image<Rgb> tint(width, height, Rgb{0, 0, 0});
+  const auto paint = [&](const Image<std::uint8_t>& mask, const Rgb& colour) {
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      if (mask.pixels()[i]) tint.pixels()[i] = colour;
+  };
+  for (const InstanceLabel& label : labels) {
+    paint(label.visible, label.model->is_cup ? kCup : kThing);
+    if (label.liquid) paint(label.liquid->mask, label.liquid->is_turbid ? kSurface : kSeenThrough);
+  }
+  return tint;
+}
+
+/// A frame as a picture for people, half as large as the depth image: measured depth in grey, near is bright; cups
+/// tinted green, other things blue, liquids that are seen through cyan and surfaces of turbid ones orange.
+Image<Rgb> frame_picture(const Frame& frame, const std::vector<InstanceLabel>& labels) {
+  const Image<Rgb> grey = depth_picture(frame.depth);
+  const Image<Rgb> tint = tints(grey.width(), grey.height(), labels);
+  Image<Rgb> picture(grey.width() / 2, grey.height() / 2);
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const Rgb &shade = grey(2 * x, 2 * y), &colour = tint(2 * x, 2 * y);
+      const bool is_labelled = colour != Rgb{0, 0, 0};
+      for (std::size_t c = 0; c < 3; ++c)
+        picture(x, y)[c] = is_labelled ? static_cast<std::uint8_t>(0.45 * shade[c] + 0.55 * colour[c]) : shade[c];
+    }
+  return picture;
+}
+
 /// Shoots a frame, writes its files and returns their names, that of its labels last.
 std::vector<std::string> make_frame(const fs::path& folder, const Dataset& dataset, int number) {
   const Json scene = dataset_scene(dataset.spec, dataset.seed, number);
@@ -138,7 +170,7 @@ Json annotation(std::int64_t id, std::int64_t image, Category category, const Js
           {"area", area}};
 }
 
-/// The labels of a scene's frames. All that was written has reached the disk when they are read, which takes as long.
+/// Reads the labels of a scene's frames while the file system is flushed: both take about as long.
 std::vector<Json> read_labels_and_flush(const fs::path& folder, int images) {
   std::vector<Json> labels(static_cast<std::size_t>(images));
   parallel_items(images + 1, [&](int i) {

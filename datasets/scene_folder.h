@@ -9,7 +9,6 @@
 
 #include "core/manifest.h"
 #include "datasets/dataset_spec.h"
-#include "datasets/labels.h"
 #include "datasets/model.h"
 
 namespace fathom {
@@ -46,5 +45,9 @@ int write_scene(const std::filesystem::path& folder, const Dataset& dataset, int
 
 /// Whether every scene's labels are gathered, of all its frames.
 bool is_complete(const std::filesystem::path& folder, const Dataset& dataset);
+
+/// For people: index.html beside the frames, of a data set that is complete. Thumbnails of its first frames, and
+/// histograms of cups a frame, liquids, fills, shares that are in sight, distances and heights of the sensor.
+void write_dataset_page(const std::filesystem::path& folder, const Dataset& dataset);
 
 }  // namespace fathom

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "core/files.h"
 #include "core/image_file.h"
 #include "core/json.h"
+#include "datasets/labels.h"
 #include "datasets/scene_folder.h"
 #include "tests/core/expect_error.h"
 #include "tests/core/files_below.h"
