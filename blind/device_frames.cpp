@@ -20,6 +20,23 @@ double error_of(Rng& rng, bool heavy) {
   return z / std::sqrt(2.0 * rng.gamma(2.0, 2.0) / 4.0);  // chi² of 4 is Gamma(2, 2); t₄ has variance 2
 }
 
+/// Of each dot, drawn by `seed` and `stream`. `dot_px`: 1 σ of a dot whose Matched::dot_sigma is 1.
+std::vector<double> dot_errors(const World& world, const Matched& matched, double dot_px, std::uint64_t seed,
+                               std::uint64_t stream) {
+  std::vector<double> errors(matched.dots.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    Rng rng(seed, stream, i);
+    errors[i] = world.noise_scale * dot_px * matched.dot_sigma[i] * error_of(rng, world.heavy_tails);
+  }
+  return errors;
+}
+
+/// Adds what the errors of its dots make of a block's disparity.
+void add_dot_errors(const Matched& matched, const Block& block, const std::vector<double>& errors, double& px) {
+  for (int k = block.first; k < block.first + block.count; ++k)
+    px += matched.members[k].error_weight * errors[matched.members[k].dot];
+}
+
 }  // namespace
 
 Raster near_cup(const Placement& placement) {
@@ -61,15 +78,10 @@ Scene stand(const World& world, const std::vector<Dot>& dots, bool has_cup, cons
             std::uint64_t standing) {
   Scene scene{match(world, dots, has_cup, raster, standing), {}, {}};
   const Matched& matched = scene.matched;
-  std::vector<double> errors(matched.dots.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    Rng rng(standing, 0x57a7, i);
-    errors[i] = world.noise_scale * kStaticDotPx * matched.dot_sigma[i] * error_of(rng, world.heavy_tails);
-  }
+  const std::vector<double> errors = dot_errors(world, matched, kStaticDotPx, standing, 0x57a7);
   for (const Block& block : matched.blocks) {
     double px = field_px(world, block.pixel, block.disparity_px);
-    for (int k = block.first; k < block.first + block.count; ++k)
-      px += matched.members[k].error_weight * errors[matched.members[k].dot];
+    add_dot_errors(matched, block, errors, px);
     scene.standing_px.push_back(px);
   }
   scene.dn = infrared_dn(matched);
@@ -85,17 +97,13 @@ Shake shake_of(const World& world, std::uint64_t frame) {
 
 std::vector<double> disparities(const Scene& scene, const World& world, const Shake& shake, std::uint64_t frame) {
   const Matched& matched = scene.matched;
-  std::vector<double> errors(matched.dots.size()), result;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    Rng rng(frame, 0x7e39, i);
-    errors[i] = world.noise_scale * kTemporalDotPx * matched.dot_sigma[i] * error_of(rng, world.heavy_tails);
-  }
+  const std::vector<double> errors = dot_errors(world, matched, kTemporalDotPx, frame, 0x7e39);
+  std::vector<double> result;
   result.reserve(matched.blocks.size());
   for (std::size_t b = 0; b < matched.blocks.size(); ++b) {
     const Block& block = matched.blocks[b];
     double px = block.disparity_px + scene.standing_px[b] + shake.offset_px;
-    for (int k = block.first; k < block.first + block.count; ++k)
-      px += matched.members[k].error_weight * errors[matched.members[k].dot];
+    add_dot_errors(matched, block, errors, px);
     if (world.strange.vibration_px != 0.0)
       px += world.strange.vibration_px * std::sin(2.0 * std::numbers::pi * block.pixel.y() / 180.0 + shake.phase);
     result.push_back(px);

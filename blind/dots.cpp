@@ -1,8 +1,7 @@
-#include "blind/dots.h"
-
-#include <algorithm>
+// The pattern of dots.
 #include <cstdint>
 
+#include "blind/follow.h"
 #include "core/rng.h"
 
 namespace fathom::blind {
@@ -43,7 +42,5 @@ std::vector<Dot> dots_in(const Eigen::Vector2i& low, const Eigen::Vector2i& high
         dots.push_back({{x + 0.5, y + 0.5}, (y + 4 * kHeight) * (kTilesAcross * kWidth) + x + kWidth});
   return dots;
 }
-
-double dot_density() { return static_cast<double>(kDots) / (kWidth * kHeight); }
 
 }  // namespace fathom::blind

@@ -1,7 +1,7 @@
 #include "blind/fermat.h"
 
 #include <Eigen/LU>
-#include <cmath>
+#include <algorithm>
 
 #include "blind/height_field.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "blind/fermat.h"
 #include "blind/height_field.h"

@@ -1,14 +1,21 @@
-// A dot's way: from the projector to what it lights, and from there to the camera.
+// The dots that the projector throws, a pattern with the statistics of the published one, and a dot's way: from the
+// projector to what it lights, and from there to the camera.
 #pragma once
 
-#include <optional>
+#include <Eigen/Core>
 #include <vector>
 
-#include "blind/dots.h"
 #include "blind/eye.h"
 #include "blind/world.h"
 
 namespace fathom::blind {
+
+struct Dot {
+  Eigen::Vector2d at;  ///< in the projector's image: pixels of the depth image, same centre
+  int number;          ///< its own
+};
+/// Dots that lie in [low, high), of tiles of 211 × 165 positions, 11.1 % of them lit, no two touching.
+std::vector<Dot> dots_in(const Eigen::Vector2i& low, const Eigen::Vector2i& high);
 
 enum class Lit { desk, outer_wall, rim, inner_wall, bottom, surface };
 

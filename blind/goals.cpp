@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -20,6 +19,14 @@ bool is_answered(const Judged& one) { return one.answer.verdict != "missing"; }
 constexpr double kStrong = 8.0;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
+/// By its hits and trials.
+void set_share(Goal& goal) {
+  const Interval interval = clopper_pearson_95(goal.hits, goal.trials);
+  goal.low = interval.low;
+  goal.high = interval.high;
+  goal.value = goal.trials > 0 ? static_cast<double>(goal.hits) / goal.trials : 0.0;
+}
+
 /// A set without an answer counts as failed.
 Goal share(std::string metric, std::span<const Judged> judged, const Is& counts, const Is& hits, Want want, double bar,
            double bar_high = 0.0) {
@@ -29,10 +36,7 @@ Goal share(std::string metric, std::span<const Judged> judged, const Is& counts,
     ++goal.trials;
     goal.hits += is_answered(one) ? hits(one) : want == Want::at_most;
   }
-  const Interval interval = clopper_pearson_95(goal.hits, goal.trials);
-  goal.low = interval.low;
-  goal.high = interval.high;
-  goal.value = goal.trials > 0 ? static_cast<double>(goal.hits) / goal.trials : 0.0;
+  set_share(goal);
   return goal;
 }
 
@@ -82,7 +86,7 @@ bool calls_aliased_ambiguous(const Judged& one) {
          (one.answer.ambiguity_set.size() == 1 && one.answer.ambiguity_set[0].sets.size() > 1);
 }
 
-/// Of what lies above the noise.
+/// Share of the gap above the noise floor that was closed.
 double gap_closed(const Judged& one) {
   const double before = std::pow(one.answer.before_rms, 2), after = std::pow(one.answer.after_rms, 2),
                floor = std::pow(one.answer.noise_floor, 2);
@@ -105,10 +109,7 @@ Goal coverage(std::span<const Judged> judged) {
       goal.hits += value >= estimate->second.low && value <= estimate->second.high;
     }
   }
-  const Interval interval = clopper_pearson_95(goal.hits, goal.trials);
-  goal.low = interval.low;
-  goal.high = interval.high;
-  goal.value = goal.trials > 0 ? static_cast<double>(goal.hits) / goal.trials : 0.0;
+  set_share(goal);
   return goal;
 }
 

@@ -13,7 +13,7 @@ namespace fathom::blind {
 enum class Want { at_least, at_most, between };
 
 struct Goal {
-  std::string metric;
+  std::string metric{};
   double value = 0.0;
   double low = 0.0, high = 1.0;  ///< 95 % interval; of means, of ± 2 standard errors
   int hits = 0, trials = 0;      ///< hits: of shares only

@@ -29,10 +29,10 @@ struct Judged {
 
   /// What it puts first or names is exactly what is hidden, or, of aliased ones, one of them.
   bool is_right() const;
-  /// The same of a set of effects.
+  /// Whether these effects are exactly what is hidden, or, of aliased ones, one of them.
   bool is_true(const Names& effects) const;
-  /// What is hidden is what it puts first, or what it says cannot be told from that or may be there as well, each for
-  /// itself or together.
+  /// What is hidden is among the sets of effects that its first explanation leaves open: that explanation itself, what
+  /// cannot be told from it, and what may be there as well, one effect more or several of these together.
   bool first_holds_truth() const;
   /// Neither is it right nor does its first hold the truth, and that has a probability of at least 0.9.
   bool is_confidently_wrong() const;

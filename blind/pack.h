@@ -1,5 +1,5 @@
-// A pack on disk: PACK/pack.json tells what everybody may know, PACK/sets/NNNN are measurement directories,
-// PACK/options what each needs of the analyser. The truth is one file elsewhere, whose hash pack.json holds.
+// A pack on disk: PACK/pack.json tells what everybody may know, and of each set which effect its analyser must lack, if
+// any; PACK/sets/NNNN are measurement directories. The truth is one file elsewhere, whose hash pack.json holds.
 #pragma once
 
 #include <filesystem>

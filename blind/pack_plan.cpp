@@ -1,8 +1,6 @@
 #include "blind/pack_plan.h"
 
-#include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
 
 #include "core/rng.h"

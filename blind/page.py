@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""usage: blind/page.py SCORE
+"""usage: blind/page.py [beside] SCORE
 Prints what scripts/blind --baselines left in SCORE as the tables of docs/blind.md: the goals with their verdicts, simpler
-methods on the same measurements, which effects were found, what was made of unknown things, and the worst answers."""
+methods on the same measurements, which effects were found, what was made of unknown things, and the worst answers. With
+beside only the shares of SCORE/score.json and those of simpler methods, SCORE/METHOD/score.json, in columns."""
 import csv
 import json
 import sys
 from collections import defaultdict
 from pathlib import Path
 
-from beside import METRICS, columns
-
+METRICS = ["names something on a null set", "single effect first, s 5 to 8", "single effect first, s ≥ 8",
+           "pair exact, both s ≥ 8", "triple exact", "confidently wrong"]
 WORST = 12
 WEAKEST = 5.0  # s, and escape: below it nothing is expected
 MEANS = ("mean size", "gap closed", "held-out RMS", "matched filter", "localisation")
@@ -18,6 +19,24 @@ MEANS = ("mean size", "gap closed", "held-out RMS", "matched filter", "localisat
 def rows(file):
     with open(file, encoding="utf-8", newline="") as lines:
         return list(csv.DictReader(lines))
+
+
+def shares(file):
+    goals = {goal["metric"]: goal for goal in json.loads(file.read_text())["goals"]}
+    return [f"{goals[m]['hits']}/{goals[m]['trials']}" if goals[m]["trials"] else "–" for m in METRICS]
+
+
+def columns(score):
+    """Each method's shares by its name, Fathom's first; nothing where no other method answered."""
+    methods = sorted(file.parent for file in score.glob("*/score.json"))
+    return {"Fathom": shares(score / "score.json")} | {m.name: shares(m / "score.json") for m in methods} if methods else {}
+
+
+def print_beside(score):
+    beside = columns(score)
+    print(f"\n{'beside simpler methods':46}" + "".join(f"{name:>21}" for name in beside))
+    for row, metric in enumerate(METRICS):
+        print(f"{metric:46}" + "".join(f"{column[row]:>21}" for column in beside.values()))
 
 
 def table(head, lines):
@@ -87,6 +106,9 @@ def main(score):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) == 3 and sys.argv[1] == "beside":
+        print_beside(Path(sys.argv[2]))
+    elif len(sys.argv) == 2:
+        main(Path(sys.argv[1]))
+    else:
         sys.exit(__doc__)
-    main(Path(sys.argv[1]))

@@ -1,6 +1,7 @@
 #include "blind/report_file.h"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "core/json.h"

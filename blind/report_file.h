@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,8 +25,8 @@ struct Answer {
   /// own reckoning.
   std::map<std::string, std::map<std::string, double>> size_errors;
   struct Explanation {
-    std::vector<Names> sets;       ///< what it holds for one: itself first, then what cannot be told from it
-    std::vector<Names> supersets;  ///< of them, which it leaves open
+    std::vector<Names> sets;       ///< its effects, then the sets that cannot be told from these
+    std::vector<Names> supersets;  ///< sets that add effects to one of `sets`, and are not excluded
     double probability;            ///< of all of them
 
     bool leaves_open(const std::function<bool(const Names&)>& is) const {
@@ -37,9 +36,9 @@ struct Answer {
     bool leaves_open_together(const Names& effects) const;
   };
   std::vector<Explanation> ambiguity_set;  ///< most probable first
-  Names liquids_in_gap;                    ///< of its strata …
-  bool gap_in_all_liquids = false;         ///< … and whether one of them is of no liquid in particular
-  std::string warnings;                    ///< joined
+  Names liquids_in_gap;                    ///< liquids of the strata in which it finds a gap, p < 0.01 …
+  bool gap_in_all_liquids = false;  ///< … and whether it finds one in a stratum that is of no liquid in particular
+  std::string warnings;             ///< joined
   double before_rms = 0.0, after_rms = 0.0, noise_floor = 0.0;  ///< [mm] held out
   struct Proposal {
     std::string measurement;

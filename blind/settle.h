@@ -11,8 +11,8 @@
 
 namespace fathom::blind {
 
-/// The first measurement that is said to tell two explanations apart by 6 σ, of an answer that leaves several open.
-/// It says so of every pair that it tells apart by as much.
+/// Of an answer that leaves several explanations open: the first measurement of which it says that it tells two of them
+/// apart by 6 σ, with all the pairs of which it says so.
 struct Promise {
   std::string measurement, spec;
   double sigma;  ///< of the first pair
@@ -20,18 +20,19 @@ struct Promise {
 };
 std::optional<Promise> promise_of(const Answer& answer);
 
-/// What the promise says to tell from what is hidden: none where that is in no pair, as what is unknown always is. No
-/// measurement excludes what holds all that is hidden and more, which may be nil, and none is promised to.
+/// What the measurement must exclude: the other explanation of each of its pairs in which one is exactly what is
+/// hidden. None where that is unknown or a mistake of book-keeping. Explanations that hold all that is hidden and
+/// something more are left out: no measurement excludes them, as that something may be nil.
 std::vector<Names> rivals(const Judged& one);
 
-/// It was followed up, and what is hidden was among the pairs: there is something to settle.
+/// The measurement was made, and there is something that it must exclude.
 bool is_followed_up(const Judged& one);
 
-/// By the set and the further measurement together what is hidden, exactly, is an explanation still, and none of its
-/// rivals is one any more, however improbable.
+/// The answer to the set and that measurement together has exactly what is hidden among its explanations still, and
+/// none of the rivals any more, however improbable.
 bool is_told_apart(const Judged& one);
 
-/// Beyond that what is hidden is what is put first, or cannot be told from it.
+/// That answer also puts first what is hidden, or what cannot be told from it.
 bool is_settled(const Judged& one);
 
 /// One line for each set that was followed up: what was proposed, for which pairs, and what came of it.

@@ -30,8 +30,9 @@ class Strengths {
   /// for each look. Zero for effects that do not show in means.
   Eigen::MatrixXd sensitivity(std::span<const Active> effects) const;
 
-  /// Norm of what the looks at a sensitivity have in common; s of an effect's. Which dots happen to change windows
-  /// differs from look to look, and no model of the effect could foretell it.
+  /// Norm of what the looks at a sensitivity have in common: the root of the mean scalar product of two of them, 0
+  /// where that is negative. Which dots happen to change windows differs from look to look, and no model of the effect
+  /// could foretell it. Of an effect's sensitivity this is its strength s.
   static double common_norm(const Eigen::MatrixXd& looks);
 
   Shown shown(const Active& effect) const;
@@ -47,7 +48,8 @@ class Strengths {
 
  private:
   const ConditionViews& seen_from(std::size_t placement) const;
-  /// Of views of every placement from what is believed, as the laboratory records both: a column for each look.
+  /// `view_of(i)`, a view of placement i, minus the view of what is believed there, both as the laboratory records
+  /// them: kReadings rows for each placement, a column for each look. 0 where one of the two is not seen.
   template <class ViewOf>
   Eigen::MatrixXd difference_of_views(const ViewOf& view_of) const;
   Eigen::MatrixXd difference(std::span<const Active> effects) const;

@@ -18,7 +18,7 @@
 
 namespace fathom::blind {
 
-/// What placements have in common that read alike when nothing differs from one to the next.
+/// Placements of one condition read alike, unless something differs from one placement to the next.
 struct Condition {
   std::string liquid;
   double fill, distance, lateral;
@@ -43,15 +43,17 @@ struct Nuisance {
   Shared shared;
 };
 const std::vector<Nuisance>& nuisances();
-/// At which they are viewed: dots that change windows are the less beside it.
+/// By so many σ a nuisance is changed for its view. The larger the change is, the less do the dots count that happen to
+/// change windows.
 inline constexpr double kNuisanceSigmas = 4.0;
 
 struct ConditionViews {
   View believed{};
-  std::array<View, kUnitWaves> unit{};         ///< of each wave of a unit's bias, of kNuisanceSigmas
-  std::vector<View> nuisances{};               ///< of kNuisanceSigmas each, in the order of nuisances()
-  std::map<std::string_view, View> typical{};  ///< of effects at their typical departure, where all placements agree
-  std::map<int, Readings> noise{};             ///< for the number of trials: sigmas
+  std::array<View, kUnitWaves> unit{};  ///< of each wave of a unit's bias, of kNuisanceSigmas
+  std::vector<View> nuisances{};        ///< of kNuisanceSigmas each, in the order of nuisances()
+  /// Of each effect at its typical departure, if it shows in means and does the same to all placements of a condition.
+  std::map<std::string_view, View> typical{};
+  std::map<int, Readings> noise{};  ///< for the number of trials: sigmas
 };
 
 using Views = std::map<Condition, ConditionViews>;

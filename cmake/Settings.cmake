@@ -48,7 +48,7 @@ option(FATHOM_UNITY "Compile several files as one" ON)
 set(CMAKE_UNITY_BUILD ${FATHOM_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 if(FATHOM_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # GCC takes a source that another one includes for a header.
+  # Unity builds include sources, which GCC then treats as headers.
   target_compile_options(fathom_settings INTERFACE $<BUILD_INTERFACE:-Wno-subobject-linkage>)
 endif()
 

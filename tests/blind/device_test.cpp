@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "blind/device_frames.h"

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 
 #include "blind/ledger.h"
 #include "blind/pack.h"
