@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "sim/sensor/depth.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <stdexcept>
+#include <new>
 
 #include "core/parallel.h"
 

@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <random>
 #include <vector>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "sim/render/truth.h"
 #include "sim/sensor/depth.h"

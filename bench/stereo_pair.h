@@ -1,7 +1,6 @@
 // One matching problem in two forms: as match() takes it, and as two 8-bit images for OpenCV's stereo matchers.
 #pragma once
 
-#include <memory>
 #include <opencv2/core.hpp>
 
 #include "bench/bench_scene.h"

@@ -1,6 +1,5 @@
 #include "blind/follow.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -21,8 +21,8 @@ struct DeskShot {
   double shoot_s;
 };
 
-/// Photometric, direct light. A cup's `visible` is the number of pixels in which it is seen, as a share of those that
-/// it would fill alone.
+/// Photometric, direct light. `visible` of a cup: pixels in which it is seen, as a share of those that it would fill
+/// alone.
 DeskShot shoot_desk(const Json& scene, const std::string& file, std::uint64_t seed);
 
 /// Templates as a laboratory makes them: each kind of cup captured once, empty, alone in the middle of the region's

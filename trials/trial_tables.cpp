@@ -29,15 +29,15 @@ Table cups_table(const std::vector<TrialResult>& trials) {
 }
 
 Table fillings_table(const std::vector<TrialResult>& trials) {
-  struct Filling {
+  struct FillingCounts {
     std::string liquid;
     double fill_mm;
     CupCounts counts{};
   };
-  std::vector<Filling> fillings;  // in the order of the trials
+  std::vector<FillingCounts> fillings;  // in the order of the trials
   for (const TrialResult& trial : trials)
     for (const TrialCup& cup : trial.cups) {
-      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const Filling& filling) {
+      auto known = std::find_if(fillings.begin(), fillings.end(), [&](const FillingCounts& filling) {
         return filling.liquid == cup.liquid && filling.fill_mm == cup.fill_mm;
       });
       if (known == fillings.end()) known = fillings.insert(known, {cup.liquid, cup.fill_mm});

@@ -1,6 +1,4 @@
 // blind_baselines: what simpler methods answer to a measurement, as reports that blind_score reads.
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "bench/baselines/diagnosis_baselines.h"
