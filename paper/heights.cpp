@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "campaign/cup_height.h"
 #include "campaign/campaign_spec.h"
+#include "campaign/cup_height.h"
 #include "core/progress.h"
 #include "core/rng.h"
 #include "core/units.h"
