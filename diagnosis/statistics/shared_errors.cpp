@@ -69,7 +69,7 @@ std::vector<ObservableErrors> estimate_shared_errors(const Evidence& evidence, c
     Eigen::VectorXd shares(fit.variances.size());
     for (std::size_t k = 0; k < errors.components.size(); ++k) {
       const double found = fit.variances[static_cast<Eigen::Index>(k)];
-      errors.components[k].most = kMostOfModel * priors[k].variance;
+      errors.components[k].most = kMostOfKnown * priors[k].variance;
       errors.components[k].variance = std::min(found, errors.components[k].most);
       shares[static_cast<Eigen::Index>(k)] = found > 0.0 ? errors.components[k].variance / found : 1.0;
     }

@@ -7,9 +7,10 @@
 namespace fathom {
 
 /// How well the sizes of a model's errors are known beforehand: as if each had been found with so many degrees of
-/// freedom (bench/model_errors.py: from one simulated device to another they differ by a factor of two), and no error
-/// of the model is more than twice as large: what is larger is something that the model lacks.
-inline constexpr double kModelDof = 5.0, kMostOfModel = 4.0;  ///< the second of the variance
+/// freedom (bench/model_errors.py: from one simulated device to another they differ by a factor of two). No error of
+/// the model, and none that a laboratory states, is more than twice as large: what is larger is something that is
+/// missing.
+inline constexpr double kModelDof = 5.0, kMostOfKnown = 4.0;  ///< the second of the variance
 
 /// The evidence's shared errors, as large as they are thought to be before the data say it.
 std::vector<VarianceComponent> expected_shared_errors(const Evidence& evidence);

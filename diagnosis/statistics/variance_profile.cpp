@@ -1,7 +1,6 @@
 #include "diagnosis/statistics/variance_profile.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/dense.h"
 #include "diagnosis/statistics/distributions.h"
@@ -12,7 +11,6 @@ namespace fathom {
 namespace {
 
 constexpr double kLeastShare = 1e-4;
-constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr int kFirst = -4, kLast = 14;  // halves of powers of e: a from 0.14 to 1100
 
 /// A component of which nothing was found may be as large as its uncertainty. `of_variance` is its estimate's.
@@ -33,7 +31,7 @@ double dof_of(const VarianceComponent& component, double variance, double of_var
 void VarianceProfile::add(const Eigen::MatrixXd& columns, double prior_dof, double most) {
   const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
   const Eigen::Index count = (eigen.values.array() > kLeastShare).count();
-  if (count == 0) return;
+  if (count == 0 || most < std::exp(0.5 * kFirst)) return;
   const Eigen::VectorXd shares = eigen.values.tail(count);
   parts_.push_back({columns * eigen.vectors.rightCols(count) * shares.cwiseSqrt().cwiseInverse().asDiagonal(),
                     shares.array().min(1.0), prior_dof, most});
@@ -52,12 +50,12 @@ VarianceProfile::VarianceProfile(const Covariance& covariance) {
       // An outlier that makes single observations' errors look large is weighed for itself.
       if (component.level != ErrorLevel::observation)
         add(columns, dof_of(component, variance, of_variance),
-            component.level == ErrorLevel::model ? component.most / variance : kAny);
+            (component.level == ErrorLevel::model ? 1.0 : kMostOfKnown) * component.most / variance);
       if (component.level == ErrorLevel::model || component.level == ErrorLevel::session) continue;
       singles.push_back(columns);
       count += columns.cols();
     }
-  if (covariance.nuisance.cols() > 0) add(covariance.whiten(covariance.nuisance), kStatedDof, kAny);
+  if (covariance.nuisance.cols() > 0) add(covariance.whiten(covariance.nuisance), kStatedDof, kMostOfKnown);
   single_directions_.resize(covariance.total.rows(), count);
   Eigen::Index next = 0;
   for (const Eigen::MatrixXd& columns : singles) {

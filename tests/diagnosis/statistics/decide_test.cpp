@@ -10,6 +10,7 @@
 #include "diagnosis/decision/locate.h"
 #include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/statistics/ambiguity.h"
+#include "diagnosis/statistics/case.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/refit.h"
 #include "diagnosis/statistics/strata.h"
@@ -208,6 +209,20 @@ TEST(Decide, WhatOneLiquidsPoursShareIsNoScatterOfPours) {
   evidence.stated.fill_mm = 0.5;
   const Diagnosis diagnosis = decide(evidence, world.predict());
   EXPECT_TRUE(diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown);
+}
+
+// A laboratory that is wrong about a σ by more than a factor of two wants to know: such a departure is no error.
+TEST(Decide, StatedErrorsAreAtMostTwiceAsLarge) {
+  const World world(small_design());
+  const Evidence evidence = world.measure({}, {}, 1);
+  const Case c(evidence, world.predict(), {});
+  const Eigen::VectorXd along = c.covariance.whiten(c.covariance.nuisance.col(0));  // of the rig
+  const auto unexplained = [&](double sigmas) {
+    const Eigen::VectorXd residual = sigmas * along.normalized();
+    return 0.5 * residual.squaredNorm() - c.variances.log_factor(residual);
+  };
+  EXPECT_LT(unexplained(2.0), 4.0);
+  EXPECT_GT(unexplained(60.0), 0.5 * 25.0 * 25.0);  // of 60 σ twice the σ leave 30
 }
 
 TEST(Decide, TakesADriftForNoScatterOfPours) {
