@@ -101,8 +101,6 @@ void run_reproduce(const ReproduceOptions& options, const CommonOptions& common)
 
 }  // namespace
 
-std::string mm_text(double mm) { return fmt::format("{:.3f}", mm + 0.0); }
-
 std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& common) {
   const auto options = std::make_shared<ReproduceOptions>();
   std::vector<std::string> names{"all"};

@@ -17,6 +17,8 @@ std::string facts_html(const std::vector<Fact>& facts) {
 
 }  // namespace
 
+std::string mm_text(double mm) { return fmt::format("{:.3f}", mm + 0.0); }
+
 void draw_figure(const ReproduceSettings& settings, const Figure& figure, const std::string& plot) {
   write_table(settings.folder / (figure.name + ".csv"), figure.table);
   draw(settings.folder, figure.name, plot);
