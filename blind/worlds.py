@@ -212,7 +212,7 @@ def beside(scores):
     by_metric = [{goal["metric"]: goal for goal in one["goals"]} for one in scores]
     print("| goal | bar | " + " | ".join(one["pack"] for one in scores) + " |\n|" + "---|" * (len(scores) + 2))
     print("| measurements |  | " + " | ".join(str(one["sets"]) for one in scores) + " |")
-    for metric in list(dict.fromkeys(goal["metric"] for goal in goals([]) if goal["metric"] != "answered")):
+    for metric in [goal["metric"] for goal in goals([]) if goal["metric"] != "answered"]:
         known = [of.get(metric) for of in by_metric]
         if not any(goal and goal["trials"] for goal in known):
             continue

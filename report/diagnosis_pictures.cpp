@@ -153,8 +153,7 @@ MapPicture draw_map(const std::filesystem::path& folder, const DiagnosedCampaign
         (is_seen ? sectors : unseen)
             .add({fmt::format("{}", t.x), fmt::format("{}", bottom + t.y), fmt::format("{}", t.radius),
                   fmt::format("{}", t.from_deg), fmt::format("{}", t.to_deg), is_seen ? value(found->second) : "0"});
-      const double middle = i == 0 ? 0.0 : radians_from_deg(0.5 * (t.from_deg + t.to_deg));
-      const double out = i == 0 ? 0.0 : 0.75 * t.radius;
+      const double middle = radians_from_deg(0.5 * (t.from_deg + t.to_deg)), out = i == 0 ? 0.0 : 0.75 * t.radius;
       if (is_seen)
         numbers.add({fmt::format("{:.3f}", t.x + out * std::cos(middle)),
                      fmt::format("{:.3f}", bottom + t.y + out * std::sin(middle)), value(found->second)});

@@ -329,6 +329,11 @@ std::string count_words(std::size_t count, std::string_view name) {
   return count == 0 ? "" : fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
 }
 
+/// The last name of a path, whether or not it ends with a slash.
+std::string last_name(const std::filesystem::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 /// What was measured, in a sentence.
 std::string facts_words(const std::vector<Observation>& observations) {
   std::set<int> sessions;
@@ -368,8 +373,7 @@ std::string unknown_html(const Diagnosis& diagnosis) {
 void write_diagnosis_report(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
   const Diagnosis& diagnosis = campaign.diagnosis;
   std::vector<std::string> names;
-  for (const std::string& measurement : campaign.folders)
-    names.push_back(std::filesystem::path(measurement).filename().string());
+  for (const std::string& measurement : campaign.folders) names.push_back(last_name(measurement));
   std::string html =
       fmt::format("<h1>Diagnosis of {}</h1>\n<p class=\"answer\">{}</p>\n",
                   html_escaped(fmt::format("{}", fmt::join(names, " and "))), html_escaped(finding(diagnosis)));

@@ -15,6 +15,12 @@
 namespace fathom {
 namespace {
 
+/// Sentences end with a blank, for the next one.
+std::string without_last_blank(std::string text) {
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
 bool compares(const Diagnosis& diagnosis, std::string_view observable) {
   return std::any_of(diagnosis.budget.begin(), diagnosis.budget.end(),
                      [&](const ConditionBudget& line) { return line.observable == observable; });
@@ -292,8 +298,7 @@ std::string finding(const Diagnosis& diagnosis) {
   std::string text;
   for (const Mistake& mistake : diagnosis.data.mistakes) text += mistake.sentence + " ";
   if (!text.empty()) text += "With that put right: ";
-  text += finding_of_physics(diagnosis);
-  while (text.ends_with(' ')) text.pop_back();
+  text = without_last_blank(text + finding_of_physics(diagnosis));
   const std::string not_compared = what_is_not_compared(diagnosis);
   return not_compared.empty() ? text : text + " " + not_compared;
 }
@@ -301,8 +306,7 @@ std::string finding(const Diagnosis& diagnosis) {
 std::vector<std::string> advice(const Diagnosis& diagnosis) {
   std::vector<std::string> steps;
   const auto add = [&](std::string step) {
-    while (step.ends_with(' ')) step.pop_back();
-    if (!step.empty()) steps.push_back(std::move(step));
+    if (step = without_last_blank(std::move(step)); !step.empty()) steps.push_back(std::move(step));
   };
   const bool is_unknown = diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown;
   if (is_unknown) add(look_words(diagnosis.departures));
@@ -326,8 +330,7 @@ std::vector<std::string> advice(const Diagnosis& diagnosis) {
 std::string answer(const Diagnosis& diagnosis) {
   std::string text = finding(diagnosis);
   if (diagnosis.verdict == Verdict::ambiguous) text += fmt::format(" {}", next_sentences(diagnosis.next));
-  while (text.ends_with(' ')) text.pop_back();
-  return text;
+  return without_last_blank(std::move(text));
 }
 
 }  // namespace fathom

@@ -70,8 +70,14 @@ std::string size_words(const NamedParameter& found, const EffectParameter& param
   const double most = factor * ((factor < 0.0 ? parameter.lower : parameter.upper) - parameter.nominal);
   if (size >= most * (1.0 - 1e-6))
     return fmt::format("at least {:.3g}{} ({:.3g}{} is the most that is considered)", low, unit, most, unit);
-  return fmt::format("{:.{}f}{} ({:.{}f} to {:.{}f}{})", size, decimals_of(low, high), unit, low,
-                     decimals_of(low, high), high, decimals_of(low, high), unit);
+  const int decimals = decimals_of(low, high);
+  return fmt::format("{:.{}f}{} ({:.{}f} to {:.{}f}{})", size, decimals, unit, low, decimals, high, decimals, unit);
+}
+
+std::vector<std::string> words_of(const std::vector<std::string>& effects) {
+  std::vector<std::string> words;
+  for (const std::string& effect : effects) words.push_back(effect_words(effect));
+  return words;
 }
 
 }  // namespace
@@ -118,16 +124,12 @@ std::string effect_words(const std::string& name) {
 }
 
 std::string effect_list(const std::vector<std::string>& effects, std::string_view last) {
-  std::vector<std::string> words;
-  for (const std::string& effect : effects) words.push_back(effect_words(effect));
-  return joined(words, last);
+  return joined(words_of(effects), last);
 }
 
 std::string effects_words(const std::vector<std::string>& effects) {
   if (effects.empty()) return "no effect";
-  std::vector<std::string> words;
-  for (const std::string& effect : effects) words.push_back(effect_words(effect));
-  return fmt::format("{}", fmt::join(words, " + "));
+  return fmt::format("{}", fmt::join(words_of(effects), " + "));
 }
 
 std::string place_words(std::string_view stratum) {

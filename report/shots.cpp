@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "core/input_policy.h"
-#include "core/units.h"
 #include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/frame_cloud.h"
@@ -72,19 +71,18 @@ ReportShots shots_of(const std::vector<Observation>& observations, const Measure
   ReportShots result{{}, std::vector<int>(observations.size(), -1)};
   // Numbers of pours and placements may start anew with each filling and place.
   using Key = std::tuple<int, int, int, std::string, std::int64_t, std::int64_t, std::int64_t>;
-  const auto key_of = [](const auto& f, double fill_mm, double distance_mm, double lateral_mm) {
+  const auto key_of = [](const Factors& f) {
     const auto micrometres = [](double mm) { return static_cast<std::int64_t>(std::llround(1000.0 * mm)); };
-    return Key(f.session, f.pour, f.placement, f.liquid, micrometres(fill_mm), micrometres(distance_mm),
-               micrometres(lateral_mm));
+    return Key(f.session, f.pour, f.placement, f.liquid, micrometres(f.fill_mm), micrometres(f.distance_mm),
+               micrometres(f.lateral_mm));
   };
   std::map<Key, const FrameRecord*> first;
   for (const FrameRecord& f : measurement.frames)
-    if (!f.cloud.empty())
-      first.emplace(key_of(f, mm_from_metres(f.fill_m), mm_from_metres(f.distance_m), mm_from_metres(f.lateral_m)), &f);
+    if (!f.cloud.empty()) first.emplace(key_of(factors_of(f)), &f);
   std::map<const FrameRecord*, int> numbers;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Factors& f = observations[i].factors;
-    const auto found = first.find(key_of(f, f.fill_mm, f.distance_mm, f.lateral_mm));
+    const auto found = first.find(key_of(f));
     if (observations[i].observable != "height_mm" || found == first.end()) continue;
     const auto [number, is_new] = numbers.emplace(found->second, static_cast<int>(result.shots.size()));
     if (is_new)

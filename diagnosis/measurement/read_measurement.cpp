@@ -117,17 +117,10 @@ Observation observation_of(const Trials& trials, const FrameRecord& frame, doubl
   observation.observable = trials.observable;
   observation.repeats = static_cast<int>(trials.values.size());
   observation.pixels = trials.pixels / n;
-  Factors& factors = observation.factors;
-  factors.session = frame.session;
-  factors.pour = frame.pour;
-  factors.placement = frame.placement;
-  factors.time_s = time_s;
-  factors.stood_s = stood_s;
-  factors.liquid = frame.liquid;
-  factors.fill_mm = mm_from_metres(frame.fill_m);
-  factors.distance_mm = mm_from_metres(frame.distance_m);
-  factors.lateral_mm = mm_from_metres(frame.lateral_m);
-  factors.region = trials.region;
+  observation.factors = factors_of(frame);
+  observation.factors.time_s = time_s;
+  observation.factors.stood_s = stood_s;
+  observation.factors.region = trials.region;
   for (const double value : trials.values) observation.value += value / n;
   double squares = 0.0;
   for (const double value : trials.values) squares += (value - observation.value) * (value - observation.value);
@@ -330,6 +323,14 @@ void append(Measurement more, std::size_t folder, Measurement& all) {
 }
 
 }  // namespace
+
+Factors factors_of(const FrameRecord& frame) {
+  Factors factors;
+  factors.session = frame.session, factors.pour = frame.pour, factors.placement = frame.placement;
+  factors.liquid = frame.liquid, factors.fill_mm = mm_from_metres(frame.fill_m);
+  factors.distance_mm = mm_from_metres(frame.distance_m), factors.lateral_mm = mm_from_metres(frame.lateral_m);
+  return factors;
+}
 
 Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet) {
   std::vector<Survey> surveys;

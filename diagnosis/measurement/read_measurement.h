@@ -22,6 +22,9 @@ struct Measurement {
   std::vector<Mistake> mistakes;  ///< "flipped_axis", "unit_error", "distance_to_front", "duplicated_trial": put right
 };
 
+/// What a frame was of; its times are those of its placement's trials, and are not filled in.
+Factors factors_of(const FrameRecord& frame);
+
 /// Reads rig.json, frames.csv and every cloud, on all threads: once for the desks, from which the unit's bias is
 /// learned, and once more for what clouds say without it. Beside what named_values() lists: "valid_fraction" of the
 /// pixels that look into the cup's opening. Placements whose frames hold heights only give "height_mm" of the whole

@@ -131,10 +131,7 @@ class Heights {
 void correct(const Reading& reading, Measurement& measurement) {
   for (Observation& observation : measurement.observations) observation.factors = reading(observation.factors);
   for (FrameRecord& frame : measurement.frames) {
-    Factors written;
-    written.session = frame.session, written.pour = frame.pour, written.placement = frame.placement;
-    written.liquid = frame.liquid, written.fill_mm = mm_from_metres(frame.fill_m);
-    const Factors right = reading(written);
+    const Factors right = reading(factors_of(frame));
     frame.liquid = right.liquid, frame.fill_m = metres_from_mm(right.fill_mm);
   }
 }

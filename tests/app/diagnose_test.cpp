@@ -314,6 +314,13 @@ TEST_F(DiagnoseCommand, APictureShowsTheLabelsAsWrittenAndNobodyObeysThem) {
   }
 }
 
+TEST_F(DiagnoseCommand, AReportHasTheNameOfItsFolderWhereAPathEndsWithASlash) {
+  write_heights(folder / "campaign", {"water"});
+  const ProgramRun run = run_fathom("diagnose '" + path("campaign") + "/' -o '" + path("out") + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(read_text(folder / "out" / "report.html").find("<h1>Diagnosis of campaign</h1>"), std::string::npos);
+}
+
 TEST_F(DiagnoseCommand, WhatIsPrintedCarriesNoControlCharacters) {
   write_heights(folder / "campaign\x1b[2J", {"water\x1b]0;title\x07", "tea\u009b2J"});
   for (const char* options : {"", " --json"}) {
