@@ -104,7 +104,7 @@ constexpr std::array kTables{
     TableFile{"map_desk.csv", "x,y,mean_mm"},           TableFile{"map_cup.csv", "x,y,radius,from_deg"},
     TableFile{"map_unseen.csv", "x,y,radius,from_deg"}, TableFile{"map_numbers.csv", "x,y,mean_mm"},
     TableFile{"heights.csv", "number,before_mm"},       TableFile{"shape.csv", "x,y,mean_mm"},
-    TableFile{"residuals.csv", "observable,region"}};
+    TableFile{"sessions.csv", "x,before_mm,after_mm"},  TableFile{"residuals.csv", "observable,region"}};
 
 /// next_1.json and so on, which write_next() writes.
 bool is_next_campaign(const std::string& name) {
@@ -127,7 +127,7 @@ void remove_diagnosis(const fs::path& folder) {
       campaigns.push_back(entry.path());
   for (const fs::path& campaign : campaigns) fs::remove(campaign);
   fs::remove(folder / "next.json");
-  for (const char* name : {"map", "heights", "shape"}) remove_drawing(folder, name);
+  for (const char* name : {"map", "heights", "shape", "sessions"}) remove_drawing(folder, name);
   for (const TableFile& table : kTables) remove_if_ours(folder / table.name, table.columns);
 }
 

@@ -43,8 +43,8 @@ Table power_table(std::span<const Judged> judged) {
       if (!one.is_single() || s < kBorders[bin] || s >= kBorders[bin + 1]) continue;
       detected.add(one.answer.detects_something());
       named.add(one.is_right());
-      bound += one.matched_filter();
-      bank += one.filter_bank();
+      bound += power_of_filter(s);
+      bank += power_of_filter(s, kBank);
       sum += s;
     }
     if (detected.trials == 0) continue;

@@ -10,7 +10,7 @@
 namespace fathom::blind {
 
 /// By bins of s, over single effects: detected and rightly named shares with their intervals, and the power of a filter
-/// that knows the sensitivity (Judged::matched_filter).
+/// that knows the sensitivity (power_of_filter).
 Table power_table(std::span<const Judged> judged);
 
 /// hidden, said, sets

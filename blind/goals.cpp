@@ -59,8 +59,13 @@ Goal mean(std::string metric, std::span<const Judged> judged, const Is& counts,
 }
 
 bool has_gap(const Judged& one) { return one.answer.noise_floor > 0.0; }
-double behind_matched_filter(const Judged& one) { return one.matched_filter() - one.answer.detects_something(); }
-double behind_by_answer(const Judged& one) { return one.matched_filter_by_answer() - one.answer.detects_something(); }
+double behind_filter(const Judged& one) { return power_of_filter(one.strongest()) - one.answer.detects_something(); }
+double behind_by_answer(const Judged& one) {
+  return power_of_filter(one.strongest_by_answer()) - one.answer.detects_something();
+}
+double behind_bank(const Judged& one) {
+  return power_of_filter(one.strongest_by_answer(), kBank) - one.answer.detects_something();
+}
 
 Is of_kind(const std::string& kind, double from = 0.0, double to = kForever) {
   return [=](const Judged& one) {
@@ -197,10 +202,13 @@ std::vector<Goal> goals_of(std::span<const Judged> judged) {
       share("settled by what was proposed at 6 σ", judged, is_followed_up, is_settled, Want::at_least, 0.90),
       mean(
           "matched filter's power less detected share", judged, [](const Judged& one) { return one.is_single(); },
-          behind_matched_filter, Want::at_most, 0.10),
+          behind_filter, Want::at_most, 0.10),
       mean(
           "matched filter with the diagnosis's covariance: power less detected share", judged,
           [](const Judged& one) { return one.is_single(); }, behind_by_answer, Want::at_most, 0.10),
+      mean(
+          "a bank of such filters, one for each effect and sign: power less detected share", judged,
+          [](const Judged& one) { return one.is_single(); }, behind_bank, Want::at_most, 0.10),
   };
   return goals;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -20,14 +21,6 @@ const std::map<std::string, std::vector<std::string>> kWords{{"label_swap", {"la
                                                              {"flipped_axis", {"mirror", "flip"}},
                                                              {"duplicated_trial", {"identical", "duplicat"}}};
 
-double normal_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
-
-/// Of a filter that looks for one effect of strength s.
-double power_of(double s) {
-  constexpr double kFalseAlarm = 2.326;  // 1 %, one-sided
-  return normal_tail(kFalseAlarm - s);
-}
-
 /// s by the answer's covariance.
 double strength_by(const Answer& answer, const Truth& hidden) {
   const auto errors = answer.size_errors.find(std::string(hidden.active.effect->name));
@@ -41,6 +34,11 @@ std::string joined(const Names& names) { return fmt::format("{}", fmt::join(name
 
 }  // namespace
 
+double power_of_filter(double s, int filters) {
+  const boost::math::normal normal;
+  return cdf(complement(normal, quantile(complement(normal, 0.01 / filters)) - s));
+}
+
 double Judged::weakest() const {
   double s = truth.effects.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const Truth& hidden : truth.effects) s = std::min(s, hidden.strength);
@@ -53,17 +51,10 @@ double Judged::strongest() const {
   return s;
 }
 
-double Judged::matched_filter() const { return power_of(strongest()); }
-
-double Judged::matched_filter_by_answer() const {
-  double strongest = 0.0;
-  for (const Truth& hidden : truth.effects) strongest = std::max(strongest, strength_by(answer, hidden));
-  return power_of(strongest);
-}
-
-double Judged::filter_bank() const {
-  constexpr double kFalseAlarm = 3.649;  // 1 % over 2 × 38 filters (Bonferroni), one-sided
-  return normal_tail(kFalseAlarm - strongest());
+double Judged::strongest_by_answer() const {
+  double s = 0.0;
+  for (const Truth& hidden : truth.effects) s = std::max(s, strength_by(answer, hidden));
+  return s;
 }
 
 Names Judged::nameable() const {

@@ -8,6 +8,11 @@
 
 namespace fathom::blind {
 
+/// How often a filter that knows an effect of strength s finds it, at 1 % false alarms of all `filters` that are run on
+/// the same measurement (Bonferroni), each one-sided.
+double power_of_filter(double s, int filters = 1);
+constexpr int kBank = 2 * 38;  ///< a filter for each effect of the registry and either sign
+
 struct Judged {
   SetTruth truth;
   Answer answer;
@@ -15,18 +20,13 @@ struct Judged {
 
   double weakest() const;    ///< smallest s of what is hidden; 0 of nothing
   double strongest() const;  ///< largest
+  /// The largest s by the answer's covariance: what is hidden beside the error that the answer has for its size. The
+  /// set's own s where the answer does not have the parameter whose truth is written down.
+  double strongest_by_answer() const;
   /// The effects that a registry can name; empty where there are none or where they are unknown.
   Names nameable() const;
   bool is_unknown() const { return truth.kind == "unknown" && !truth.effects.empty(); }
   bool is_single() const { return truth.kind == "single" && !truth.effects.empty(); }
-  /// Power of a filter that knows the sensitivity of what is hidden and looks for nothing else, at 1 % false alarms.
-  double matched_filter() const;
-  /// The same of one that is given the answer's covariance: it knows the effect's size as well as the answer says. By
-  /// the set's own s where the answer does not have the parameter whose truth is written down.
-  double matched_filter_by_answer() const;
-  /// Power of such filters for all 38 effects of the registry and either sign, at 1 % false alarms of all together.
-  double filter_bank() const;
-
   /// What it puts first or names is exactly what is hidden, or, of aliased ones, one of them.
   bool is_right() const;
   /// Whether these effects are exactly what is hidden, or, of aliased ones, one of them.

@@ -13,7 +13,7 @@ METRICS = ["names something on a null set", "single effect first, s 5 to 8", "si
            "pair exact, both s ≥ 8", "triple exact", "confidently wrong"]
 WORST = 12
 WEAKEST = 5.0  # s, and escape: below it nothing is expected
-MEANS = ("mean size", "gap closed", "held-out RMS", "matched filter", "localisation")
+MEANS = ("mean size", "gap closed", "held-out RMS", "matched filter", "a bank of", "localisation")
 
 
 def rows(file):

@@ -248,4 +248,53 @@ plot 'shape.csv' using 'x':'y':(0.5):(0.5):'mean_mm' with boxxyerror fillstyle s
   return true;
 }
 
+bool draw_sessions(const std::filesystem::path& folder, const DiagnosedCampaign& campaign) {
+  std::map<int, double> ends_s;  // of each session
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < campaign.observations.size(); ++i) {
+    const Observation& o = campaign.observations[i];
+    if (o.observable != "desk_height_mm") continue;
+    rows.push_back(i);
+    double& end_s = ends_s.try_emplace(o.factors.session, 0.0).first->second;
+    end_s = std::max(end_s, o.factors.time_s);
+  }
+  double longest_s = 0.0;
+  for (const auto& [session, end_s] : ends_s) longest_s = std::max(longest_s, end_s);
+  if (rows.empty() || (ends_s.size() == 1 && longest_s == 0.0)) return false;
+  // Sessions side by side, each as wide as the longest, and a tenth of that between them.
+  const double unit = longest_s > 0.0 ? longest_s / 60.0 : 1.0, pitch = 1.1 * unit;
+  std::string ticks;
+  std::map<int, double> begins;
+  const std::size_t each = (ends_s.size() + 9) / 10;  // at most ten have room for a name
+  for (const auto& [session, end_s] : ends_s) {
+    const double begin = pitch * static_cast<double>(begins.size());
+    if (begins.size() % each == 0)
+      ticks += fmt::format("{}'session {}' {:.3f}", ticks.empty() ? "" : ", ", session, begin + 0.5 * unit);
+    begins.emplace(session, begin);
+  }
+  Table table({"x", "before_mm", "after_mm", "sigma_mm"});
+  const Residuals& residuals = campaign.diagnosis.residuals;
+  for (const std::size_t row : rows) {
+    const Factors& f = campaign.observations[row].factors;
+    table.add({fmt::format("{:.3f}", begins.at(f.session) + f.time_s / 60.0),
+               fmt::format("{:.4f}", residuals.before[row]), fmt::format("{:.4f}", residuals.after[row]),
+               fmt::format("{:.4f}", residuals.error[row])});
+  }
+  write_table(folder / "sessions.csv", table);
+  draw(folder, "sessions",
+       fmt::format(R"(
+set title 'Height of the camera above the desk: measured minus model'
+set xlabel '{}'
+set ylabel 'measured − model [mm]'
+set xrange [{:.3f}:{:.3f}]; set xtics ({}); set offsets 0, 0, graph 0.12, graph 0.05; set key below
+plot 0 lc rgb ink notitle, \
+     'sessions.csv' using 'x':'before_mm' with points pt 7 ps 0.6 lc rgb orange title 'before', \
+     '' using 'x':'after_mm':'sigma_mm' with yerrorbars pt 7 ps 0.6 lc rgb blue title 'after, with 1 σ')",
+                   longest_s > 0.0
+                       ? fmt::format("sessions side by side; time runs to the right, {:.0f} min in the longest", unit)
+                       : "sessions side by side",
+                   -0.1 * unit, pitch * static_cast<double>(ends_s.size()), ticks));
+  return true;
+}
+
 }  // namespace fathom

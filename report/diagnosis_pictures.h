@@ -21,4 +21,8 @@ MapPicture draw_map(const std::filesystem::path& folder, const DiagnosedCampaign
 /// shape.png: residuals of the shape of what is seen in the cup, liquid by liquid. False where none was measured.
 bool draw_shape(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
 
+/// sessions.png: residuals of the camera's height above the desk over sessions and time. False where there is only one
+/// time, or no such height.
+bool draw_sessions(const std::filesystem::path& folder, const DiagnosedCampaign& campaign);
+
 }  // namespace fathom

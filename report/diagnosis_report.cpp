@@ -204,6 +204,16 @@ std::string what_would_settle(const Explanation& explanation, const Diagnosis& d
   return "";
 }
 
+/// "every pour is 15 % (13 to 17 %) larger than recorded"; nothing of an explanation that was not fitted, or too small
+/// for its size to be known.
+std::string clauses_of(const Explanation& explanation) {
+  if (explanation.is_too_small) return "";
+  std::vector<std::string> clauses;
+  for (std::size_t i = 0; i < explanation.sizes.size(); ++i)
+    clauses.push_back(effect_clause({explanation.effects[i], explanation.sizes[i]}));
+  return fmt::format("{}", fmt::join(clauses, "; "));
+}
+
 std::string rivals_html(const Diagnosis& diagnosis) {
   Rows rows, details;
   for (const Explanation& explanation : diagnosis.ambiguity_set) {
@@ -212,14 +222,14 @@ std::string rivals_html(const Diagnosis& diagnosis) {
     const std::string words =
         effects_words(explanation.effects) + (explanation.is_too_small ? ", too small to show" : "");
     const bool is_first = &explanation == &diagnosis.ambiguity_set.front();
-    rows.push_back({words, fmt::format("{:.1f} %", 100 * explanation.probability), some_of(std::move(twins)),
-                    is_first ? "" : what_would_settle(explanation, diagnosis)});
+    rows.push_back({words, clauses_of(explanation), fmt::format("{:.1f} %", 100 * explanation.probability),
+                    some_of(std::move(twins)), is_first ? "" : what_would_settle(explanation, diagnosis)});
     if (std::string beside = beside_words(explanation); !beside.empty())
       details.push_back({words, fmt::format("{:.1f} %", 100 * explanation.alone), std::move(beside)});
   }
-  std::string html = folded_table(
-      {"explanation", "probability", "looks the same in these measurements", "what would tell it from the first"},
-      rows);
+  std::string html = folded_table({"explanation", "fitted to these measurements (95 %)", "probability",
+                                   "looks the same in these measurements", "what would tell it from the first"},
+                                  rows);
   if (!details.empty())
     html += html_folded(
         "What may be there besides",
@@ -400,6 +410,9 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
             paragraph(
                 "Measured minus model of each square of the cup's inside, less the mean of its squares, averaged over "
                 "all places of the cup. A square that is missing was seen in too few places.");
+  if (draw_sessions(folder, campaign))
+    html += html_picture(folder / "sessions.png", "Height of the camera above the desk, by session and time") +
+            paragraph("Each dot is one placement or one view of the bare desk.");
   if (!diagnosis.effects.empty()) html += heading("What was found") + effects_html(diagnosis);
   html += unknown_html(diagnosis) + heading("Before and after") + paragraph(after_words(diagnosis));
   if (draw_heights(folder, campaign)) html += heights_chart(campaign);

@@ -153,7 +153,7 @@ std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {
   std::vector<NamedParameter> shown = named.parameters;
   const Effect* effect = find_effect(effect_name(named.name).id);
   for (std::size_t i = 0; effect && i < shown.size(); ++i)
-    if (const std::string_view inverse = effect->parameters[i].inverse; !inverse.empty() && shown[i].value != 0.0)
+    if (const std::string_view inverse = effect->parameters[i].inverse; !inverse.empty() && shown[i].low95 > 0.0)
       shown[i] = {std::string(inverse), 1.0 / shown[i].value, 1.0 / shown[i].high95, 1.0 / shown[i].low95};
   return shown;
 }

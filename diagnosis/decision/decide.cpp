@@ -117,7 +117,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
   diagnosis.verdict = verdict_of(c, set, kinds, shares, is_excess, is_unknown, names_all, sure.has_value());
   if (is_excess) set.put_unknown_first();
-  diagnosis.ambiguity_set = explanations(evidence, set);
+  diagnosis.ambiguity_set = explanations(c, posterior, set);
   diagnosis.probability_of_none = shares.nothing;
   diagnosis.probability_of_unknown = shares.unknown;
   if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)

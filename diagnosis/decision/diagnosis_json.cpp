@@ -39,11 +39,17 @@ Json named(const std::string& name) {
   return json;
 }
 
-Json json_from(const NamedEffect& effect) {
-  Json json = named(effect.name);
+/// An effect with its parameters.
+Json sized(const std::string& name, const std::vector<NamedParameter>& parameters) {
+  Json json = named(name);
   json["parameters"] = Json::object();
-  for (const NamedParameter& parameter : effect.parameters)
+  for (const NamedParameter& parameter : parameters)
     json["parameters"][parameter.name] = {{"value", parameter.value}, {"ci95", {parameter.low95, parameter.high95}}};
+  return json;
+}
+
+Json json_from(const NamedEffect& effect) {
+  Json json = sized(effect.name, effect.parameters);
   json["probability"] = effect.probability;
   json["p_discovery"] = effect.p_discovery;
   json["p_confirmation"] = effect.p_confirmation;
@@ -53,6 +59,8 @@ Json json_from(const NamedEffect& effect) {
 Json json_from(const Explanation& explanation) {
   Json json{{"effects", ids_of(explanation.effects)}, {"probability", explanation.probability}};
   if (ids_of(explanation.effects) != explanation.effects) json["in_detail"] = explanation.effects;
+  for (std::size_t i = 0; i < explanation.sizes.size(); ++i)
+    json["sizes"].push_back(sized(explanation.effects[i], explanation.sizes[i]));
   if (explanation.is_too_small) json["too_small_to_show"] = true;
   std::set<std::set<std::string>> known;
   const auto is_new = [&](const std::vector<std::string>& ids) { return known.emplace(ids.begin(), ids.end()).second; };

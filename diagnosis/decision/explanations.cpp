@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/decision/intervals.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {
@@ -20,15 +21,19 @@ std::vector<std::string> words(const Evidence& evidence, const Option& option) {
 
 }  // namespace
 
-std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set) {
+std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set) {
+  const Evidence& evidence = c.evidence;
   std::vector<Explanation> result;
   for (const AmbiguityClass& one : set.classes) {
-    Explanation explanation{words(evidence, one.options.front()),
-                            {},
-                            {},
-                            one.probability,
-                            one.alone,
-                            std::all_of(one.options.begin(), one.options.end(), std::mem_fn(&Option::is_too_small))};
+    const Option& first = one.options.front();
+    Explanation explanation;
+    explanation.effects = words(evidence, first);
+    explanation.probability = one.probability;
+    explanation.alone = one.alone;
+    explanation.is_too_small = std::all_of(one.options.begin(), one.options.end(), std::mem_fn(&Option::is_too_small));
+    const Refit* fit = first.has_unknown || first.effects.empty() ? nullptr : find_fit(posterior.fits, first.effects);
+    if (fit)
+      explanation.sizes = fitted_parameters(c, with_differences(evidence, c.predict, c.covariance, c.problem, *fit));
     for (std::size_t i = 1; i < one.options.size(); ++i)
       explanation.alternatives.push_back(words(evidence, one.options[i]));
     for (const Option& superset : one.supersets) explanation.supersets.push_back(words(evidence, superset));

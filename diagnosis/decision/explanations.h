@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "diagnosis/decision/diagnosis.h"
-#include "diagnosis/statistics/ambiguity.h"
-#include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/case.h"
+#include "diagnosis/statistics/posterior.h"
 
 namespace fathom {
 
-std::vector<Explanation> explanations(const Evidence& evidence, const AmbiguitySet& set);
+std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set);
 
 /// Of each candidate a number that the same effect has in all liquids.
 std::vector<int> kinds_of_candidates(const Evidence& evidence);

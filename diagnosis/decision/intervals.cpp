@@ -23,6 +23,11 @@ Eigen::MatrixXd parameter_covariance(const Problem& problem, const Refit& fit) {
   return pseudo_inverse(precision);
 }
 
+/// Of each of a fit's parameters; columns dual to the parameters are an estimate's weights on the data.
+Eigen::VectorXd parameter_dofs(const Case& c, const Refit& fit, const Eigen::MatrixXd& covariance) {
+  return degrees_of_freedom(c.covariance, fit.jacobian * covariance);
+}
+
 /// All that rounds to one value fits alike: a fit ends anywhere among them.
 double whole(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
 
@@ -49,10 +54,37 @@ std::vector<std::vector<double>> covariance_in_units(const Case& c, const Refit&
   return rows;
 }
 
+std::vector<std::vector<NamedParameter>> fitted_parameters(const Case& c, const Refit& fit) {
+  const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
+  const Eigen::VectorXd dofs = parameter_dofs(c, fit, covariance);
+  std::vector<std::vector<NamedParameter>> result;
+  Eigen::Index next = 0;
+  for (const int effect : fit.hypothesis.effects) {
+    const Candidate& candidate = c.evidence.candidates[effect];
+    const double dof = dofs.segment(next, static_cast<Eigen::Index>(candidate.parameters.size())).minCoeff();
+    result.emplace_back();
+    for (const Parameter& parameter : candidate.parameters) {
+      const double fitted = parameter.nominal + parameter.prior_scale * fit.hypothesis.parameters[next];
+      const double value = whole(fitted, parameter.step);
+      const double half =
+          std::max(student_quantile(0.025, dof) * parameter.prior_scale * std::sqrt(covariance(next, next)),
+                   0.5 * parameter.step);
+      ++next;
+      NamedParameter one{parameter.name, value, value - half, value + half};
+      if (parameter.lower < parameter.upper) {
+        one.low95 = std::max(one.low95, parameter.lower);
+        one.high95 = std::min(one.high95, parameter.upper);
+      }
+      result.back().push_back(std::move(one));
+    }
+  }
+  return result;
+}
+
 std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
   const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
-  // Columns dual to the parameters: each estimate's weights on the data.
-  const Eigen::VectorXd dofs = degrees_of_freedom(c.covariance, fit.jacobian * covariance);
+  const Eigen::VectorXd dofs = parameter_dofs(c, fit, covariance);
+  std::vector<std::vector<NamedParameter>> parameters = fitted_parameters(c, fit);
   const std::vector<double> confirmed =
       confirmations(linear_fit(c.covariance, c.problem, fit), deal_folds(c.evidence.observations, c.settings.seed));
   std::vector<NamedEffect> result;
@@ -68,20 +100,8 @@ std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
                  p_of(fit.hypothesis.parameters.segment(next, count), covariance.block(next, next, count, count), dof));
     named.p_confirmation =
         normal_tail(std::copysign(normal_score(confirmed[result.size()], dof), confirmed[result.size()]));
-    for (const Parameter& parameter : candidate.parameters) {
-      const double fitted = parameter.nominal + parameter.prior_scale * fit.hypothesis.parameters[next];
-      const double value = whole(fitted, parameter.step);
-      const double half =
-          std::max(student_quantile(0.025, dof) * parameter.prior_scale * std::sqrt(covariance(next, next)),
-                   0.5 * parameter.step);
-      ++next;
-      NamedParameter one{parameter.name, value, value - half, value + half};
-      if (parameter.lower < parameter.upper) {
-        one.low95 = std::max(one.low95, parameter.lower);
-        one.high95 = std::min(one.high95, parameter.upper);
-      }
-      named.parameters.push_back(std::move(one));
-    }
+    named.parameters = std::move(parameters[result.size()]);
+    next += count;
     result.push_back(std::move(named));
   }
   return result;

@@ -9,8 +9,11 @@
 
 namespace fathom {
 
-/// The effects of a fit whose Jacobian was differenced, with their parameters' values and 95 % intervals, in the
-/// parameters' units. What comes in steps has a whole number of them, known to half a step at best. Their probability
+/// Of each effect of a fit whose Jacobian was differenced: its parameters' values and 95 % intervals, in their units.
+/// What comes in steps has a whole number of them, known to half a step at best.
+std::vector<std::vector<NamedParameter>> fitted_parameters(const Case& c, const Refit& fit);
+
+/// The effects of a fit whose Jacobian was differenced, with their parameters and how sure each is. Their probability
 /// is left to the posterior.
 std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit);
 

@@ -83,7 +83,8 @@ TEST_F(DiagnoseCommand, NamesNothingWhereNothingIsHidden) {
   EXPECT_EQ(report["verdict"], "none") << report["answer"];
   EXPECT_TRUE(report["effects"].empty());
   EXPECT_TRUE(read_json(folder / "out" / "model.json")["effects"].empty());
-  for (const char* file : {"report.html", "next.json", "residuals.csv", "shots.json", "heights.png", "map.png"})
+  for (const char* file :
+       {"report.html", "next.json", "residuals.csv", "shots.json", "heights.png", "map.png", "sessions.png"})
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
   diagnosis("again", "--threads 1");
   for (const char* file : {"report.json", "report.html", "model.json", "residuals.csv", "shots.json"})
@@ -174,6 +175,7 @@ TEST_F(DiagnoseCommand, SaysWhichMeasurementTellsTwinsApartAndThatOneDoes) {
   const Json before = diagnosis("out");
   EXPECT_EQ(before["verdict"], "ambiguous") << before["answer"];
   ASSERT_TRUE(is_in_set(before, "cup_bottom_height") && is_in_set(before, "fill_offset")) << before["ambiguity_set"];
+  EXPECT_NEAR(before["ambiguity_set"][0]["sizes"][0]["parameters"].front()["value"].get<double>(), 4.0, 1.0);
   std::string file;
   for (const Json& next : read_json(folder / "out" / "next.json"))
     if (next["settles"] && next["separates"] == Json{"cup_bottom_height", "fill_offset"}) file = next["campaign"];

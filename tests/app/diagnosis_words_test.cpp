@@ -34,6 +34,14 @@ TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {
   EXPECT_EQ(place_words("distance_mm=300, lateral_mm=-60"), "300 mm away, 60 mm to the left");
 }
 
+TEST(DiagnosisWords, AScatteringThatMayBeInfiniteIsSaidAsItsLength) {
+  const auto clause = [](double least_mm) {
+    return effect_clause({"subsurface_scattering", {{"transport_length_mm", 0.5, least_mm, 1.0}}});
+  };
+  EXPECT_NE(clause(0.25).find("scattering = 2.0 per mm (95 %: 1.0 to 4.0)"), std::string::npos) << clause(0.25);
+  EXPECT_NE(clause(0.0).find("transport length = 0.50 mm (95 %: 0.00 to 1.00)"), std::string::npos) << clause(0.0);
+}
+
 TEST(DiagnosisWords, OfManyPairsThatNothingTellsApartTheLikeliestAreNamed) {
   Diagnosis diagnosis;
   diagnosis.verdict = Verdict::ambiguous;

@@ -173,6 +173,12 @@ TEST(Decide, LeavesTwinsOpen) {
   std::vector<std::string> both = diagnosis.ambiguity_set[0].effects;
   for (const auto& other : diagnosis.ambiguity_set[0].alternatives) both.insert(both.end(), other.begin(), other.end());
   EXPECT_TRUE(has(both, "cup_bottom_height") && has(both, "cup_on_coaster"));
+  // Whichever twin stands first has the size that makes as much.
+  const double shown = world.at_strength(diagnosis.ambiguity_set[0].effects.at(0), 12.0, 1.0).values[0];
+  const NamedParameter& size = diagnosis.ambiguity_set[0].sizes.at(0).at(0);
+  EXPECT_LE(size.low95, shown);
+  EXPECT_GE(size.high95, shown);
+  EXPECT_NEAR(size.high95 - size.low95, 4.0 * shown / 12.0, 0.15 * shown);
   ASSERT_FALSE(diagnosis.limits.confusable.empty());
   EXPECT_NEAR(diagnosis.limits.confusable[0].angle_deg, 0.0, 1e-4);
 }
