@@ -114,9 +114,7 @@ std::string effects_html(const Diagnosis& diagnosis) {
     const bool is_said = effect && !effect->more.empty() && named.parameters.size() == 1;
     if (!is_said)
       for (const NamedParameter& parameter : shown_parameters(named)) lines.push_back(parameter_words(parameter));
-    lines.push_back(named.probability > 0.999
-                        ? "The probability that it is present is over 99.9 %."
-                        : fmt::format("The probability that it is present is {:.1f} %.", 100 * named.probability));
+    lines.push_back(fmt::format("The probability that it is present is {}.", percent_words(named.probability, true)));
     constexpr double kWeak = 0.05;
     lines.push_back(fmt::format(
         "Errors alone give as strong a signal with p = {}, all effects that were tested counted.{}",

@@ -26,12 +26,6 @@ bool compares(const Diagnosis& diagnosis, std::string_view observable) {
                      [&](const ConditionBudget& line) { return line.observable == observable; });
 }
 
-/// "98 %", "99.6 %" where whole per cent would hide that others are left, "over 99.9 %".
-std::string percent_words(double probability, bool are_others_left = false) {
-  if (probability >= 0.9995) return are_others_left ? "over 99.9 %" : "100 %";
-  return fmt::format("{:.{}f} %", 100 * probability, are_others_left && probability >= 0.995 ? 1 : 0);
-}
-
 /// Whether a departure of the desk says the same as an effect that was named.
 bool says_effect(const GapLocation& where, const Diagnosis& diagnosis) {
   constexpr std::pair<std::string_view, std::string_view> kSame[] = {
@@ -273,6 +267,11 @@ std::string finding_of_physics(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+std::string percent_words(double probability, bool are_others_left) {
+  if (probability >= 0.9995) return are_others_left ? "over 99.9 %" : "100 %";
+  return fmt::format("{:.{}f} %", 100 * probability, are_others_left && probability >= 0.995 ? 1 : 0);
+}
 
 std::string heights_words(const Diagnosis& diagnosis) {
   return compares(diagnosis, "height_mm") ? "heights" : "heights of the sensor above the desk";

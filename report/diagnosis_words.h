@@ -10,6 +10,9 @@ namespace fathom {
 
 std::string heights_words(const Diagnosis& diagnosis);  ///< which heights were compared: "heights" where cups' were
 
+/// "98 %", "99.6 %" where whole per cent would hide that others are left, "over 99.9 %".
+std::string percent_words(double probability, bool are_others_left = false);
+
 /// What departs and is no gap by itself, in two or three sentences; empty where nothing does.
 std::string beside_words(const Departures& departures);
 

@@ -15,8 +15,6 @@ constexpr std::array kWords{
     ObservableWords{"log_brightness", "logarithm of the brightness in the cup", "", "higher", "lower"},
     ObservableWords{"log_ir_contrast", "logarithm of the contrast of the infrared's dots in the cup", "", "higher",
                     "lower"},
-    ObservableWords{"ir_contrast", "contrast of the infrared image", "", "stronger", "weaker"},
-    ObservableWords{"valid_fraction", "share of pixels in the cup with a depth", "", "larger", "smaller"},
     ObservableWords{"cup_x_mm", "sideways place of the cup", " mm", "further right", "further left"},
     ObservableWords{"cup_y_mm", "distance of the cup", " mm", "larger", "smaller"},
     ObservableWords{"cup_radius_mm", "radius of the cup", " mm", "larger", "smaller"},
@@ -34,7 +32,6 @@ constexpr std::array kWords{
     ObservableWords{"desk_rows_px", "scatter of the image's rows", " px", "wider", "narrower"},
     ObservableWords{"desk_columns_px", "scatter of the image's columns", " px", "wider", "narrower"},
     ObservableWords{"comb_strength", "degree to which disparities keep to steps of 1/8 px", "", "higher", "lower"},
-    ObservableWords{"comb_phase", "place of disparities between steps", " steps", "further on", "further back"},
     ObservableWords{"comb_quarter", "degree to which disparities keep to steps of 1/4 px", "", "higher", "lower"},
     ObservableWords{"comb_half", "degree to which disparities keep to steps of 1/2 px", "", "higher", "lower"},
     ObservableWords{"millimetre_comb", "degree to which depths keep to whole millimetres", "", "higher", "lower"}};

@@ -1,7 +1,6 @@
 #include "diagnosis/measurement/named_values.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -26,8 +25,6 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   const std::optional<double>&desk_dots = estimates.desk_contrast, &dots = estimates.interior_contrast;
   const bool sees_desk = desk_dots && estimates.desk_intensity.mean > 0.0;
   const bool sees_inside = dots && estimates.interior_intensity.mean > 0.0;
-  if (sees_desk) values.push_back({"ir_contrast", kDesk, *desk_dots});
-  if (sees_inside) values.push_back({"ir_contrast", kWholeInterior, *dots});
   constexpr double kLeastOfDots = 0.15;  // shading and a colour image's grain are below
   if (sees_desk && sees_inside && *desk_dots > kLeastOfDots && *dots > 0.0 &&
       estimates.interior.weight >= kFewestInRegion)
@@ -46,9 +43,7 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     if (estimates.desk_residual[i].weight >= kFewestOnDesk)
       values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean),
                         estimates.desk_residual[i].weight});
-  const Eigen::Vector2d& comb = estimates.step_comb;
-  values.push_back({"comb_strength", kDesk, comb.x()});
-  values.push_back({"comb_phase", kDesk, std::atan2(comb.y(), comb.x()) / (2.0 * std::numbers::pi)});
+  values.push_back({"comb_strength", kDesk, estimates.step_comb.x()});
   if (estimates.spans_codes) {
     values.push_back({"comb_quarter", kDesk, estimates.coarse_combs[0]});
     values.push_back({"comb_half", kDesk, estimates.coarse_combs[1]});

@@ -31,31 +31,6 @@ struct FrameReading {
   DeskCells cells;
 };
 
-/// Of the pixels whose lines of sight pass through the cup's opening; nothing when there are none.
-std::optional<double> valid_fraction(const Cloud& cloud, const LaboratoryRig& rig, const Plane& desk,
-                                     const Eigen::Vector2d& cup) {
-  if (cloud.height <= 1) return std::nullopt;
-  const Eigen::Isometry3d to_desk = desk_from_camera(desk);
-  const Eigen::Matrix3f turn = to_desk.linear().cast<float>();
-  const Eigen::Vector2f axis = axis_from_camera(rig, cup).cast<float>();
-  const float fall = static_cast<float>(desk.offset - rig.cup.height()), focal = static_cast<float>(rig.focal_px);
-  const float radius = static_cast<float>(std::max(rig.cup.inner.back().x() - kInteriorMargin, 0.0));
-  int looked = 0, valid = 0;
-  for (int row = 0; row < cloud.height; ++row)
-    for (int column = 0; column < cloud.width; ++column) {
-      const Eigen::Vector3f sight =
-          turn * Eigen::Vector3f((static_cast<float>(column) + 0.5f - 0.5f * static_cast<float>(cloud.width)) / focal,
-                                 (static_cast<float>(row) + 0.5f - 0.5f * static_cast<float>(cloud.height)) / focal,
-                                 1.0f);
-      if (sight.z() >= 0.0f) continue;
-      if ((sight.head<2>() * (fall / -sight.z()) - axis).squaredNorm() > radius * radius) continue;
-      ++looked;
-      valid += cloud.points[static_cast<std::size_t>(row) * cloud.width + column].allFinite();
-    }
-  if (looked == 0) return std::nullopt;
-  return static_cast<double>(valid) / looked;
-}
-
 /// With `bias` taken off; without one the desk's cells are read.
 FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder,
                         const BiasField* bias) {
@@ -78,9 +53,6 @@ FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, cons
   reading.values = named_values(*estimates);
   reading.bands = estimates->desk_bands;
   if (!bias) reading.cells.add(points, estimates->desk, rig, view);
-  if (!view.cup) return reading;
-  if (const auto valid = valid_fraction(cloud, rig, estimates->desk, *view.cup))
-    reading.values.push_back({"valid_fraction", kWholeInterior, *valid});
   return reading;
 }
 

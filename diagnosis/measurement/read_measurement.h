@@ -26,11 +26,10 @@ struct Measurement {
 Factors factors_of(const FrameRecord& frame);
 
 /// Reads rig.json, frames.csv and every cloud, on all threads: once for the desks, from which the unit's bias is
-/// learned, and once more for what clouds say without it. Beside what named_values() lists: "valid_fraction" of the
-/// pixels that look into the cup's opening. Placements whose frames hold heights only give "height_mm" of the whole
-/// interior. In sessions with repeats desk_motion() as well. Places that were written down in another way are put right
-/// (places.h); trials that are copies of others do not count (copies.h). Throws Error naming file and place. Tells of
-/// its progress unless `quiet`.
+/// learned, and once more for what clouds say without it. Placements whose frames hold heights only give "height_mm" of
+/// the whole interior. In sessions with repeats desk_motion() as well. Places that were written down in another way are
+/// put right (places.h); trials that are copies of others do not count (copies.h). Throws Error naming file and place.
+/// Tells of its progress unless `quiet`.
 Measurement read_measurement(const std::filesystem::path& folder, bool quiet = true);
 
 /// Reads all folders of one laboratory as one measurement: the unit's bias is learned from the desks of all, and the

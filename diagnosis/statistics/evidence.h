@@ -30,7 +30,7 @@ struct SeenPart {
 
 /// One number that a cloud gives, over the repeats (trials) of one placement.
 struct Observation {
-  std::string observable;  ///< its name, with its unit: "height_mm", "valid_fraction"
+  std::string observable;  ///< its name, with its unit: "height_mm", "log_brightness"
   Factors factors;
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat

@@ -85,7 +85,6 @@ TEST_F(MeasurementFolder, CloudsWithoutRowsHaveNoContrastOfDots) {
   write_pcd(folder / "clouds/row.pcd", row);
   const Measurement measurement = read("0,0,3,5,0,10,water,20,300,0,clouds/row.pcd\n");
   EXPECT_TRUE(find(measurement, "log_brightness", "interior"));
-  EXPECT_FALSE(find(measurement, "ir_contrast", "desk"));
   EXPECT_FALSE(find(measurement, "log_ir_contrast", "interior"));
 }
 
@@ -114,9 +113,7 @@ TEST_F(MeasurementFolder, HeightsAreThoseOfTheRegionsOverTheTrials) {
   EXPECT_NEAR(find(measurement, "desk_pitch_deg", "desk")->value, kPitchDeg, 1e-4);
   EXPECT_NEAR(find(measurement, "desk_roll_deg", "desk")->value, 0.0, 1e-4);
   EXPECT_NEAR(find(measurement, "desk_residual_mm", "middle")->value, 0.0, kRounding);
-  EXPECT_EQ(find(measurement, "valid_fraction", "interior")->value, 1.0);
   EXPECT_NEAR(find(measurement, "log_brightness", "interior")->value, 0.0, 1e-6);
-  EXPECT_NEAR(find(measurement, "ir_contrast", "desk")->value, 0.0, 1e-6);
   EXPECT_LT(find(measurement, "comb_strength", "desk")->value, 0.05);  // even depths have no comb
 }
 
