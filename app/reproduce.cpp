@@ -108,11 +108,13 @@ std::function<void()> define_reproduce(CLI::App& app, const CommonOptions& commo
   app.add_option("figures", options->figures,
                  "Which figures; all: of the paper. recognition and table1: its experiments on random desks, some "
                  "minutes each; liquids: fig5 of all its liquids in full light, some minutes; "
-                 "scattering: how strongly its milk tea scatters")
+                 "scattering: what is uncertain of its milk tea, ten minutes")
       ->check(one_of("figure", names))
       ->capture_default_str();
-  app.add_option("--trials", options->trials,
-                 "Shots of each condition: of figures 3 (the paper's are 10), desks of recognition 20 and of table1 10")
+  app.add_option(
+         "--trials", options->trials,
+         "Shots of each condition: of figures 3 (the paper's are 10), desks of recognition 20 and of table1 10, "
+         "places of the cup in scattering 3")
       ->check(CLI::Range(1, 1000));
   return [options, &common] { run_reproduce(*options, common); };
 }

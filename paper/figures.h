@@ -50,7 +50,7 @@ Figure reproduce_recognition(const ReproduceSettings& settings);  ///< section V
 Figure reproduce_table1(const ReproduceSettings& settings);       ///< section VI-B
 /// Not a figure of the paper: Fig. 5 of all its liquids, of all light.
 Figure reproduce_liquids(const ReproduceSettings& settings);
-/// Not a figure of the paper: at which scattering milk tea reads as the paper says.
+/// Not a figure of the paper: which of its facts about milk tea hold together, over all that is uncertain.
 Figure reproduce_scattering(const ReproduceSettings& settings);
 
 /// Writes NAME.csv, and by `plot` the pictures (report/gnuplot.h). The caller writes what other data `plot` reads.

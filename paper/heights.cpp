@@ -37,16 +37,15 @@ std::string PaperFilling::label() const {
   return fmt::format("{} {:g} mm", name, fill_mm);
 }
 
-Setup paper_setup(const PaperFilling& filling, double distance_mm) {
+Setup paper_setup(const PaperFilling& filling, double distance_mm, const Json& sensor) {
+  Json described = {{"model", "xtion_pro_live"}, {"height_mm", kPaperHeightMm}, {"aim_mm", {0, 400, 0}}};
+  described.update(sensor);
   Json cup = {{"shape", "paper_cup"}, {"position_mm", {0.0, distance_mm}}};
   if (filling.liquid != "empty") {
     cup["liquid"] = filling.liquid;
     cup["fill_mm"] = filling.fill_mm;
   }
-  return setup_from_json(
-      {{"sensor", {{"model", "xtion_pro_live"}, {"height_mm", kPaperHeightMm}, {"aim_mm", {0, 400, 0}}}},
-       {"cups", Json::array({cup})}},
-      kName);
+  return setup_from_json({{"sensor", described}, {"cups", Json::array({cup})}}, kName);
 }
 
 LaboratoryRig paper_rig(const Setup& setup) {

@@ -23,8 +23,12 @@ inline constexpr double kPaperIndex = 1.333;     ///< "the relative refractive i
 inline constexpr double kPaperHeightMm = 650.0;  ///< of the sensor above the desk: an assumption
 inline constexpr double kPaperBottomMm = 7.0;    ///< of the cup, above the desk: an assumption
 
-/// The cup on the sensor's middle line, the sensor aimed at (0, 400 mm, 0).
-Setup paper_setup(const PaperFilling& filling, double distance_mm);
+/// The paper's milk tea reads "approximately 1–2 mm lower than the actual height", which is of a fill by hand.
+inline constexpr double kPrintedLeastLowMm = 1.0, kPrintedMostLowMm = 2.0, kFillSigmaMm = 1.0;
+
+/// The cup on the sensor's middle line, the sensor aimed at (0, 400 mm, 0). `sensor`: keys of a scene's "sensor" that
+/// are otherwise than in the paper.
+Setup paper_setup(const PaperFilling& filling, double distance_mm, const Json& sensor = Json::object());
 
 LaboratoryRig paper_rig(const Setup& setup);
 

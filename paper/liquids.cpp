@@ -73,19 +73,21 @@ std::vector<LiquidRow> measure_liquids(const ReproduceSettings& settings) {
   return rows;
 }
 
-/// One row for a filling: heights, then matched shares, of the distances.
+/// One row for a filling: heights, then matched shares, of the distances; the surface, and what the paper prints.
 Table bars_of(const std::vector<LiquidRow>& rows) {
   std::vector<std::string> columns{"filling"};
   for (const char* what : {"", "matched "})
     for (std::size_t d = 0; d < kSeenDistances; ++d)
       columns.push_back(fmt::format("{}{:g} mm", what, kPaperDistancesMm[d]));
-  columns.emplace_back("surface_mm");
+  columns.insert(columns.end(), {"surface_mm", "printed_least_mm", "printed_most_mm"});
   Table bars(columns);
   for (const LiquidRow& row : rows) {
     std::vector<std::string> cells{row.filling.label()};
     for (const HeightCell& cell : row.cells) cells.push_back(cell.enough() ? mm_text(cell.mean_mm) : "");
     for (const HeightCell& cell : row.cells) cells.push_back(fmt::format("{:.3f}", cell.matched));
     cells.push_back(mm_text(row.surface_mm()));
+    for (const double low_mm : {kPrintedMostLowMm, kPrintedLeastLowMm})
+      cells.push_back(row.filling.liquid == "milk_tea" ? mm_text(row.surface_mm() - low_mm) : "");
     bars.add(cells);
   }
   return bars;
@@ -133,6 +135,10 @@ set key below horizontal title 'distance of the cup'
 array colour[4] = [0xC6DFF0, sky, blue, 0x003E63]
 plot for [i=1:4] 'liquids_bars.csv' using (valid(i+1) ? column(i+1) : 0):xtic(1) lc rgb colour[i] title sprintf('%d mm', 100*i+100), \
      '' using ($0-0.42):'surface_mm':(0.84):(0) with vectors nohead lw 2.5 dt 2 lc rgb red title 'true surface', \
+     '' using 0:'surface_mm':($0-0.44):($0+0.44):'printed_least_mm':'printed_most_mm' with boxxyerror fs transparent \
+       solid 0.35 noborder lc rgb red title 'the paper: 1–2 mm low', \
+     '' using 0:(0.5*(column('printed_least_mm')+column('printed_most_mm'))):(column('printed_least_mm')-1):(column('printed_most_mm')+1) \
+       with yerrorbars pt -1 lw 2 lc rgb red title 'and its fill ±1 mm', \
      for [i=1:4] '' using ($0+(i-2.5)/5.6):(column(i+5)) axes x1y2 with points pt 7 ps 0.9 lc rgb orange \
        title (i == 1 ? 'share that is matched' : ''))");
   return figure;
