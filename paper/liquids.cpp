@@ -138,7 +138,7 @@ plot for [i=1:4] 'liquids_bars.csv' using (valid(i+1) ? column(i+1) : 0):xtic(1)
      '' using 0:'surface_mm':($0-0.44):($0+0.44):'printed_least_mm':'printed_most_mm' with boxxyerror fs transparent \
        solid 0.35 noborder lc rgb red title 'the paper: 1–2 mm low', \
      '' using 0:(0.5*(column('printed_least_mm')+column('printed_most_mm'))):(column('printed_least_mm')-1):(column('printed_most_mm')+1) \
-       with yerrorbars pt -1 lw 2 lc rgb red title 'and its fill ±1 mm', \
+       with yerrorbars ps 0 lw 2 lc rgb red title 'and its fill ±1 mm', \
      for [i=1:4] '' using ($0+(i-2.5)/5.6):(column(i+5)) axes x1y2 with points pt 7 ps 0.9 lc rgb orange \
        title (i == 1 ? 'share that is matched' : ''))");
   return figure;

@@ -11,13 +11,12 @@
 #include "core/rng.h"
 #include "core/units.h"
 #include "paper/figures.h"
-#include "report/gnuplot_text.h"
 #include "sim/sensor/turbid_part.h"
 
 namespace fathom {
 namespace {
 
-constexpr double kMatched = 0.9;  ///< share of the surface: our reading of the paper's pictures, which show it whole
+constexpr double kMatched = 0.9;  ///< share of the surface; the paper says that it was measured, not how much of it
 constexpr int kPlaces = 3, kDraws = 60, kPlacesOfDraw = 1;
 
 /// Of which milk tea, seen by which sensor. Coefficients at 830 nm.
@@ -136,7 +135,7 @@ Reading read_milk_tea(const Setup& setup, std::uint64_t seed) {
   return reading;
 }
 
-/// One assumed at several places, at each over the paper's distances.
+/// At several places, at each over the paper's distances.
 struct Readings {
   std::vector<Reading> places;
   std::array<std::vector<Reading>, kSeenDistances> by_distance;
@@ -177,12 +176,20 @@ Readings measure(const Assumptions& assumed, int places, std::uint64_t seed, boo
 constexpr double kChance = 0.1;
 
 void add_row(Table& table, const std::string& quantity, double value, const std::string& unit, double scattering_per_mm,
-             const std::vector<Reading>& places) {
-  const Measured measured(places);
+             const Readings& readings) {
+  const Measured measured(readings.places);
   const bool is_seen = measured.all.share() >= kChance;
-  table.add({quantity, fmt::format("{:g}", value), unit, fmt::format("{:g}", scattering_per_mm),
-             fmt::format("{:.3f}", measured.all.share()), fmt::format("{:.3f}", measured.share_error),
-             is_seen ? mm_text(measured.all.low_mm()) : "", is_seen ? mm_text(measured.low_error_mm) : ""});
+  std::vector<std::string> cells{quantity,
+                                 fmt::format("{:g}", value),
+                                 unit,
+                                 fmt::format("{:.3f}", scattering_per_mm),
+                                 fmt::format("{:.3f}", measured.all.share()),
+                                 fmt::format("{:.3f}", measured.share_error),
+                                 is_seen ? mm_text(measured.all.low_mm()) : "",
+                                 is_seen ? mm_text(measured.low_error_mm) : ""};
+  for (const std::vector<Reading>& places : readings.by_distance)
+    cells.push_back(is_seen ? mm_text(Measured(places).all.low_mm()) : "");
+  table.add(cells);
 }
 
 bool is_as_low(double low_mm) { return low_mm >= kPrintedLeastLowMm && low_mm <= kPrintedMostLowMm; }
@@ -219,11 +226,12 @@ std::string of_draws(int count) { return fmt::format("{} of {} draws", count, kD
 }  // namespace
 
 Figure reproduce_scattering(const ReproduceSettings& settings) {
-  Figure figure{.name = "scattering",
-                .title = "Milk tea: which printed facts hold together",
-                .sentence = "The more milk the tea has, the more of it is matched, and the nearer to its surface.",
-                .table = Table({"quantity", "value", "unit", "reduced_scattering_per_mm", "matched_share",
-                                "matched_error", "low_mm", "low_error_mm"})};
+  Figure figure{
+      .name = "scattering",
+      .title = "Milk tea: which printed facts hold together",
+      .sentence = "The more milk the tea has, the more of it is matched, and the nearer to its surface.",
+      .table = Table({"quantity", "value", "unit", "reduced_scattering_per_mm", "matched_share", "matched_error",
+                      "low_mm", "low_error_mm", "low_at_200_mm", "low_at_300_mm", "low_at_400_mm", "low_at_500_mm"})};
   constexpr std::array kMilkOfDevice{0.2, 0.5, 1.0};
   const int places = std::max(settings.trials.value_or(kPlaces), 2);
   const Assumptions library = library_tea();
@@ -233,30 +241,27 @@ Figure reproduce_scattering(const ReproduceSettings& settings) {
   Progress progress("place", steps, settings.quiet);
 
   const auto add = [&](const std::string& quantity, double value, const char* unit, const Assumptions& assumed,
-                       const std::vector<Reading>& readings) {
+                       const Readings& readings) {
     add_row(figure.table, quantity, value, unit, assumed.reduced_scattering_per_mm(), readings);
   };
   const Readings as_in_library = measure(library, places, settings.seed, false, progress);
-  add("the library's milk tea", library.milk, "", library, as_in_library.places);
+  add("the library's milk tea", library.milk, "", library, as_in_library);
   std::vector<std::string> over_distance, of_device;
-  for (std::size_t d = 0; d < kSeenDistances; ++d) {
-    add("distance", kPaperDistancesMm[d], "mm", library, as_in_library.by_distance[d]);
+  for (std::size_t d = 0; d < kSeenDistances; ++d)
     over_distance.push_back(
         fmt::format("{:g} mm: {}", kPaperDistancesMm[d], measured_text(as_in_library.by_distance[d])));
-  }
   for (const Quantity& quantity : quantities())
     for (const double value : quantity.values) {
       Assumptions assumed = library;
       assumed.*quantity.of = value;
-      add(quantity.name, value, quantity.unit, assumed,
-          measure(assumed, places, settings.seed, false, progress).places);
+      add(quantity.name, value, quantity.unit, assumed, measure(assumed, places, settings.seed, false, progress));
     }
   for (const double milk : kMilkOfDevice) {
     Assumptions assumed = library;
     assumed.milk = milk;
-    const std::vector<Reading> readings = measure(assumed, places, settings.seed, true, progress).places;
+    const Readings readings = measure(assumed, places, settings.seed, true, progress);
     add("as the device sees it: milk in the tea", milk, "", assumed, readings);
-    of_device.push_back(fmt::format("{:.0f} % milk: {}", 100.0 * milk, measured_text(readings)));
+    of_device.push_back(fmt::format("{:.0f} % milk: {}", 100.0 * milk, measured_text(readings.places)));
   }
 
   Table cloud({"reduced_scattering_per_mm", "matched_share", "low_mm", "fill_error_mm"});
@@ -299,15 +304,17 @@ set xlabel 'share of the surface that is matched'
 set ylabel 'light alone reads it too low by [mm]'
 set cblabel 'reduced scattering coefficient μs'' [1/mm]' textcolor rgb ink
 set palette defined (0 '#C6DFF0', 0.5 '#0072B2', 1 '#003E63'); set cbrange [0:1.5]
-set xrange [0:1]; set yrange [-1:3]; set key bottom left
+set xrange [0:1]; set yrange [-0.75:2.25]; set key bottom left Left reverse
 set object 1 rectangle from 0.9, 1 to 1, 2 fs solid noborder fc rgb '#F6D9C6' behind
-set label 1 'matched, and 1–2 mm low: the paper' at 0.89, 1.5 right textcolor rgb red
+set label 1 'the paper: matched, 1–2 mm low' at 0.89, 1.5 right textcolor rgb red
 plot 'scattering_draws.csv' using 'matched_share':'low_mm':'reduced_scattering_per_mm' with points pt 7 ps 1.1 lc palette \
        title 'a tea, a sensor, a fill, at 200 to 500 mm', \
-     'scattering.csv' every ::0::0 using 'matched_share':'low_mm':(1) with yerrorbars pt 7 ps 2 lw 2.5 lc rgb red \
-       title 'the library''s milk tea, with the fill''s error of ±1 mm', \
-     '' every ::5::9 using 'matched_share':'low_mm':'low_error_mm' with yerrorlines pt 5 ps 1 lw 1.5 lc rgb orange \
-       title '10, 20, 30, 40, 50 % milk')");
+     'scattering.csv' every ::1::5 using 'matched_share':'low_mm':'low_error_mm' with yerrorlines pt 5 ps 1 lw 1.5 lc rgb orange \
+       title '10, 20, 30, 40, 50 % milk, else as in the library', \
+     '' every ::26::28 using 'matched_share':'low_mm' with linespoints pt 9 ps 1.6 lw 1.5 lc rgb green \
+       title '50 and 100 % milk, as the device sees it', \
+     '' every ::0::0 using 'matched_share':'low_mm':(1) with yerrorbars pt 7 ps 2 lw 2.5 lc rgb red \
+       title 'the library''s milk tea, with the fill''s error of ±1 mm')");
   return figure;
 }
 
