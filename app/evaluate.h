@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "core/json.h"
 #include "datasets/generate.h"
 #include "sim/scene/clutter.h"
 #include "trials/trial.h"

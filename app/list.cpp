@@ -11,6 +11,7 @@
 #include "campaign/campaign_spec.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/key_table.h"
 #include "core/library.h"
 #include "core/units.h"
 #include "datasets/dataset_spec.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/json.h"
 #include "core/units.h"
 #include "sim/optics/far_centroid.h"
 #include "sim/optics/fresnel.h"

@@ -7,6 +7,7 @@
 #include "bench/accuracy.h"
 #include "bench/bench_scene.h"
 #include "core/estimate.h"
+#include "core/json.h"
 #include "core/units.h"
 
 namespace fathom {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/bench_scene.h"
+#include "core/json.h"
 #include "core/median.h"
 #include "core/units.h"
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.h"
 #include "diagnosis/measurement/laboratory_rig.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"

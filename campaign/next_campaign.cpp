@@ -1,5 +1,7 @@
 #include "campaign/next_campaign.h"
 
+#include "core/json.h"
+
 namespace fathom {
 
 Json campaign_of(const MeasurementPlan& plan, const LaboratoryRig& rig) {

@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/json.h"
+#include "core/json_fwd.h"
+#include "core/range.h"
 
 namespace fathom {
 

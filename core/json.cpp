@@ -28,6 +28,12 @@ std::pair<std::size_t, std::size_t> line_and_column(std::string_view text, std::
 
 }  // namespace
 
+SharedJson::SharedJson() : SharedJson(Json()) {}
+SharedJson::SharedJson(Json value) : value_(std::make_shared<const Json>(std::move(value))) {}
+SharedJson SharedJson::array() { return Json::array(); }
+SharedJson SharedJson::object() { return Json::object(); }
+bool SharedJson::operator==(const SharedJson& other) const { return *value_ == *other.value_; }
+
 void JsonReader::fail(std::string_view what) const {
   throw Error(file_, pointer_.empty() ? std::string_view("/") : std::string_view(pointer_), what);
 }

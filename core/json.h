@@ -12,11 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/json_fwd.h"
 #include "core/range.h"
 
 namespace fathom {
-
-using Json = nlohmann::ordered_json;
 
 /// A JSON value that knows where it stands. All readers throw Error: "scene.json: /cups/0/fill_mm: must be …".
 class JsonReader {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/image_file.h"
 #include "core/input_policy.h"
+#include "core/json.h"
 
 namespace fathom {
 namespace {

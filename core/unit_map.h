@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/image.h"
-#include "core/json.h"
+#include "core/json_fwd.h"
 
 namespace fathom {
 

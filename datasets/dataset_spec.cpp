@@ -235,12 +235,14 @@ Json dataset_scene(const DatasetSpec& spec, std::uint64_t seed, std::uint64_t fr
   ClutterSpec clutter = spec.clutter;
   const std::string& model = spec.sensors[view.below(static_cast<std::uint32_t>(spec.sensors.size()))];
   const double height = drawn(view, spec.height_mm), x = drawn(view, spec.aim_x_mm), y = drawn(view, spec.aim_y_mm);
-  clutter.sensor = {{"model", model},
-                    {"height_mm", height},
-                    {"aim_mm", {x, y, 0.0}},
-                    {"roll_deg", drawn(view, spec.roll_deg)},
-                    {"unit", {{"serial", 1 + view.below(static_cast<std::uint32_t>(spec.units))}}}};
-  clutter.desk["albedo"] = drawn(view, spec.desk_albedo);
+  clutter.sensor = Json{{"model", model},
+                        {"height_mm", height},
+                        {"aim_mm", {x, y, 0.0}},
+                        {"roll_deg", drawn(view, spec.roll_deg)},
+                        {"unit", {{"serial", 1 + view.below(static_cast<std::uint32_t>(spec.units))}}}};
+  Json desk = clutter.desk;
+  desk["albedo"] = drawn(view, spec.desk_albedo);
+  clutter.desk = std::move(desk);
   Json scene = random_scene(clutter, seed, frame);
   Rng fill(seed, Draw::fill, frame);
   for (Json& cup : scene["cups"]) {

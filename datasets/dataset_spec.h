@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.h"
 #include "sim/scene/clutter.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 #include "detector/cup_gates.h"
 #include "detector/liquid.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 #include "detector/detector.h"
 
 namespace fathom {

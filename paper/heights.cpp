@@ -7,6 +7,7 @@
 
 #include "campaign/campaign_spec.h"
 #include "campaign/cup_height.h"
+#include "core/json.h"
 #include "core/progress.h"
 #include "core/rng.h"
 #include "core/units.h"

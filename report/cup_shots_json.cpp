@@ -4,6 +4,7 @@
 
 #include "core/cup_profile.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/cup_shots.h"

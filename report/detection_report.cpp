@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/json.h"
 #include "core/units.h"
 #include "detector/cone.h"
 

@@ -4,6 +4,7 @@
 #include "bench/baselines/diagnosis_baselines.h"
 #include "blind/command_line.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/physics.h"
 

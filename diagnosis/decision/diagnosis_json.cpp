@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "core/json.h"
 #include "diagnosis/statistics/evidence.h"
 
 namespace fathom {

@@ -1,7 +1,7 @@
 // report.json of `diagnose`.
 #pragma once
 
-#include "core/json.h"
+#include "core/json_fwd.h"
 #include "diagnosis/decision/diagnosis.h"
 
 namespace fathom {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/input_policy.h"
+#include "core/json.h"
 #include "core/median.h"
 #include "core/units.h"
 #include "detector/quiet_pcl.h"

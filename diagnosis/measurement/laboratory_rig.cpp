@@ -204,9 +204,9 @@ void read_sigmas(const JsonReader& json, std::span<const std::string_view> keys,
   for (const auto& [key, value] : json.value().items()) sigma[key] = json.number(key, kNonNegative);
 }
 
-std::map<std::string, Json> media_by_label(const JsonReader& json) {
+std::map<std::string, SharedJson> media_by_label(const JsonReader& json) {
   if (!json.value().is_object()) json.fail("must be an object of liquids by name");
-  std::map<std::string, Json> media;
+  std::map<std::string, SharedJson> media;
   for (const auto& [name, medium] : json.value().items()) {
     if (name == "empty" || name == "none") json.fail_at(name, "is a reserved name and no liquid");
     if (!medium.is_string() && !medium.is_object()) json.fail_at(name, "must be a medium's name or an inline medium");

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "core/cup_profile.h"
-#include "core/json.h"
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 #include "core/unit_map.h"
 
 namespace fathom {
@@ -34,7 +33,7 @@ struct LaboratoryRig {
   std::string cup_shape = "paper_cup";  ///< a name of scenes/cups, or the laboratory's own
   CupProfile cup = straight_cup(0.087, 0.007, 0.040, 0.043);
 
-  std::map<std::string, Json> liquids;  ///< name → a medium's name, or an inline medium
+  std::map<std::string, SharedJson> liquids;  ///< name → a medium's name, or an inline medium
   double fill_sigma_m = 0.0005;
   double placement_sigma_m = 0.0005;
   /// By how much all lengths and all angles of a session may differ from another's beyond the pose's uncertainty, 1 σ.
@@ -84,7 +83,7 @@ Json json_from_laboratory_rig(const LaboratoryRig& rig);
 void read_sigmas(const JsonReader& json, std::span<const std::string_view> keys, std::map<std::string, double>& sigma);
 
 /// An object of media by label: a medium's name each, or an inline medium. "empty" and "none" are no labels.
-std::map<std::string, Json> media_by_label(const JsonReader& json);
+std::map<std::string, SharedJson> media_by_label(const JsonReader& json);
 
 /// The keys of standard deviations, and the objects of rig.json.
 std::vector<KeyRow> sigma_keys();

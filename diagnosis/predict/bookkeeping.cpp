@@ -10,6 +10,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/json.h"
 #include "core/median.h"
 #include "core/units.h"
 #include "diagnosis/predict/predictor.h"

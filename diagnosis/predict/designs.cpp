@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/json.h"
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/predict/nuisances.h"
@@ -69,7 +70,7 @@ void add_other_liquids(const Measurement& measurement, const Measured& known, co
   };
   const auto add = [&](const std::string& label, const Json& medium, std::string_view words) {
     const auto same_name = measurement.rig.liquids.find(label);
-    if (same_name != measurement.rig.liquids.end() && same_name->second != medium) return;
+    if (same_name != measurement.rig.liquids.end() && same_name->second != SharedJson(medium)) return;
     MeasurementPlan plan = at_places;
     plan.name = fmt::format("{:g} mm of {}", kMiddleFill_mm, words);
     plan.fillings = {{label, kMiddleFill_mm}};
@@ -203,7 +204,7 @@ std::vector<MeasurementPlan> possible_plans(const Measurement& measurement) {
 }
 
 Design design_of(const MeasurementPlan& plan, const Measurement& measurement, const std::vector<std::string>& effects,
-                 const Json& model_effects, const std::string& file) {
+                 const SharedJson& model_effects, const std::string& file) {
   int last_session = 0;
   for (const FrameRecord& frame : measurement.frames) last_session = std::max(last_session, frame.session);
   Measurement planned;

@@ -18,8 +18,8 @@ struct MeasurementPlan {
   std::vector<std::pair<std::string, double>> fillings{};  ///< liquid and fill [mm]; "empty" and 0
   std::vector<double> distances_mm{}, laterals_mm{};
   int pours = 1, placements = 2, trials = 3;
-  double wait_min = 0.0;                ///< before every placement
-  std::map<std::string, Json> media{};  ///< of liquids that the laboratory has not poured yet
+  double wait_min = 0.0;                      ///< before every placement
+  std::map<std::string, SharedJson> media{};  ///< of liquids that the laboratory has not poured yet
 
   double wait_s() const { return 60.0 * wait_min; }
 
@@ -34,6 +34,6 @@ std::vector<MeasurementPlan> possible_plans(const Measurement& measurement);
 
 /// The evidence that a plan would give, with these effects as candidates. Each session is set up anew.
 Design design_of(const MeasurementPlan& plan, const Measurement& measurement, const std::vector<std::string>& effects,
-                 const Json& model_effects = Json::array(), const std::string& file = "rig.json");
+                 const SharedJson& model_effects = SharedJson::array(), const std::string& file = "rig.json");
 
 }  // namespace fathom

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/json.h"
 #include "core/units.h"
 #include "diagnosis/predict/candidates.h"
 #include "diagnosis/predict/liquid_motion.h"
@@ -80,7 +81,7 @@ std::vector<OddDesk> odd_desks(const Measurement& measurement) {
 
 }  // namespace
 
-Physics physics_of(const Measurement& measurement, const Json& model_effects, const std::string& file,
+Physics physics_of(const Measurement& measurement, const SharedJson& model_effects, const std::string& file,
                    const std::vector<std::string>& only, bool quiet) {
   Physics physics;
   Evidence& evidence = physics.evidence;

@@ -19,7 +19,7 @@ struct Physics {
 /// the effects of the registry (candidates.h) its candidates, or where there are any `only` those. `model_effects` (as
 /// in model.json) belong to the nominal model. Throws Error on what cannot be modelled. Tells of its progress unless
 /// `quiet`.
-Physics physics_of(const Measurement& measurement, const Json& model_effects = Json::array(),
+Physics physics_of(const Measurement& measurement, const SharedJson& model_effects = SharedJson::array(),
                    const std::string& file = "rig.json", const std::vector<std::string>& only = {}, bool quiet = true);
 
 }  // namespace fathom

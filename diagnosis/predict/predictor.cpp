@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "diagnosis/statistics/groups.h"
@@ -124,7 +125,7 @@ DeskError desk_of_rays(std::span<const SensedPoint> desk, const LaboratoryRig& r
 
 }  // namespace
 
-Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects,
+Predictor::Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, SharedJson model_effects,
                      std::string file, std::shared_ptr<const UnitBias> unit, const DeskSights& sights)
     : model_(nominal_model(rig, file)),
       model_effects_(std::move(model_effects)),

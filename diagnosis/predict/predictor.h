@@ -39,8 +39,9 @@ class Predictor {
   /// part of the nominal model. `unit`: what was learned of the unit's bias and taken off the observations; so it is of
   /// predictions. `sights`: the part of the image in which clouds show the desk; of predictions no more counts. Throws
   /// Error on what cannot be modelled.
-  Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations, Json model_effects = Json::array(),
-            std::string file = "rig.json", std::shared_ptr<const UnitBias> unit = {}, const DeskSights& sights = {});
+  Predictor(const LaboratoryRig& rig, const std::vector<Observation>& observations,
+            SharedJson model_effects = SharedJson::array(), std::string file = "rig.json",
+            std::shared_ptr<const UnitBias> unit = {}, const DeskSights& sights = {});
 
   /// One value for each observation, NaN where the model sees nothing there or does not predict that observable.
   Eigen::VectorXd predict(const Change& change) const;
@@ -119,7 +120,7 @@ class Predictor {
   Eigen::VectorXd with_shapes(Values values) const;
 
   NominalModel model_;
-  Json model_effects_;
+  SharedJson model_effects_;
   bool model_goes_by_time_;
   std::string file_;
   std::shared_ptr<const UnitBias> unit_;

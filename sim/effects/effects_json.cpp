@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "sim/effects/registry.h"
 
 namespace fathom {
@@ -50,12 +51,13 @@ void switch_on(const JsonReader& json, Setup& setup) {
 }  // namespace
 
 Setup with_effects(Setup setup) {
-  const Json list = std::move(setup.effects);
-  setup.effects = Json::array();
+  const Json list = std::exchange(setup.effects, SharedJson::array());
+  Json switched_on = setup.switched_on;
   for (std::size_t i = 0; i < list.size(); ++i) {
     switch_on(JsonReader(list[i], setup.file, fmt::format("/effects/{}", i)), setup);
-    setup.switched_on.push_back(list[i]);
+    switched_on.push_back(list[i]);
   }
+  setup.switched_on = std::move(switched_on);
   return setup;
 }
 

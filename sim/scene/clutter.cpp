@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "core/rng.h"
 #include "core/units.h"
 
@@ -40,7 +41,7 @@ class Desktop {
     return choices[rng_.below(static_cast<std::uint32_t>(choices.size()))];
   }
 
-  Json filling() { return rng_.uniform() < spec_.empty ? Json::object() : one_of(spec_.fillings); }
+  SharedJson filling() { return rng_.uniform() < spec_.empty ? SharedJson::object() : one_of(spec_.fillings); }
 
   std::optional<Place> put_cup(const ClutterThing& cup) {
     const auto place = put_anywhere(cup);

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 #include "sim/scene/footprint.h"
 
 namespace fathom {
 
 /// A kind of thing that may stand on the desk: an entry of a scene's `cups` or `objects`, but for its place.
 struct ClutterThing {
-  Json entry;
+  SharedJson entry;
   Footprint footprint;  ///< at the origin, not turned
 };
 
@@ -22,17 +22,17 @@ struct ClutterSpec {
     int low, high;
   };
 
-  Json source;                         ///< the file's text
-  std::string file;                    ///< where that stands; what its scenes name lies beside it
-  Json sensor, desk = Json::object();  ///< as in a scene file
+  SharedJson source;                               ///< the file's text
+  std::string file;                                ///< where that stands; what its scenes name lies beside it
+  SharedJson sensor, desk = SharedJson::object();  ///< as in a scene file
   Count cups{1, 1}, objects{3, 6};
   std::vector<ClutterThing> cup_kinds, object_kinds;
-  std::vector<Json> fillings{Json::object()};  ///< what a cup may hold: {"liquid", "fill_mm"}, or nothing
-  double empty = 0.0;                          ///< share of the cups that stay empty and draw no filling
-  Eigen::AlignedBox2d region;                  ///< [m] where cups and objects have their origins
-  double gap = 0.010;                          ///< [m] least distance between things that do not touch
-  double touching = 0.0;                       ///< share of the objects that are pushed against a cup …
-  double occluding = 0.0;                      ///< … and of those that are put between a cup and the sensor
+  std::vector<SharedJson> fillings{SharedJson::object()};  ///< what a cup may hold: {"liquid", "fill_mm"}, or nothing
+  double empty = 0.0;                                      ///< share of the cups that stay empty and draw no filling
+  Eigen::AlignedBox2d region;                              ///< [m] where cups and objects have their origins
+  double gap = 0.010;                                      ///< [m] least distance between things that do not touch
+  double touching = 0.0;                                   ///< share of the objects that are pushed against a cup …
+  double occluding = 0.0;  ///< … and of those that are put between a cup and the sensor
 };
 
 /// Throws Error naming file, path, what is wrong and what is allowed.

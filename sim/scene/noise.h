@@ -2,7 +2,7 @@
 // captures without an image.
 #pragma once
 
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 
 namespace fathom {
 

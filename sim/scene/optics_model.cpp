@@ -1,5 +1,6 @@
 #include "sim/scene/optics_model.h"
 
+#include "core/fields.h"
 #include "core/range.h"
 
 namespace fathom {

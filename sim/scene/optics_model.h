@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
-#include "core/fields.h"
+#include "core/json_fwd.h"
 
 namespace fathom {
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/files.h"
+#include "core/json.h"
 #include "core/library.h"
 #include "sim/scene/gltf_json.h"
 
@@ -24,7 +25,7 @@ class Resolver {
   explicit Resolver(const Setup& setup) : setup_(setup) {}
 
   ResolvedScene resolve() {
-    Json& scene = resolved_.scene = setup_.source;
+    Json scene = setup_.source;
     scene.erase("$schema");
     sensor(scene["sensor"]);
     for (const char* list : {"cups", "objects"})
@@ -33,7 +34,8 @@ class Resolver {
     if (scene.contains("circumstances") && scene["circumstances"].contains("liquids"))
       for (Json& liquid : scene["circumstances"]["liquids"]) medium(liquid);
     scene["effects"] = setup_.switched_on;
-    for (const Json& effect : setup_.effects) scene["effects"].push_back(effect);
+    for (const Json& effect : Json(setup_.effects)) scene["effects"].push_back(effect);
+    resolved_.scene = std::move(scene);
     return std::move(resolved_);
   }
 

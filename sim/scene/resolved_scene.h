@@ -15,7 +15,7 @@ struct NamedFile {
 };
 
 struct ResolvedScene {
-  Json scene;  ///< read as a scene file, with its effects switched on, it is the set-up again, bit for bit
+  SharedJson scene;  ///< read as a scene file, with its effects switched on, it is the set-up again, bit for bit
   std::vector<NamedFile> files;
 };
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 #include "core/pose.h"
 #include "sim/scene/noise.h"
 #include "sim/scene/optics_model.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/cup_profile.h"
-#include "core/key_table.h"
+#include "core/json_fwd.h"
 #include "core/pose.h"
 #include "sim/optics/medium.h"
 #include "sim/scene/cavity.h"

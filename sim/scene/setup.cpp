@@ -61,10 +61,8 @@ std::span<const Field<Setup>> setup_fields() {
       {"objects", unread<Setup>(R"({"type": "array", "items": {"$ref": "#/$defs/object"}})", "a list of objects"),
        "what else stands about"},
       {"effects",
-       Part<Setup>{[](const JsonReader& json, Setup& setup) {
-                     for (const JsonReader& effect : json.items()) setup.effects.push_back(effect.value());
-                   },
-                   nullptr, R"({"type": "array", "items": {"$ref": "#/$defs/effect"}})", "a list of objects"},
+       Part<Setup>{[](const JsonReader& json, Setup& setup) { json.items(), setup.effects = json.value(); }, nullptr,
+                   R"({"type": "array", "items": {"$ref": "#/$defs/effect"}})", "a list of objects"},
        "what the scene has beside the above: names and parameters by `fathom list effects`"},
       {"circumstances",
        Part<Setup>{

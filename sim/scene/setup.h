@@ -44,10 +44,10 @@ struct IndirectLight {
 struct Setup {
   Scene scene;
   Rig rig;
-  Json source = {};                  ///< the file's text, kept for run.json
-  std::string file = {};             ///< its name, for errors
-  Json effects = Json::array();      ///< to be switched on by sim/effects; as in the file
-  Json switched_on = Json::array();  ///< those that are, in their order
+  SharedJson source = {};                        ///< the file's text, kept for run.json
+  std::string file = {};                         ///< its name, for errors
+  SharedJson effects = SharedJson::array();      ///< to be switched on by sim/effects; as in the file
+  SharedJson switched_on = SharedJson::array();  ///< those that are, in their order
   Circumstances circumstances = {};
   Processing processing = {};
   IndirectLight light = {};

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/fields.h"
 #include "core/rng.h"
 #include "core/simd.h"
 

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
-#include "core/fields.h"
 #include "core/image.h"
+#include "core/json_fwd.h"
 #include "core/unit_map.h"
 
 namespace fathom {

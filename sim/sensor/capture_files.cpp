@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image_file.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "core/view_page.h"
@@ -65,8 +66,9 @@ Json camera_matrix(const SensorModel& sensor) {
 /// The sensor after all effects, with the pattern where the record has it.
 Json sensor_record(const Rig& rig, const ResolvedScene& resolved) {
   Json sensor = json_from_rig(rig);
-  if (rig.sensor.pattern.image.brightness) sensor["pattern"]["image"] = resolved.scene["sensor"]["pattern"]["image"];
-  if (rig.sensor.unit.learned.map) sensor["unit"]["learned"] = resolved.scene["sensor"]["unit"]["learned"];
+  const Json& scene = resolved.scene;
+  if (rig.sensor.pattern.image.brightness) sensor["pattern"]["image"] = scene["sensor"]["pattern"]["image"];
+  if (rig.sensor.unit.learned.map) sensor["unit"]["learned"] = scene["sensor"]["unit"]["learned"];
   return sensor;
 }
 

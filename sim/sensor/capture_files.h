@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/image_file.h"
-#include "core/json.h"
+#include "core/json_fwd.h"
 #include "sim/scene/resolved_scene.h"
 #include "sim/sensor/capture.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/real_desks.h"
+#include "core/json.h"
 #include "diagnosis/decision/diagnosis_json.h"
 
 namespace fathom {

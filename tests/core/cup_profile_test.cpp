@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/json.h"
 #include "core/units.h"
 
 #include "tests/core/expect_error.h"

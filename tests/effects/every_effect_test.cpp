@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
 #include "sim/sensor/capture.h"

@@ -1,4 +1,5 @@
 // Models of diagnoses: their effects are switched on in a scene with a cup of water.
+#include "core/json.h"
 #include "sim/effects/effects_json.h"
 #include "sim/scene/setup.h"
 #include "tests/fuzz/fuzz_file.h"

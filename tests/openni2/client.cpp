@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/json.h"
 #include "tests/app/run_fathom.h"
 
 namespace fathom {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/image_file.h"
+#include "core/json.h"
 #include "sim/scene/geometry.h"
 #include "sim/sensor/capture_files.h"
 #include "sim/sensor/depth.h"

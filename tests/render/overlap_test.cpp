@@ -1,5 +1,6 @@
 // Things may touch and stand in each other's hollows, but not in each other's matter.
 #include "sim/render/overlap.h"
+#include "core/json.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.h"
 #include "core/units.h"
 #include "sim/render/connection.h"
 #include "sim/scene/setup.h"

@@ -1,5 +1,6 @@
 // Random desks: the same for the same seed, everything where it was asked for, and errors that say what is allowed.
 #include "sim/scene/clutter.h"
+#include "core/json.h"
 
 #include <gtest/gtest.h>
 

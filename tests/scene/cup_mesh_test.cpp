@@ -1,5 +1,6 @@
 // Cups as meshes: closed, outside out, and as large as the body of revolution they stand for.
 #include "sim/scene/cup_mesh.h"
+#include "core/json.h"
 
 #include <gtest/gtest.h>
 

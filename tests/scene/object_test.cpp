@@ -1,4 +1,5 @@
 // Solids on the desk: they are closed, stand where they are put, and say what is wrong with their description.
+#include "core/json.h"
 #include "sim/scene/scene.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // Where the sensor stands and what it is: conventions of the pose, descriptions that can be read back.
 #include "sim/scene/rig.h"
+#include "core/json.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

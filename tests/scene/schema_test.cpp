@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "sim/scene/setup.h"
 #include "tests/core/expect_error.h"
 

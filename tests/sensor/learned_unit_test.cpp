@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/image_file.h"
+#include "core/json.h"
 #include "sim/scene/resolved_scene.h"
 #include "sim/sensor/capture.h"
 #include "sim/sensor/depth.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/json.h"
 #include "core/library.h"
 #include "sim/effects/effects_json.h"
 #include "sim/effects/registry.h"
@@ -45,7 +46,7 @@ Json typical(const Effect& effect) {
 Setup shot_of(const Json& scene) { return with_effects(setup_from_json(scene, "scene.json")); }
 
 /// The scene as a file would hold it, read by itself.
-Setup read_again(const Setup& shot) { return shot_of(Json::parse(resolved_scene(shot).scene.dump())); }
+Setup read_again(const Setup& shot) { return shot_of(Json::parse(Json(resolved_scene(shot).scene).dump())); }
 
 Frame geometric_frame(const Setup& setup) { return Camera(setup, CaptureMode::geometric, 1, 1).shoot(0); }
 
@@ -163,7 +164,7 @@ TEST(Replay, AResolvedSceneIsItsOwn) {
   Json scene = scene_of("xtion_pro_live");
   scene["effects"].push_back(typical(*find_effect("fill_scale")));
   const Json resolved = resolved_scene(shot_of(scene)).scene;
-  EXPECT_EQ(resolved_scene(shot_of(resolved)).scene, resolved);
+  EXPECT_EQ(Json(resolved_scene(shot_of(resolved)).scene), resolved);
 }
 
 }  // namespace

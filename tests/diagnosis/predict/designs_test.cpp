@@ -50,7 +50,7 @@ TEST(Designs, PlanWhatWasNotMeasuredYet) {
 
 TEST(Designs, ClearWaterIsNewWhereItWasOnlyKnown) {
   Measurement measurement = milk_alone();
-  measurement.rig.liquids["water"] = "water";
+  measurement.rig.liquids["water"] = Json("water");
   EXPECT_NE(find(possible_plans(measurement), "clear water"), nullptr);
   measurement.observations.back().factors.liquid = "water";
   EXPECT_EQ(find(possible_plans(measurement), "clear water"), nullptr);

@@ -1,6 +1,7 @@
 // The paper's sensor and cup as a laboratory writes them down, with water and an opaque liquid, and shots of them.
 #pragma once
 
+#include "core/json.h"
 #include "core/units.h"
 #include "diagnosis/predict/nominal_model.h"
 #include "sim/effects/effects_json.h"
@@ -13,7 +14,7 @@ inline LaboratoryRig paper_laboratory() {
   rig.height_m = 0.650;
   rig.pitch_rad = radians_from_deg(58.4);
   rig.focal_px = 1200.0 / (2 * 1.052);
-  rig.liquids = {{"water", "water"}, {"milk", {{"index", 1.336}, {"scattering_per_mm", 1000.0}}}};
+  rig.liquids = {{"water", Json("water")}, {"milk", Json{{"index", 1.336}, {"scattering_per_mm", 1000.0}}}};
   return rig;
 }
 

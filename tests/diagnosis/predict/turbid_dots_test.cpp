@@ -59,7 +59,7 @@ struct Height {
 /// Seen from 0.7 m.
 fathom::Setup wide_vessel_of_milk(double transport_length_mm) {
   LaboratoryRig rig = paper_laboratory();
-  rig.liquids["milk"] = {{"index", 1.336}, {"scattering_per_mm", 1000.0}, {"absorption_per_mm", 0.0032}};
+  rig.liquids["milk"] = Json{{"index", 1.336}, {"scattering_per_mm", 1000.0}, {"absorption_per_mm", 0.0032}};
   NominalModel model = nominal_model(rig, "rig.json");
   model.rig.sensor.law.quantized = false;
   const Factors factors = paper_shot("milk", 30.0, 300.0);
@@ -69,7 +69,7 @@ fathom::Setup wide_vessel_of_milk(double transport_length_mm) {
   for (auto* profile : {&shape.inner, &shape.outer})
     for (Eigen::Vector2d& point : *profile) point.x() *= kWider;
   if (transport_length_mm > 0.0)
-    setup.effects = {{{"name", "subsurface_scattering"}, {"transport_length_mm", transport_length_mm}}};
+    setup.effects = Json{{{"name", "subsurface_scattering"}, {"transport_length_mm", transport_length_mm}}};
   return with_effects(std::move(setup));
 }
 

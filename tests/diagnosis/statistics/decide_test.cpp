@@ -1,5 +1,6 @@
 // What a diagnosis promises, on campaigns of which the truth is known.
 #include "diagnosis/decision/decide.h"
+#include "core/json.h"
 
 #include <gtest/gtest.h>
 

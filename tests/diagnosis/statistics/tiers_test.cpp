@@ -1,5 +1,6 @@
 // What only names raises no alarm; what differs by more than is stated does.
 #include "diagnosis/decision/tiers.h"
+#include "core/json.h"
 
 #include <gtest/gtest.h>
 
