@@ -48,6 +48,10 @@ void run_calibrate(const CalibrateOptions& options, const CommonOptions& common)
   write_unit_report(common.output, unit);
   write_unit(common.output, unit);
   print_text(format_rows(unit_rows(unit), common.json));
+  if (unit.views == 1)
+    print_note(
+        "there is one view, so nothing tells the device's bias from this desk's own shape; move the sensor or "
+        "the desk and take more");
 }
 
 }  // namespace

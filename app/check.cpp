@@ -14,6 +14,7 @@
 #include "core/rows.h"
 #include "core/units.h"
 #include "core/visible_text.h"
+#include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/predict/nominal_model.h"
 #include "report/check_words.h"
 
@@ -85,6 +86,16 @@ std::vector<Row> rows_of(const MeasurementCheck& check) {
   return rows;
 }
 
+/// What keeps a diagnosis from a verdict; null where nothing does.
+const Shortfall* lack_of_verdict(const MeasurementCheck& check) {
+  // Clouds have many observations each; heights have one.
+  const bool has_few = check.clouds == 0 && check.heights < kEnoughForSmooth;
+  const auto lack = std::ranges::find_if(check.lacks, [&](const Shortfall& one) {
+    return one.lack == Lack::conditions || (one.lack == Lack::repeats && has_few);
+  });
+  return lack == check.lacks.end() ? nullptr : &*lack;
+}
+
 std::string rows_text(const MeasurementCheck& check) {
   std::string text = format_rows(rows_of(check), false);
   for (const Shortfall& shortfall : check.lacks) {
@@ -92,6 +103,9 @@ std::string rows_text(const MeasurementCheck& check) {
     text += "\n" + on_one_line(words.what) + "\n  costs:  " + on_one_line(words.costs) +
             "\n  remedy: " + on_one_line(words.remedy) + "\n";
   }
+  if (const Shortfall* lack = lack_of_verdict(check))
+    return text + fmt::format("\nA diagnosis can run, but its verdict will be insufficient. {}\n",
+                              on_one_line(lack_words(*lack, check).what));
   return text +
          (check.lacks.empty()
               ? "\nA diagnosis can run; nothing is missing.\n"
@@ -102,6 +116,7 @@ std::string rows_text(const MeasurementCheck& check) {
 Json json_of(const MeasurementCheck& check) {
   Json json = {
       {"can_run", true},
+      {"can_answer", lack_of_verdict(check) == nullptr},
       {"frames", check.frames},
       {"clouds", check.clouds},
       {"heights_without_cloud", check.heights},

@@ -110,15 +110,8 @@ void run_fused(const DetectOptions& options, const DetectorSettings& settings,
 
 /// Warns of a cloud that seems to be in millimetres, and of one in which no desk was found.
 void warn_of(const std::string& name, const Cloud& cloud, const Detection& detection) {
-  constexpr float kFar_m = 50.0f;  // beyond what such a camera measures; in millimetres it would be too near
-  std::ptrdiff_t far = 0, near = 0;
-  for (const Eigen::Vector3f& point : cloud.points) {
-    far += point.z() > kFar_m;
-    near += point.z() <= kFar_m;
-  }
-  if (far > near)
-    print_warning(fmt::format(
-        "{}: most points lie more than {:g} m away; clouds are in metres, is this one in millimetres?", name, kFar_m));
+  if (const std::string doubt = doubt_of_units(cloud); !doubt.empty())
+    print_warning(fmt::format("{}: {}", name, doubt));
   if (!detection.desk) print_warning(fmt::format("{}: {}", name, detection.why));
 }
 

@@ -25,7 +25,8 @@ std::string glb_of(const Setup& setup, const ExportOptions& options) {
   if (!options.cup) return glb_of_scene(setup);
   const std::size_t cups = setup.scene.cups.size();
   if (static_cast<std::size_t>(*options.cup) >= cups)
-    throw Error(options.scene.string(), fmt::format("has {} cups, so there is none of number {}", cups, *options.cup));
+    throw Error(options.scene.string(),
+                fmt::format("has {} cup{}, so there is none of number {}", cups, cups == 1 ? "" : "s", *options.cup));
   return glb_of_cup(setup.scene.cups[static_cast<std::size_t>(*options.cup)], setup.rig.sensor.wavelength_nm);
 }
 

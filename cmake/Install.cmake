@@ -12,7 +12,7 @@ endif()
 
 if(FATHOM_SIMULATOR)
   install(TARGETS fathom COMPONENT program)
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program OPTIONAL)
   # Fathom::sim stands for every module below sim/.
   add_library(fathom_sim INTERFACE)
   add_library(Fathom::sim ALIAS fathom_sim)

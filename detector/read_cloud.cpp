@@ -124,4 +124,16 @@ Cloud read_cloud(const std::filesystem::path& path) {
   return cloud;
 }
 
+std::string doubt_of_units(const Cloud& cloud) {
+  constexpr float kFar_m = 50.0f;  // beyond what such a camera measures; in millimetres it would be too near
+  std::ptrdiff_t far = 0, near = 0;
+  for (const Eigen::Vector3f& point : cloud.points) {
+    far += point.z() > kFar_m;
+    near += point.z() <= kFar_m;
+  }
+  if (far <= near) return {};
+  return fmt::format("most points lie more than {:g} m away; clouds are in metres, is this one in millimetres?",
+                     kFar_m);
+}
+
 }  // namespace fathom

@@ -44,7 +44,12 @@ int main(int argc, char** argv) try {
   }
   fathom::Setup setup = fathom::read_setup(argv[1]);
   const double without = mean_depth(setup);
-  const double height_mm[] = {std::atof(argv[2])};
+  char* end = nullptr;
+  const double height_mm[] = {std::strtod(argv[2], &end)};
+  if (end == argv[2] || *end != '\0') {
+    std::fprintf(stderr, "error: MM must be a number, got '%s'\n", argv[2]);
+    return 1;
+  }
   kWetRing.apply(setup, {height_mm});
   std::printf("%s Mean depth less by %.4f mm.\n", std::string(kWetRing.sentence).c_str(),
               fathom::mm_from_metres(without - mean_depth(setup)));

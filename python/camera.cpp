@@ -1,4 +1,6 @@
 // A simulated sensor before a scene, and its shots.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 
@@ -9,6 +11,7 @@
 #include "python/watched.h"
 #include "sim/effects/effects_json.h"
 #include "sim/render/overlap.h"
+#include "sim/scene/doubts.h"
 #include "sim/scene/rig.h"
 #include "sim/scene/setup.h"
 #include "sim/sensor/capture.h"
@@ -32,12 +35,16 @@ std::unique_ptr<Camera> camera_of(const ScenePath& path, const py::object& scene
       choice_of("mode", mode, {"geometric", "photometric"}) == 0 ? CaptureMode::geometric : CaptureMode::photometric;
   const std::optional<LightModel> chosen = light_named(light);
   require_within("spp", samples, {1.0, 4096.0});
-  return watched(progress, [&] {
+  std::vector<std::string> doubts;
+  std::unique_ptr<Camera> camera = watched(progress, [&] {
     Setup setup = setup_of(path, json);
+    doubts = scene_doubts(setup.source);
     require_apart(setup);
     if (model) setup = with_effects_of_model(std::move(setup), *model);
     return std::make_unique<Camera>(setup, how, samples, seed, chosen);
   });
+  for (const std::string& doubt : doubts) warn(fmt::format("{}: {}", path ? path->string() : "scene", doubt));
+  return camera;
 }
 
 py::dict shoot_frame(Camera& camera, std::uint64_t number, const py::object& progress) {

@@ -95,6 +95,7 @@ py::dict detect(const Floats& points, const std::optional<Floats>& intensity, co
                 const std::optional<std::filesystem::path>& unit,
                 const std::optional<std::filesystem::path>& config_file, const py::object& config) {
   Cloud cloud = cloud_from(points, intensity);
+  if (const std::string doubt = doubt_of_units(cloud); !doubt.empty()) warn("cloud: " + doubt);
   const Method& chosen = method_named(method);
   const std::optional<DeskPrior> prior = prior_of(height_mm, pitch_deg);
   const Json keys = config.is_none() ? Json::object() : json_from_python(config, "config");

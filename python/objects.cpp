@@ -84,4 +84,8 @@ Json json_from_python(py::handle object, const std::string& what) {
   throw Error(what, fmt::format("cannot hold {}", py::repr(object).cast<std::string>()));
 }
 
+void warn(const std::string& sentence) {
+  if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 2) != 0) throw py::error_already_set();
+}
+
 }  // namespace fathom

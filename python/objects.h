@@ -15,4 +15,7 @@ py::object python_from_json(const Json& json);
 /// a method `to_dict`. Throws Error, as of `what`, on anything else.
 Json json_from_python(py::handle object, const std::string& what);
 
+/// A UserWarning of the caller's line. Throws where such warnings are errors.
+void warn(const std::string& sentence);
+
 }  // namespace fathom

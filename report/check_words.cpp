@@ -74,10 +74,10 @@ constexpr std::array kTexts{
     LackText{Lack::bare_desk_views, "bare_desk_views", "There are no views of the bare desk.",
              "{bias}, about {size:.1f} mm where these cups stand, cannot be learned there.",
              "Take three views without a cup before the first cup is put down: liquid none, all lengths 0."},
-    LackText{Lack::repeats, "repeats", "Nothing was measured twice.",
+    LackText{Lack::repeats, "repeats", "Hardly anything was measured twice.",
              "The size of the errors can then only be estimated from how smoothly the heights vary; with fewer than 24 "
              "of them the verdict is insufficient.",
-             "Take three shots of each placement, and put each cup down twice."},
+             "Pour each filling twice, put each cup down twice, and take three shots of each placement."},
     LackText{Lack::trials, "trials", "Each placement has one shot.",
              "The sensor's noise cannot be told from errors of placing, nor does a trembling sensor show.",
              "Take three shots of each placement."},

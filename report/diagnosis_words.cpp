@@ -251,7 +251,7 @@ std::string finding_of_physics(const Diagnosis& diagnosis) {
     case Verdict::none:
       return agreement(diagnosis);
     case Verdict::insufficient:
-      return fmt::format("This cannot be told from these measurements: {}.", joined(diagnosis.data.missing, "and"));
+      return fmt::format("No answer can be given from these measurements: {}.", joined(diagnosis.data.missing, "and"));
     case Verdict::named:
       if (diagnosis.effects.empty()) return agreement(diagnosis);
       return where_sentence(diagnosis) + named_sentence(diagnosis) + what_may_be_besides(diagnosis);

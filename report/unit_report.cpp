@@ -95,9 +95,10 @@ void write_unit_report(const std::filesystem::path& folder, const UnitCalibratio
   draw_unit(folder, unit);
   const double share = unit.without_px > 0.0 ? unit.left_px / unit.without_px : 1.0;
   std::string html = fmt::format(
-      "<h1>One device, learned from {} clouds</h1>\n<p class=\"answer\">Its desks are off their planes by {:.3f} px of "
+      "<h1>One device, learned from {} cloud{}</h1>\n<p class=\"answer\">Its desks are off their planes by {:.3f} px "
+      "of "
       "disparity. {} {:.3f} px: {:.0f} % of it.</p>\n",
-      unit.clouds, unit.without_px,
+      unit.clouds, unit.clouds == 1 ? "" : "s", unit.without_px,
       unit.views > 1 ? "When each view is predicted from the others, what is left is"
                      : "There is one view, so nothing can be said of others. Of its own error the map leaves",
       unit.left_px, 100.0 * share);

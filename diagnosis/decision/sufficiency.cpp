@@ -12,7 +12,6 @@ namespace fathom {
 namespace {
 
 constexpr std::size_t kFewestObservations = 8;
-constexpr std::size_t kFewestReplicates = 4;
 /// "1 condition", "2 conditions"
 std::string counted(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -29,9 +28,6 @@ std::string_view more_conditions(const std::vector<Observation>& observations) {
                                 : "all is bare desk: cups at known places, empty or with known fillings, would be "
                                   "more, and of a calibrated sensor (fathom calibrate) one view would do";
 }
-
-/// From so many on, what a smooth function of the factors leaves tells how large errors are.
-constexpr std::size_t kEnoughForSmooth = 24;
 
 }  // namespace
 
@@ -51,7 +47,10 @@ std::vector<std::string> missing_for_diagnosis(const Evidence& evidence) {
       std::any_of(observations.begin(), observations.end(), [](const Observation& o) { return o.repeats > 1; });
   const auto replicates = observations.size() - static_cast<std::size_t>(group_by(observations, cell_key).count);
   if (!errors_are_known && !has_repeats && replicates < kFewestReplicates && observations.size() < kEnoughForSmooth)
-    missing.emplace_back("repeats or repeated conditions: nothing says how large the errors are");
+    missing.push_back(
+        fmt::format("nothing was repeated, so nobody knows how large the errors are (pour each filling twice, or "
+                    "measure {} heights)",
+                    kEnoughForSmooth));
   return missing;
 }
 

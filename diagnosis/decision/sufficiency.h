@@ -9,6 +9,9 @@
 namespace fathom {
 
 inline constexpr std::size_t kFewestConditions = 3;
+inline constexpr std::size_t kFewestReplicates = 4;  ///< measured anew; what they differ by tells how large errors are
+/// From so many observations on, what a smooth function of the factors leaves tells the same.
+inline constexpr std::size_t kEnoughForSmooth = 24;
 
 /// What is missing, one sentence each; nothing if it is enough. Asked for are eight observations in three conditions,
 /// a candidate, and something that tells how large errors are: repeats, replicates or prior nuisances. One view of a

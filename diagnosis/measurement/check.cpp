@@ -273,13 +273,13 @@ class Checker {
       names.emplace(std::tuple(f.liquid, f.fill_m), filling_name(f));
     }
     if (placements.empty()) return;
-    const bool put_down_again =
-        std::any_of(placements.begin(), placements.end(), [](const auto& p) { return p.second.size() > 1; });
-    if (!put_down_again && check_.most_trials < 2) {
+    std::size_t put_down_again = 0;
+    for (const auto& [condition, put_down] : placements) put_down_again += put_down.size() - 1;
+    if (put_down_again < kFewestReplicates && check_.most_trials < 2) {
       add({Lack::repeats});
     } else {
       if (check_.most_trials < 2 && check_.clouds > 0) add({Lack::trials});
-      if (!put_down_again) add({Lack::placements});
+      if (put_down_again == 0) add({Lack::placements});
     }
     Shortfall once{Lack::pours};
     for (const auto& [filling, of] : pours)

@@ -24,7 +24,7 @@ enum class Lack {
   whole_clouds,     ///< files much smaller than the others: `names` of frames
   clouds,           ///< `size` frames have a height and no cloud
   bare_desk_views,  ///< there are none; a unit's own bias, or what calibration left of it, is about `size` mm at cups
-  repeats,          ///< nothing was measured twice
+  repeats,          ///< too little was measured twice
   trials,           ///< each placement has one shot
   placements,       ///< no cup was put down twice at one place with one filling
   pours,            ///< `names` of fillings that were poured once

@@ -46,13 +46,20 @@ double image_focal_px(const Cloud& cloud) {
   return focals[focals.size() / 2];
 }
 
+/// Throws Error on a cloud that must be in other units.
+Cloud read_in_metres(const std::filesystem::path& file) {
+  Cloud cloud = read_cloud(file);
+  if (const std::string doubt = doubt_of_units(cloud); !doubt.empty()) throw Error(file.string(), doubt);
+  return cloud;
+}
+
 /// The first clouds say what device this is.
 void look_at_device(const std::vector<CalibrationCloud>& clouds, const CalibrationOptions& options,
                     UnitCalibration& result) {
   constexpr std::size_t kFew = 3;
   std::vector<Points> first;
   for (std::size_t i = 0; i < std::min(kFew, clouds.size()); ++i) {
-    const Cloud cloud = read_cloud(clouds[i].file);
+    const Cloud cloud = read_in_metres(clouds[i].file);
     if (i == 0) result.image_focal_px = image_focal_px(cloud);
     first.push_back(cloud.points);
   }
@@ -326,7 +333,7 @@ UnitCalibration calibrate(const std::vector<CalibrationCloud>& clouds, const Cal
   NoiseSums noise;
   Progress progress("calibrate", clouds.size(), quiet);
   for (const CalibrationCloud& cloud : clouds) {
-    const Cloud read = read_cloud(cloud.file);
+    const Cloud read = read_in_metres(cloud.file);
     const Plane guess = desk_of(cloud, read.points, options, result.scale);
     auto desk = desk_view({&read.points, 1}, guess, result.scale);
     if (!desk) throw Error(cloud.file.string(), "no desk found: it covers fewer than 20 squares of 16 pixels");

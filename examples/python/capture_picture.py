@@ -8,6 +8,9 @@ import numpy as np
 
 import fathom
 
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
+
 shot = fathom.capture({
     "sensor": fathom.Sensor(model="xtion_pro_live_device", height_mm=650, aim_mm=[0, 400, 0]),
     "cups": [{"shape": "paper_cup", "position_mm": [0, 400], "liquid": "water", "fill_mm": 50}],

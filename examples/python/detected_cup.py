@@ -8,6 +8,9 @@ import numpy as np
 
 import fathom
 
+if len(sys.argv) not in (2, 3):
+    sys.exit(__doc__)
+
 if len(sys.argv) > 2:
     cloud, intensity = fathom.read_cloud(sys.argv[2])
 else:

@@ -9,6 +9,9 @@ import numpy as np
 
 import fathom
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
+
 found = fathom.diagnose(sys.argv[2])
 print(found.answer)
 rows = found.residuals

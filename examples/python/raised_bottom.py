@@ -8,6 +8,9 @@ import numpy as np
 
 import fathom
 
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
+
 DISTANCE_MM, BOTTOM_MM, HEIGHT_MM, NEAR_MM = 400, 6, 650, 10
 SHAPE = {"height_mm": 70, "inner_radius_mm": 50, "outer_radius_mm": 53, "bottom_mm": BOTTOM_MM}
 

@@ -8,6 +8,9 @@ import numpy as np
 
 import fathom
 
+if len(sys.argv) != 2:
+    sys.exit(__doc__)
+
 fill_mm = np.linspace(1.0, 90.0, 90)
 for distance_mm in (200.0, 400.0, 600.0):
     curve = fathom.theory(fill_mm, distance_mm)

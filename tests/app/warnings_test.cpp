@@ -50,6 +50,9 @@ TEST_F(Warnings, ACloudInMillimetresIsNamed) {
   EXPECT_EQ(run_fathom("detect " + file).err,
             "warning: " + file +
                 ": most points lie more than 50 m away; clouds are in metres, is this one in millimetres?\n");
+  const ProgramRun calibrated = run_fathom("calibrate " + file + " -o " + (folder / "unit").string());
+  EXPECT_EQ(calibrated.exit_code, 1);
+  EXPECT_NE(calibrated.err.find("is this one in millimetres?"), std::string::npos) << calibrated.err;
 }
 
 TEST_F(Warnings, ACloudWithoutADeskIsNamed) {

@@ -23,6 +23,12 @@ def error_of(test, call, kind=fathom.Error):
     return str(raised.exception)
 
 
+class Warns(unittest.TestCase):
+    def test_of_lengths_that_may_be_metres(self):
+        with self.assertWarnsRegex(UserWarning, "/cups/0/fill_mm: 0.04 mm; .* were metres meant"):
+            fathom.capture({**SCENE, "cups": [{**CUP, "fill_mm": 0.04}]}, mode="geometric")
+
+
 class SameAsTheProgram(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -73,6 +73,10 @@ class Detect(unittest.TestCase):
             self.assertIsNone(found.plane)
             self.assertTrue(found.why)
 
+    def test_a_cloud_in_millimetres_is_warned_of(self):
+        with self.assertWarnsRegex(UserWarning, "is this one in millimetres"):
+            fathom.detect(1000.0 * self.shot.cloud)
+
     def test_what_is_wrong_is_one_line(self):
         flat = np.zeros((10, 3))
         for arguments, told in (((np.zeros((4, 2)),), "got the shape (4, 2)"), ((np.zeros(3),), "n x 3"), ((np.zeros((2, 2, 2, 3)),), "n x 3"),
