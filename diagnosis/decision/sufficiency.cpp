@@ -47,10 +47,9 @@ std::vector<std::string> missing_for_diagnosis(const Evidence& evidence) {
       std::any_of(observations.begin(), observations.end(), [](const Observation& o) { return o.repeats > 1; });
   const auto replicates = observations.size() - static_cast<std::size_t>(group_by(observations, cell_key).count);
   if (!errors_are_known && !has_repeats && replicates < kFewestReplicates && observations.size() < kEnoughForSmooth)
-    missing.push_back(
-        fmt::format("nothing was repeated, so nobody knows how large the errors are (pour each filling twice, or "
-                    "measure {} heights)",
-                    kEnoughForSmooth));
+    missing.push_back(fmt::format(
+        "{} measured anew, at least {} tell how large the errors are (pour each filling twice, or measure {} heights)",
+        counted(replicates, "observation"), kFewestReplicates, kEnoughForSmooth));
   return missing;
 }
 
