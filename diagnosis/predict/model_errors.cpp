@@ -73,7 +73,11 @@ constexpr std::array kModelErrors{
     ModelError{"desk_roll_motion_deg", 0.02, kAllShare}, ModelError{"liquid_motion_mm", 0.05, kAllShare},
     ModelError{"comb_strength", 0.10, kSameSession},  // depths are no even mixture of steps
     ModelError{"comb_quarter", 0.05, kSameSession},   // what teeth a desk's own codes have
-    ModelError{"comb_half", 0.05, kSameSession}, ModelError{"millimetre_comb", 0.02, kAllShare}};
+    ModelError{"comb_half", 0.05, kSameSession},
+    // Matchers draw disparities towards whole pixels, A sin 2πd with A up to 0.1 px (Shimizu & Okutomi, IJCV 63, 2005).
+    // Then a comb of 1/2 px is as strong as the Bessel function J₂(4πA), of 1/4 px as J₄(8πA).
+    ModelError{"comb_quarter", 0.075, kAllShare}, ModelError{"comb_half", 0.17, kAllShare},
+    ModelError{"millimetre_comb", 0.02, kAllShare}};
 
 /// The same of an effect, above clear liquids or everywhere.
 struct EffectError {

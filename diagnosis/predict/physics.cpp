@@ -100,7 +100,6 @@ Physics physics_of(const Measurement& measurement, const SharedJson& model_effec
   predictor->keep(kept);
   for (Observation& motion :
        liquid_motion(evidence.observations, see_through(*predictor, "", evidence.observations.size()))) {
-    motion.only_names = true;
     predictor->add(motion);
     evidence.observations.push_back(std::move(motion));
   }

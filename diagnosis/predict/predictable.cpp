@@ -20,8 +20,8 @@ constexpr std::array<std::string_view, 7> kOfSessions{"desk_pitch_deg", "desk_ro
                                                       "comb_strength",  "comb_quarter",  "comb_half",
                                                       "millimetre_comb"};
 
-constexpr std::array<std::string_view, 6> kOnlyName{"comb_strength",   "comb_quarter",   "comb_half",
-                                                    "millimetre_comb", "log_brightness", "log_ir_contrast"};
+constexpr std::array<std::string_view, 4> kOnlyName{"comb_strength", "millimetre_comb", "log_brightness",
+                                                    "log_ir_contrast"};
 
 bool is_comb(const Observation& o) { return o.observable == "comb_strength" || o.observable == "millimetre_comb"; }
 

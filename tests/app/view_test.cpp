@@ -119,7 +119,7 @@ TEST_F(ViewCommand, ExportWritesAModelOrSaysWhyNot) {
   EXPECT_EQ(run("export {0}/scene.json").exit_code, 2);
   const ProgramRun none = run("export {0}/scene.json --cup 1 -o {0}/cup.glb");
   EXPECT_EQ(none.exit_code, 1);
-  EXPECT_NE(none.err.find("has 1 cups"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("has 1 cup,"), std::string::npos) << none.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cup.glb"));
 }
 

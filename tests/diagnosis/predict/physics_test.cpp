@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -24,6 +25,21 @@ const Candidate* find(const Evidence& evidence, std::string_view effect) {
   for (const Candidate& candidate : evidence.candidates)
     if (candidate.effect == effect) return &candidate;
   return nullptr;
+}
+
+// Processing takes a device's own steps away. Coarser ones it does not make.
+TEST(Predictable, StepsCoarserThanTheDevicesCountLikeHeights) {
+  std::vector<Observation> observations(3);
+  const std::array names{"comb_strength", "comb_quarter", "comb_half"};
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    observations[i].observable = names[i];
+    observations[i].factors.liquid = "none";
+  }
+  const std::vector<Observation> kept = predictable(observations);
+  ASSERT_EQ(kept.size(), 3U);
+  EXPECT_TRUE(kept[0].only_names);
+  EXPECT_FALSE(kept[1].only_names);
+  EXPECT_FALSE(kept[2].only_names);
 }
 
 double cosine(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.dot(b) / (a.norm() * b.norm()); }
