@@ -69,9 +69,31 @@ Eigen::Vector3d mean_direction(const Geometry& geometry, const Eigen::Vector3d& 
   return sum.norm() > 0.0 ? Eigen::Vector3d(sum.normalized()) : -Eigen::Vector3d::UnitZ();
 }
 
-/// Half the width of a seed's pencil [m] at a distance along its piece.
-double reach(const Seed& seed, double distance) {
-  return seed.spacing * (seed.differential.d_origin + distance * seed.differential.d_direction).norm();
+Seed seed_of(const Flight& flight, const Eigen::Vector3d& direction, double spacing, int crossings, int mirror,
+             const Body* medium, double begin, double end) {
+  const RayDifferential& at = flight.differential;
+  const Matrix32d across = perpendicular_to(at.direction);
+  const Eigen::Vector3d squared_width(at.d_origin.squaredNorm(), 2.0 * at.d_origin.cwiseProduct(at.d_direction).sum(),
+                                      at.d_direction.squaredNorm());
+  return {medium,
+          begin,
+          end,
+          at.origin,
+          at.direction,
+          spacing * spacing * squared_width,
+          across,
+          across.transpose() * at.d_origin,
+          across.transpose() * at.d_direction,
+          spacing,
+          direction,
+          flight.transmittance,
+          crossings,
+          mirror};
+}
+
+double squared_reach_of(const Seed& seed, double distance) {
+  const Eigen::Vector3d& of = seed.squared_reach;
+  return std::max(of[0] + distance * (of[1] + distance * of[2]), 0.0);
 }
 
 std::uint64_t box_of(const Eigen::Array3i& index) {
@@ -84,6 +106,10 @@ std::uint64_t box_of(const Eigen::Array3i& index) {
 Eigen::Array3i box_index(const Eigen::Vector3d& point) { return (point.array() / kBox).floor().cast<int>(); }
 
 }  // namespace
+
+double Seed::reach(double distance) const { return std::sqrt(squared_reach_of(*this, distance)); }
+
+Eigen::Matrix2d Seed::jacobian_at(double distance) const { return jacobian + distance * jacobian_per_m; }
 
 Fan::Fan(const Intersector& world, const Source& source, Ways ways) : ways_(ways) {
   const Eigen::Vector3d axis = mean_direction(world.geometry(), source.position);
@@ -122,9 +148,8 @@ bool Fan::follow(const Intersector& world, Flight flight, const Eigen::Vector3d&
     // In air only surfaces receive light; in a body any place may scatter it.
     if (asked_for && (medium || ends) && (std::isfinite(open) || next)) {
       const double end = ends ? open : next->hit.distance;
-      seeds_.push_back({direction, flight.differential, medium ? 0.0 : end, end, spacing, medium, crossings,
-                        flight.transmittance, mirror});
-      too_wide = too_wide || reach(seeds_.back(), end) > kBox;
+      seeds_.push_back(seed_of(flight, direction, spacing, crossings, mirror, medium, medium ? 0.0 : end, end));
+      too_wide = too_wide || seeds_.back().reach(end) > kBox;
     }
     if (ends) break;
     if (ways_ == Ways::mirrored && mirror == kNoMirror) {
@@ -143,9 +168,9 @@ void Fan::file(std::uint32_t number) {
   const int steps = static_cast<int>(std::ceil(length / kBox));
   for (int step = 0; step <= steps; ++step) {
     const double distance = begin + length * step / steps;
-    const Eigen::Vector3d middle = seed.differential.origin + distance * seed.differential.direction;
-    const double strength = seed.transmittance / std::fabs(land(seed.differential, middle).jacobian.determinant());
-    const double around = std::clamp(2.0 * reach(seed, distance), 0.5 * kBox, kBox);
+    const Eigen::Vector3d middle = seed.origin + distance * seed.heading;
+    const double strength = seed.transmittance / std::fabs(seed.jacobian_at(distance).determinant());
+    const double around = std::clamp(2.0 * seed.reach(distance), 0.5 * kBox, kBox);
     const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
     for (int i = low.x(); i <= high.x(); ++i)
       for (int j = low.y(); j <= high.y(); ++j)
@@ -165,23 +190,23 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
   for (const std::uint32_t number : box->seeds) {
     const Seed& seed = seeds_[number];
     if (seed.medium != around) continue;
-    const Eigen::Vector3d offset = target - seed.differential.origin;
-    const double distance = offset.dot(seed.differential.direction);
+    const Eigen::Vector3d offset = target - seed.origin;
+    const double distance = offset.dot(seed.heading);
     if (distance < seed.begin - kBeyond || distance > seed.end + kBeyond) continue;
-    const double reach_there = reach(seed, distance);
-    if (offset.squaredNorm() - distance * distance > std::pow(kMostSteps * reach_there, 2)) continue;
-    const Landing landing = land(seed.differential, target);
-    const double determinant = landing.jacobian.determinant();
-    Eigen::Vector2d step = landing.jacobian.inverse() * landing.miss;
+    const double squared_reach = squared_reach_of(seed, distance);
+    if (offset.squaredNorm() - distance * distance > kMostSteps * kMostSteps * squared_reach) continue;
+    const Eigen::Vector2d miss = seed.across.transpose() * offset;
+    const Eigen::Matrix2d jacobian = seed.jacobian_at(distance);
+    const double determinant = jacobian.determinant();
+    Eigen::Vector2d step = jacobian.inverse() * miss;
     double steps = step.norm() / seed.spacing;
     // Near a caustic the landing is far from linear: a small miss is as good as a short step.
     const bool by_step = steps < kMostSteps;
     if (!by_step) {
-      if (landing.miss.norm() > 0.7 * reach_there) continue;
+      if (miss.squaredNorm() > 0.7 * 0.7 * squared_reach) continue;
       step.setZero(), steps = kMostSteps;
     }
-    candidates.push_back({&seed, seed.direction + perpendicular_to(seed.direction) * step, steps, by_step,
-                          landing.miss.norm(), determinant < 0.0});
+    candidates.push_back({&seed, steps, miss.norm(), step, by_step, determinant < 0.0});
   }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::tuple(a.steps, a.miss, a.seed) < std::tuple(b.steps, b.miss, b.seed);

@@ -10,16 +10,25 @@
 
 namespace fathom {
 
-/// One straight piece of a traced ray, behind at least one interface.
+/// One straight piece of a traced ray, behind at least one interface. A search asks hundreds whether a place lies near
+/// them: what says so stands first, and what does not depend on the place is worked out once.
 struct Seed {
-  Eigen::Vector3d direction;     ///< in which the light left the source
-  RayDifferential differential;  ///< at the piece's beginning
-  double begin, end;             ///< [m] along the piece: where it may light something
-  double spacing;                ///< [rad] from the neighbouring seeds
-  const Body* medium;            ///< around the piece
+  const Body* medium;              ///< around the piece
+  double begin, end;               ///< [m] along the piece: where it may light something
+  Eigen::Vector3d origin;          ///< [m] the piece's beginning
+  Eigen::Vector3d heading;         ///< unit
+  Eigen::Vector3d squared_reach;   ///< [m²] half the pencil's width, squared: a polynomial in the distance
+  Matrix32d across;                ///< perpendicular_to(heading)
+  Eigen::Matrix2d jacobian;        ///< [m/rad] of a landing at the origin …
+  Eigen::Matrix2d jacobian_per_m;  ///< [1/rad] … and how it changes with the distance
+  double spacing;                  ///< [rad] from the neighbouring seeds
+  Eigen::Vector3d direction;       ///< in which the light left the source
+  double transmittance;            ///< of power from the source to the piece's beginning
   int crossings;
-  double transmittance;  ///< of power from the source to the piece's beginning
-  int mirror;            ///< number of the interface that reflected in part, or kNoMirror
+  int mirror;  ///< number of the interface that reflected in part, or kNoMirror
+
+  double reach(double distance) const;                 ///< [m] half the pencil's width
+  Eigen::Matrix2d jacobian_at(double distance) const;  ///< [m/rad] of a landing
 };
 
 /// Whether one of the interfaces on a way reflects in part, or none.
@@ -31,11 +40,14 @@ class Fan {
 
   struct Candidate {
     const Seed* seed;
-    Eigen::Vector3d direction;  ///< that would land on the target if the landing were linear; not of unit length
-    double steps;               ///< from the seed to there, in spacings
-    bool by_step;      ///< otherwise the landing is far from linear there, and the seed's own direction is given
-    double miss;       ///< [m] of the seed itself
-    bool turned_over;  ///< as in Connection
+    double steps;  ///< from the seed to where light would land on the target if the landing were linear, in spacings
+    double miss;   ///< [m] of the seed itself
+    Eigen::Vector2d step;  ///< [rad] the same way; 0 where the landing is far from linear
+    bool by_step;          ///< whether it is not
+    bool turned_over;      ///< as in Connection
+
+    /// That would land on the target if the landing were linear; not of unit length.
+    Eigen::Vector3d direction() const { return seed->direction + perpendicular_to(seed->direction) * step; }
   };
   /// The seeds near whose pencils `target` lies in the medium `around`, the nearest first.
   std::vector<Candidate> near(const Eigen::Vector3d& target, const Body* around) const;

@@ -62,9 +62,9 @@ struct Tried {
   Eigen::Vector3d direction;
   double around;  ///< how far [rad]
 
-  bool covers(const Fan::Candidate& candidate) const {
+  bool covers(const Fan::Candidate& candidate, const Eigen::Vector3d& candidates_direction) const {
     return crossings == candidate.seed->crossings && mirror == candidate.seed->mirror &&
-           turned_over == candidate.turned_over && (direction - candidate.direction).norm() < around;
+           turned_over == candidate.turned_over && (direction - candidates_direction).norm() < around;
   }
 };
 
@@ -197,18 +197,19 @@ void PointLight::connect_from(const Fan& fan, const Receiver& receiver, std::vec
   std::vector<Tried> tried;
   bool by_step = true;  // of the others, which come last, one is tried: few lead anywhere new
   for (const Fan::Candidate& candidate : fan.near(receiver.point, receiver.around)) {
+    const Eigen::Vector3d direction = candidate.direction();
     const bool covered =
-        std::any_of(tried.begin(), tried.end(), [&](const Tried& other) { return other.covers(candidate); });
-    if (covered || from_behind(receiver, candidate.seed->differential.direction)) continue;
+        std::any_of(tried.begin(), tried.end(), [&](const Tried& other) { return other.covers(candidate, direction); });
+    if (covered || from_behind(receiver, candidate.seed->heading)) continue;
     if (tried.size() == kMostShots || (!candidate.by_step && !std::exchange(by_step, false))) break;
     const Seed& seed = *candidate.seed;
-    const Guess guess{candidate.direction.normalized(), candidate.miss};
+    const Guess guess{direction.normalized(), candidate.miss};
     const auto way = shoot(world_, source_, receiver.point, receiver.around, seed.direction, seed.crossings,
                            seed.mirror, receiver.loss, &guess);
     if (way)
       tried.push_back({seed.crossings, seed.mirror, way->turned_over, way->direction, 4.0 * seed.spacing});
     else
-      tried.push_back({seed.crossings, seed.mirror, candidate.turned_over, candidate.direction, 0.5 * seed.spacing});
+      tried.push_back({seed.crossings, seed.mirror, candidate.turned_over, direction, 0.5 * seed.spacing});
     if (way && !from_behind(receiver, way->arrival) && way->partly_mirrored == (seed.mirror != kNoMirror))
       add_new(found, way);
   }
