@@ -149,7 +149,7 @@ struct Intersector::Impl {
 
   static std::bitset<kPacket> hits(RTCScene scene, const Packet<Piece>& pieces) {
     std::bitset<kPacket> result;
-    if (pieces.count() < 2) {  // alone it is cheaper by itself
+    if (!pieces.is_several()) {  // alone it is cheaper by itself
       for (std::size_t i = 0; i < kPacket; ++i)
         if (const Piece* piece = pieces.find(i)) result[i] = hits(scene, *piece);
       return result;

@@ -39,7 +39,8 @@ class Packet {
   }
   void reset(std::size_t i) { present_.reset(i); }
   void reset(const std::bitset<kPacket>& which) { present_ &= ~which; }
-  std::size_t count() const { return present_.count(); }
+  /// Whether there are two or more.
+  bool is_several() const { return (present_.to_ulong() & (present_.to_ulong() - 1)) != 0; }
 
  private:
   std::array<T, kPacket> values_;

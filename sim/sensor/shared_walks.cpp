@@ -59,6 +59,7 @@ SharedWalks::SharedWalks(const PointLight& projector, const Rig& rig, const Blur
   const int rows = std::min(rows_at_once + 2 * room_, height_);
   entries_[straight] = Image<Entry>(width_, rows);
   if (sharing.is_exact) entries_[mirrored] = Image<Entry>(width_, rows);
+  for (std::vector<char>& of_rows : holds_any_) of_rows.resize(rows);
 }
 
 void SharedWalks::prepare(int begin, int end) {
@@ -143,11 +144,13 @@ std::optional<double> SharedWalks::between_knots(int x, int y, const Entry& to, 
 }
 
 void SharedWalks::share_row(Look look, int y) {
+  if (!holds_any(look, y)) return;
   for (int x = 0; y % 2 == 0 && x < width_; x += 2)
     if (Entry& own = entry(look, x, y); own.object != kNothing && !own.entered) own.shared = walked_around(look, x, y);
 }
 
 void SharedWalks::fill_row(Look look, int y) {
+  if (!holds_any(look, y)) return;
   for (int x = y % 2 == 0; x < width_; x += y % 2 == 0 ? 2 : 1) {
     Entry& own = entry(look, x, y);
     if (own.object == kNothing || own.entered) continue;
@@ -172,8 +175,8 @@ float SharedWalks::walked_around(Look look, int x, int y) const {
 
 void SharedWalks::walk_row(int y) {
   rows_[y].clear();
-  for (Image<Entry>& kept : entries_)
-    if (!kept.empty()) std::fill_n(kept.row(y % kept.height()), width_, Entry());
+  for (const Look look : {straight, mirrored})
+    if (std::exchange(holds_any(look, y), false)) std::fill_n(&entry(look, 0, y), width_, Entry());
   if (y % sharing_.stride != 0) return;
   const double px_per_ir_px = 1.0 / rig_.sensor.ir_scale();
   const int stride = sharing_.stride;
@@ -204,6 +207,7 @@ void SharedWalks::walk(Look look, int x, int y, const SeenPoint& seen) {
   const double gain = gain_of(seen);
   if (!way || gain <= 0.0 || seen.glaze || (seen.entered ? is_thin(seen) : has_glaze_)) return;
   Entry& own = entry(look, x, y) = entry_of(seen);
+  holds_any(look, y) = true;
   if (!seen.entered && parity_of(x, y) != 0) return;
   Rng shifts(seed_, kShiftStream + look), rng(seed_, kSharedWalkStream + look, y, x);
   const FirstStep shift{shifts.uniform(), shifts.uniform(), shifts.uniform()};

@@ -95,6 +95,7 @@ class SharedWalks {
   double from_body(const Entry& entry, int y, const Eigen::Vector2d& way) const;
   /// Of a pixel in a row that is there.
   Entry& entry(Look look, int x, int y) { return entries_[look](x, y % entries_[look].height()); }
+  char& holds_any(Look look, int y) { return holds_any_[look][y % holds_any_[look].size()]; }
   const Entry& entry(Look look, int x, int y) const { return entries_[look](x, y % entries_[look].height()); }
   const Entry* alike(Look look, int x, int y, const Entry& to) const;
   /// The pixels around (x, y) that are like `to`, of those that lie at distances of this part: 0 … parts − 1, by their
@@ -120,6 +121,8 @@ class SharedWalks {
   int walked_ = 0, forgotten_ = 0;  ///< the same
   int width_, height_;
   std::array<Image<Entry>, 2> entries_;  ///< by Look, of the rows that are there: row y lies at y modulo their number
+  /// Which of these rows hold any: in most nothing is seen mirrored, and their memory is left alone.
+  std::array<std::vector<char>, 2> holds_any_;
   std::vector<std::vector<SpreadLight>> rows_;  ///< over the transmittance to the camera
   int first_knot_row_ = 0;                      ///< of the rows that are prepared
   Image<std::optional<SpreadDots>> knots_;
