@@ -4,6 +4,7 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 set(prefix ${scratch}/prefix)
+string(REPLACE ";" "\\;" headers "${headers}")  # one argument of run()
 run(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${consumer} -B ${scratch}/build -G ${generator} -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH=${prefix}
     -D examples=${examples} "-Dheaders=${headers}")
