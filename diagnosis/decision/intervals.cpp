@@ -23,13 +23,46 @@ Eigen::MatrixXd parameter_covariance(const Problem& problem, const Refit& fit) {
   return pseudo_inverse(precision);
 }
 
-/// Of each of a fit's parameters; columns dual to the parameters are an estimate's weights on the data.
-Eigen::VectorXd parameter_dofs(const Case& c, const Refit& fit, const Eigen::MatrixXd& covariance) {
-  return degrees_of_freedom(c.covariance, fit.jacobian * covariance);
+/// How well a fit's parameters are known.
+struct Known {
+  Eigen::MatrixXd covariance;  ///< in prior scales
+  Eigen::VectorXd dofs;
+};
+
+Known how_known(const Case& c, const Refit& fit) {
+  Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
+  // Columns dual to the parameters: each estimate's weights on the data.
+  Eigen::VectorXd dofs = degrees_of_freedom(c.covariance, fit.jacobian * covariance);
+  return {std::move(covariance), std::move(dofs)};
 }
 
 /// All that rounds to one value fits alike: a fit ends anywhere among them.
 double whole(double value, double step) { return step > 0.0 ? step * std::round(value / step) : value; }
+
+std::vector<std::vector<NamedParameter>> parameters_of(const Case& c, const Refit& fit, const Known& known) {
+  std::vector<std::vector<NamedParameter>> result;
+  Eigen::Index next = 0;
+  for (const int effect : fit.hypothesis.effects) {
+    const Candidate& candidate = c.evidence.candidates[effect];
+    const double dof = known.dofs.segment(next, static_cast<Eigen::Index>(candidate.parameters.size())).minCoeff();
+    result.emplace_back();
+    for (const Parameter& parameter : candidate.parameters) {
+      const double fitted = parameter.nominal + parameter.prior_scale * fit.hypothesis.parameters[next];
+      const double value = whole(fitted, parameter.step);
+      const double half =
+          std::max(student_quantile(0.025, dof) * parameter.prior_scale * std::sqrt(known.covariance(next, next)),
+                   0.5 * parameter.step);
+      ++next;
+      NamedParameter one{parameter.name, value, value - half, value + half};
+      if (parameter.lower < parameter.upper) {
+        one.low95 = std::max(one.low95, parameter.lower);
+        one.high95 = std::min(one.high95, parameter.upper);
+      }
+      result.back().push_back(std::move(one));
+    }
+  }
+  return result;
+}
 
 /// p of one effect's departures beside the others': χ² by the degrees of freedom of its variance.
 double p_of(const Eigen::VectorXd& departures, const Eigen::MatrixXd& covariance, double dof) {
@@ -55,36 +88,12 @@ std::vector<std::vector<double>> covariance_in_units(const Case& c, const Refit&
 }
 
 std::vector<std::vector<NamedParameter>> fitted_parameters(const Case& c, const Refit& fit) {
-  const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
-  const Eigen::VectorXd dofs = parameter_dofs(c, fit, covariance);
-  std::vector<std::vector<NamedParameter>> result;
-  Eigen::Index next = 0;
-  for (const int effect : fit.hypothesis.effects) {
-    const Candidate& candidate = c.evidence.candidates[effect];
-    const double dof = dofs.segment(next, static_cast<Eigen::Index>(candidate.parameters.size())).minCoeff();
-    result.emplace_back();
-    for (const Parameter& parameter : candidate.parameters) {
-      const double fitted = parameter.nominal + parameter.prior_scale * fit.hypothesis.parameters[next];
-      const double value = whole(fitted, parameter.step);
-      const double half =
-          std::max(student_quantile(0.025, dof) * parameter.prior_scale * std::sqrt(covariance(next, next)),
-                   0.5 * parameter.step);
-      ++next;
-      NamedParameter one{parameter.name, value, value - half, value + half};
-      if (parameter.lower < parameter.upper) {
-        one.low95 = std::max(one.low95, parameter.lower);
-        one.high95 = std::min(one.high95, parameter.upper);
-      }
-      result.back().push_back(std::move(one));
-    }
-  }
-  return result;
+  return parameters_of(c, fit, how_known(c, fit));
 }
 
 std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
-  const Eigen::MatrixXd covariance = parameter_covariance(c.problem, fit);
-  const Eigen::VectorXd dofs = parameter_dofs(c, fit, covariance);
-  std::vector<std::vector<NamedParameter>> parameters = fitted_parameters(c, fit);
+  const Known known = how_known(c, fit);
+  std::vector<std::vector<NamedParameter>> parameters = parameters_of(c, fit, known);
   const std::vector<double> confirmed =
       confirmations(linear_fit(c.covariance, c.problem, fit), deal_folds(c.evidence.observations, c.settings.seed));
   std::vector<NamedEffect> result;
@@ -92,12 +101,12 @@ std::vector<NamedEffect> named_effects(const Case& c, const Refit& fit) {
   for (const int effect : fit.hypothesis.effects) {
     const Candidate& candidate = c.evidence.candidates[effect];
     const auto count = static_cast<Eigen::Index>(candidate.parameters.size());
-    const double dof = dofs.segment(next, count).minCoeff();
+    const double dof = known.dofs.segment(next, count).minCoeff();
     NamedEffect named;
     named.name = candidate.effect;
-    named.p_discovery = std::min(
-        1.0, static_cast<double>(c.evidence.candidates.size()) *
-                 p_of(fit.hypothesis.parameters.segment(next, count), covariance.block(next, next, count, count), dof));
+    named.p_discovery = std::min(1.0, static_cast<double>(c.evidence.candidates.size()) *
+                                          p_of(fit.hypothesis.parameters.segment(next, count),
+                                               known.covariance.block(next, next, count, count), dof));
     named.p_confirmation =
         normal_tail(std::copysign(normal_score(confirmed[result.size()], dof), confirmed[result.size()]));
     named.parameters = std::move(parameters[result.size()]);

@@ -273,7 +273,7 @@ std::optional<FrameEstimates> estimate_frame(std::span<const SensedPoint> points
   if (outline) estimates.outline = outline->solve();
   set_inside(around, interior_radius(rig.cup), view, estimates);
   if (codes.weight > 0.0) {
-    estimates.step_comb = Eigen::Vector2d(comb.real(), comb.imag()) / codes.weight;
+    estimates.step_comb = comb.real() / codes.weight;
     const auto length = [&](const std::complex<double>& sum) { return std::abs(sum) / codes.weight; };
     for (std::size_t i = 0; i < coarse.size(); ++i) estimates.coarse_combs[i] = length(coarse[i]);
     estimates.spans_codes = codes.estimate().sd > kManyCodes &&

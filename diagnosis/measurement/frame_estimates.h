@@ -66,7 +66,7 @@ struct FrameEstimates {
   RegionEstimate interior_intensity;                       ///< [DN]
   std::optional<double> desk_contrast, interior_contrast;  ///< of the infrared's dots (DotContrast); none without rows
   std::optional<CupOutline> outline;
-  Eigen::Vector2d step_comb = {0.0, 0.0};  ///< mean (cos, sin) of 2π · disparity in steps of 1/8 px, of the desk
+  double step_comb = 0.0;                           ///< mean cosine of 2π · disparity in steps of 1/8 px, of the desk
   std::array<double, 2> coarse_combs = {0.0, 0.0};  ///< |mean exp(2πi · disparity)| in steps of 1/4 and 1/2 px
   bool spans_codes = false;                         ///< whether the desk lies in so many codes that these tell anything
   double millimetre_comb = 0.0;                     ///< mean cos of 2π · depth in mm, of the desk

@@ -43,7 +43,7 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
     if (estimates.desk_residual[i].weight >= kFewestOnDesk)
       values.push_back({"desk_residual_mm", kDeskRegionNames[i], mm_from_metres(estimates.desk_residual[i].mean),
                         estimates.desk_residual[i].weight});
-  values.push_back({"comb_strength", kDesk, estimates.step_comb.x()});
+  values.push_back({"comb_strength", kDesk, estimates.step_comb});
   if (estimates.spans_codes) {
     values.push_back({"comb_quarter", kDesk, estimates.coarse_combs[0]});
     values.push_back({"comb_half", kDesk, estimates.coarse_combs[1]});

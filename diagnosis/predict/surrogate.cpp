@@ -25,7 +25,7 @@ Pose believed_pose(const LaboratoryRig& rig) {
 /// depths, cut to whole millimetres, the cut is even over one, which is k steps: the mean cosine of that is sinc k.
 /// `phase`: by how many steps codes stand beside those that the comb is measured on.
 void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, double phase, FrameEstimates& estimates) {
-  estimates.step_comb.setZero();
+  estimates.step_comb = 0.0;
   estimates.coarse_combs.fill(0.0);
   estimates.millimetre_comb = sensor.law.quantized ? 1.0 : 0.0;
   if (!sensor.law.quantized) return;
@@ -40,7 +40,7 @@ void set_combs(std::span<const SensedPoint> desk, const SensorModel& sensor, dou
     }
     return weight > 0.0 ? sum / weight : 0.0;
   };
-  estimates.step_comb = strength(1) * direction_of(2.0 * std::numbers::pi * phase);
+  estimates.step_comb = strength(1) * std::cos(2.0 * std::numbers::pi * phase);
   for (std::size_t i = 0; i < kCoarseCombs.size(); ++i)
     if (sensor.law.codes_per_step % kCoarseCombs[i] == 0) estimates.coarse_combs[i] = strength(kCoarseCombs[i]);
 }

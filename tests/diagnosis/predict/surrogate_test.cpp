@@ -145,12 +145,12 @@ TEST(Surrogate, KnowsOnWhichCodesDepthsStand) {
     return setup;
   };
   const SurrogateFrame nominal = surrogate_frame(quantized(Json::array()), rig, pixels);
-  const double strength = nominal.estimates.value().step_comb.x();
+  const double strength = nominal.estimates.value().step_comb;
   ASSERT_GT(strength, 0.4);
   for (const double phase : {0.25, 0.5}) {
     const Json moved = {{{"name", "depth_step_phase"}, {"phase_steps", phase}}};
     const FrameEstimates seen = surrogate_frame(quantized(moved), rig, pixels, &nominal).estimates.value();
-    EXPECT_NEAR(seen.step_comb.x(), strength * std::cos(2.0 * std::numbers::pi * phase), 1e-12);
+    EXPECT_NEAR(seen.step_comb, strength * std::cos(2.0 * std::numbers::pi * phase), 1e-12);
     EXPECT_EQ(seen.height[0].mean, nominal.estimates->height[0].mean);
   }
 }
@@ -246,7 +246,7 @@ TEST(Combs, TellHowCoarseTheStepsAre) {
       EXPECT_NEAR(few.coarse_combs[i], frame.coarse_combs[i], kComb) << step_px;
       EXPECT_EQ(few.coarse_combs[i] > 0.5, step_px >= 0.125 * kCoarseCombs[i]);
     }
-    EXPECT_NEAR(few.step_comb.x(), frame.step_comb.x(), kComb);
+    EXPECT_NEAR(few.step_comb, frame.step_comb, kComb);
     // Half a step has no code of its own: the device takes the farther one, half of 1/8 px or 0.7 mm behind.
     EXPECT_NEAR(mm_from_metres(few.desk.offset), mm_from_metres(frame.desk.offset), 0.1);
   }
@@ -258,8 +258,8 @@ TEST(Combs, AreThoseOfTheDeskThatIsSeen) {
   FrameView near;
   near.desk_px = Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 280.0), Eigen::Vector2d(640.0, 480.0));
   const auto [frame, few] = desk_with(law, near);
-  EXPECT_NEAR(few.step_comb.x(), frame.step_comb.x(), 0.1);
-  EXPECT_LT(few.step_comb.x(), desk_with(law).second.step_comb.x() - 0.1);
+  EXPECT_NEAR(few.step_comb, frame.step_comb, 0.1);
+  EXPECT_LT(few.step_comb, desk_with(law).second.step_comb - 0.1);
 }
 
 TEST(Combs, OfADeskInFewCodesAreNotLookedAt) {
