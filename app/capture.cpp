@@ -121,7 +121,7 @@ void run(const CaptureOptions& options, const CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
   const InputRecord inputs;
   Setup setup = read_setup(options.scene);
-  for (const std::string& doubt : scene_doubts(setup.source))
+  for (const std::string& doubt : scene_doubts(setup))
     print_warning(fmt::format("{}: {}", options.scene.string(), doubt));
   require_apart(setup);
   if (!options.model.empty()) setup = with_effects_of_model(std::move(setup), options.model);

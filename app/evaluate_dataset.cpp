@@ -39,6 +39,9 @@ void evaluate_dataset(const DatasetEvaluation& evaluation, const CommonOptions& 
   }
   {
     const FolderOwner owner(common.output, kShardPatience);
+    // Also the other shards' scenes: a card is of one evaluation.
+    for (const DatasetFrames::SceneFolder& scene : frames.scenes())
+      require_same_evaluation(common.output, frames, scene, identity);
     remove_results(common, "rates", ".txt");  // they come last
     make_directory(common.output / "scenes");
   }

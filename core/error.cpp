@@ -39,7 +39,28 @@ std::size_t typing_errors(std::string_view typed, std::string_view meant) {
   return above.back();
 }
 
-/// "; did you mean 'water'?" where one choice is near, else nothing.
+/// Letters of the words that two names share, such as "tilt" of "tilt" and "surface_tilt"; words have three or more.
+std::size_t letters_shared(std::string_view name, std::string_view choice) {
+  constexpr std::string_view kBetween = "_-. ";
+  const auto has_word = [&](std::string_view word) {
+    for (std::size_t at = choice.find(word); at != std::string_view::npos; at = choice.find(word, at + 1)) {
+      const std::size_t end = at + word.size();
+      if ((at == 0 || kBetween.find(choice[at - 1]) != kBetween.npos) &&
+          (end == choice.size() || kBetween.find(choice[end]) != kBetween.npos))
+        return true;
+    }
+    return false;
+  };
+  std::size_t letters = 0;
+  for (std::size_t begin = 0; begin < name.size();) {
+    const std::size_t end = std::min(name.find_first_of(kBetween, begin), name.size());
+    if (end - begin >= 3 && has_word(name.substr(begin, end - begin))) letters += end - begin;
+    begin = end + 1;
+  }
+  return letters;
+}
+
+/// "; did you mean 'water'?" where one choice is spelled nearly so or shares a word, else nothing.
 std::string likely_meant(std::string_view name, std::span<const std::string> choices) {
   constexpr std::size_t kLongest = 100;  // what is longer is no mistyped name, and takes long to compare
   if (name.size() > kLongest || name.size() < 3) return {};
@@ -50,6 +71,14 @@ std::string likely_meant(std::string_view name, std::span<const std::string> cho
       fewest = errors;
       nearest = choice;
     }
+  if (nearest.empty()) {
+    std::size_t most = 0;
+    for (const std::string& choice : choices)
+      if (const std::size_t letters = letters_shared(name, choice); letters > most) {
+        most = letters;
+        nearest = choice;
+      }
+  }
   return nearest.empty() ? std::string() : fmt::format("; did you mean '{}'?", nearest);
 }
 

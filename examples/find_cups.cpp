@@ -5,6 +5,7 @@
 
 #include <fathom/detector/read_cloud.h>
 #include <fathom/detector/robust.h>
+#include <fathom/detector/settings_json.h>
 
 int main(int argc, char** argv) try {
   if (argc != 2) {
@@ -12,7 +13,8 @@ int main(int argc, char** argv) try {
     return 2;
   }
   const fathom::Cloud cloud = fathom::read_cloud(argv[1]);  // [m], camera frame: x right, y down, z forward
-  const fathom::Detection found = fathom::detect_robust(cloud, {});
+  const fathom::DetectorSettings settings = fathom::read_detector_settings({});  // with the templates that come along
+  const fathom::Detection found = fathom::detect_robust(cloud, settings);
   if (!found.desk) {
     std::printf("%s\n", found.why.c_str());
     return 0;

@@ -38,7 +38,7 @@ std::unique_ptr<Camera> camera_of(const ScenePath& path, const py::object& scene
   std::vector<std::string> doubts;
   std::unique_ptr<Camera> camera = watched(progress, [&] {
     Setup setup = setup_of(path, json);
-    doubts = scene_doubts(setup.source);
+    doubts = scene_doubts(setup);
     require_apart(setup);
     if (model) setup = with_effects_of_model(std::move(setup), *model);
     return std::make_unique<Camera>(setup, how, samples, seed, chosen);

@@ -70,11 +70,12 @@ std::vector<Row> unit_rows(const UnitCalibration& unit) {
                         {"seen_share", seen / number(unit.seen.size())},
                         {"bias", rms(unit.bias_px, unit), "px"},
                         {"bias_sigma", rms(unit.sigma_px, unit), "px"},
-                        {"desk_error_before", unit.without_px, "px"},
-                        {"desk_error_after", unit.left_px, "px"},
-                        {"cell_error", unit.prior.cell_px, "px"},
-                        {"column_step", unit.prior.columns_px, "px"},
-                        {"noise", unit.noise.sigma_px, "px"}};
+                        {"desk_error_before", unit.without_px, "px"}};
+  // A single view is predicted from itself, which says nothing of others.
+  if (unit.views > 1) rows.push_back({"desk_error_after", unit.left_px, "px"});
+  rows.push_back({"cell_error", unit.prior.cell_px, "px"});
+  rows.push_back({"column_step", unit.prior.columns_px, "px"});
+  rows.push_back({"noise", unit.noise.sigma_px, "px"});
   for (std::size_t i = 0; i < kNoiseLags_px.size(); ++i)
     rows.push_back({fmt::format("noise_correlation_x_{}", kNoiseLags_px[i]), unit.noise.along_rows[i]});
   for (std::size_t i = 0; i < kNoiseLags_px.size(); ++i)

@@ -29,18 +29,28 @@ Image<float> depth_of(const Cloud& cloud) {
   return depth;
 }
 
+/// The evaluation's identity for one scene. Its manifest stands for all of its files.
+RunIdentity identity_of(const RunIdentity& evaluation, const DatasetFrames& frames,
+                        const DatasetFrames::SceneFolder& scene) {
+  RunIdentity identity = evaluation;
+  const InputRecord inputs;
+  record_input_file(frames.manifest_of(scene));
+  identity.inputs.insert(inputs.files().begin(), inputs.files().end());
+  return identity;
+}
+
 }  // namespace
+
+void require_same_evaluation(const fs::path& folder, const DatasetFrames& frames,
+                             const DatasetFrames::SceneFolder& scene, const RunIdentity& identity) {
+  const fs::path answers = answers_to(folder, scene);
+  require_own_trials(answers, Manifest(answers, identity_of(identity, frames, scene)));
+}
 
 void search_scene(const fs::path& folder, const DatasetFrames& frames, const DatasetFrames::SceneFolder& scene,
                   const RunIdentity& identity, const Method& method, const DetectorSettings& settings,
                   const std::function<void()>& step) {
-  RunIdentity its = identity;
-  {
-    const InputRecord inputs;
-    record_input_file(frames.manifest_of(scene));  // stands for all of the scene's files
-    its.inputs.insert(inputs.files().begin(), inputs.files().end());
-  }
-  TrialFolder answers(answers_to(folder, scene), its);
+  TrialFolder answers(answers_to(folder, scene), identity_of(identity, frames, scene));
   std::vector<int> missing;
   for (int image = 0; image < scene.frames; ++image) {
     if (answers.kept(frame_name(image)))

@@ -10,9 +10,13 @@
 
 namespace fathom {
 
+/// Throws Error where FOLDER/scenes/NAME holds answers of another evaluation, or of unknown origin.
+void require_same_evaluation(const std::filesystem::path& folder, const DatasetFrames& frames,
+                             const DatasetFrames::SceneFolder& scene, const RunIdentity& identity);
+
 /// Searches those frames of a scene that FOLDER/scenes/NAME does not hold yet, on all threads, and calls `step` for
-/// each frame from any of them. Times are left out, so that the same frames give the same bytes. Throws Error where
-/// another evaluation's answers are there.
+/// each frame from any of them. Times are left out, so that the same frames give the same bytes. Throws Error as
+/// require_same_evaluation() does.
 void search_scene(const std::filesystem::path& folder, const DatasetFrames& frames,
                   const DatasetFrames::SceneFolder& scene, const RunIdentity& identity, const Method& method,
                   const DetectorSettings& settings, const std::function<void()>& step);

@@ -101,15 +101,22 @@ constexpr std::size_t kParts = 3;      // of a campaign: one session is cut into
 constexpr std::size_t kFewest = 4;     // … but for what leaves fewer placements in each
 constexpr double kUnexplained = 0.25;  // of the variance that local noise makes: noise reaches across borders
 
-/// Variance of the desk's height [mm²] over the variance [px²] of bands of rows with independent errors: 1/z = q ·
-/// (x/z, y/z, 1), of whose last two terms bands tell, and the height is 1/|q|.
-double height_over_rows(const LaboratoryRig& rig) {
+/// Variances of the desk's height and pitch over the variance [px²] of bands of rows with independent errors.
+struct PlaneOverRows {
+  double height_mm2 = 0.0, pitch_deg2 = 0.0;
+};
+
+/// 1/z = q · (x/z, y/z, 1), of whose last two terms bands tell. The height is 1/|q|; q's change along itself alters
+/// it, and q's change across turns the plane.
+PlaneOverRows plane_over_rows(const LaboratoryRig& rig) {
   constexpr double kRows = std::tuple_size_v<decltype(DeskBands::rows)>;
   const Plane desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
   const double mean_square = kImageHeight_px * kImageHeight_px / 12.0 / (rig.focal_px * rig.focal_px);
-  const double of_q = (desk.normal.y() * desk.normal.y() / mean_square + desk.normal.z() * desk.normal.z()) / kRows;
-  const double height_mm = mm_from_metres(desk.offset * desk.offset / (rig.focal_px * rig.baseline_m));
-  return height_mm * height_mm * of_q;
+  const double y2 = desk.normal.y() * desk.normal.y(), z2 = desk.normal.z() * desk.normal.z();
+  const double per_px = desk.offset / (rig.focal_px * rig.baseline_m);
+  const double height_mm = mm_from_metres(desk.offset * per_px), pitch_deg = deg_from_radians(per_px);
+  return {height_mm * height_mm * (y2 / mean_square + z2) / kRows,
+          pitch_deg * pitch_deg * (z2 / mean_square + y2) / kRows};
 }
 
 /// Variances between the trials of one placement.
@@ -168,15 +175,18 @@ void add_motion(int session, std::span<const Scatter> placements, const Laborato
     excess.error = std::hypot(excess.error, kUnexplained * mean_excess(placements, local).value);
     return excess;
   };
+  // Waves along the rows lift and turn the plane that is fitted.
   VarianceExcess wander = motion(&Scatter::height_mm2, &PlaneNoise::height_mm);
-  const double of_waves = kTogether * height_over_rows(rig) * std::max(waves.value, 0.0);
-  wander.error = std::hypot(wander.error, of_waves);
+  VarianceExcess pitch = motion(&Scatter::pitch_deg2, &PlaneNoise::pitch_deg);
+  const PlaneOverRows over_rows = plane_over_rows(rig);
+  const double of_rows = kTogether * std::max(waves.value, 0.0);
+  wander.error = std::hypot(wander.error, of_rows * over_rows.height_mm2);
+  pitch.error = std::hypot(pitch.error, of_rows * over_rows.pitch_deg2);
   const Factors factors{.session = session, .liquid = "none", .region = "desk"};
   const auto count = static_cast<int>(placements.size());
   result.push_back(root_of(wander, "desk_wander_mm", factors, count));
   result.push_back(root_of(waves, "desk_waves_px", factors, count));
-  result.push_back(
-      root_of(motion(&Scatter::pitch_deg2, &PlaneNoise::pitch_deg), "desk_pitch_motion_deg", factors, count));
+  result.push_back(root_of(pitch, "desk_pitch_motion_deg", factors, count));
   result.push_back(root_of(motion(&Scatter::roll_deg2, &PlaneNoise::roll_deg), "desk_roll_motion_deg", factors, count));
 }
 

@@ -64,8 +64,10 @@ void require_possible(const Table& frames, std::size_t row, const FrameRecord& r
          fmt::format("from 0 to {:g}, the depth of the cup", mm_from_metres(rig.cup.height() - rig.cup.bottom())));
   if (record.liquid != "empty" && record.fill_m == 0.0) must("fill_mm", "above 0, or the liquid empty");
   if (!is_in_sight(record, rig))
-    must("distance_mm", fmt::format("in mm and, with lateral_mm {}, where the sensor of rig.json sees the cup",
-                                    frames.text(row, "lateral_mm")));
+    must("distance_mm",
+         fmt::format("in mm and, with lateral_mm {}, where the sensor of rig.json, {:g} mm high and pitched down by "
+                     "{:.4g} degrees, sees the cup",
+                     frames.text(row, "lateral_mm"), mm_from_metres(rig.height_m), deg_from_radians(rig.pitch_rad)));
 }
 
 /// Heights of tables, most often because of another unit: single ones may be noise, those of one filling are not.

@@ -27,7 +27,7 @@ class Sensor(Configuration):
     ir_size_px: width and height of the infrared image; [width, height], each 16 to 8192; default [1280, 1024]
     depth_size_px: width and height of the depth image: half of ir_size_px; rows beyond are cropped; [width, height],
         each 16 to 8192; default [640, 480]
-    focal_px: focal length of the depth image; 1 to 1000000; default 570.3422053
+    focal_px: focal length of the depth image; 1 to 1000000; default 570.342
     principal_px: principal point of the depth image; its middle where only the size is given; [x, y], each -1000000 to
         1000000; default [320, 240]
     reference_mm: distance of the reference plane; above 0, at most 1000000; default 1200
@@ -235,7 +235,7 @@ class Unit(Configuration):
     warm_up_px: additional disparity of a cold device; -4 to 4; default 0
     warm_up_s: time in which that falls to 1/e; above 0; default 940
     on_for_s: time since the unit was switched on, at frame 0; from 0; default 1000000000
-    frame_interval_s: from frame to frame; above 0; default 0.03333333333
+    frame_interval_s: from frame to frame; above 0; default 0.0333333
     learned: a unit.json of fathom calibrate, relative to this file; its map of errors is added to those that are drawn;
         a path
     """

@@ -38,7 +38,7 @@ class Truth:
     path: NDArray[np.int32]  #: 0 nothing, 1 direct, 2 refracted, 3 scattered
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Capture:
     """One shot. The arrays are the simulator's own memory, not copies of it."""
 
@@ -49,6 +49,13 @@ class Capture:
     intensity: Floats  #: h x w infrared light at the cloud's points [DN]
     camera_matrix: Doubles  #: 3 x 3 [px], of the depth image
     world_from_camera: Doubles  #: 4 x 4 [m]
+
+    def __repr__(self) -> str:
+        height, width = self.depth.shape
+        seen = self.depth[self.depth > 0]
+        depths = f"{seen.size / self.depth.size:.0%} of them seen, {seen.min():.3f} to {seen.max():.3f} m" if seen.size else "none seen"
+        ir = "no infrared image" if self.ir is None else "infrared image of {1} x {0} px".format(*self.ir.shape)
+        return f"<Capture: {width} x {height} depths, {depths}; {ir}>"
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/json.h"
 
@@ -27,9 +28,32 @@ void doubt_length(const Json& object, const std::string& place, const char* key,
       fmt::format("{}/{}: {} mm; lengths are in millimetres, were metres meant?", place, key, object[key].dump()));
 }
 
-}  // namespace
+/// Whether the camera's image, without distortion, has a point of the cup's outside: of its rim or its base.
+bool is_in_image(const Rig& rig, const Cup& cup) {
+  std::vector<Eigen::Vector3d> points;
+  if (const auto* mesh = std::get_if<MeshCup>(&cup.shape)) {
+    for (const GltfPart& part : mesh->parts)
+      points.insert(points.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
+  } else {
+    constexpr int kAround = 16;
+    const CupShape& shape = std::get<CupShape>(cup.shape);
+    for (const Eigen::Vector2d& at : {shape.outer.front(), shape.outer.back()})
+      for (int i = 0; i < kAround; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kAround, radius = shape.outer_radius(at.y());
+        points.emplace_back(cup.position.x() + radius * std::cos(angle), cup.position.y() + radius * std::sin(angle),
+                            at.y());
+      }
+  }
+  const SensorModel& sensor = rig.sensor;
+  return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    const auto at = rig.rectified(point - rig.camera_in_world());
+    if (!at) return false;
+    const Eigen::Vector2d px = sensor.principal_px + sensor.focal_px * *at;
+    return px.x() >= 0.0 && px.y() >= 0.0 && px.x() <= sensor.width && px.y() <= sensor.height;
+  });
+}
 
-std::vector<std::string> scene_doubts(const Json& scene) {
+std::vector<std::string> doubts_of_lengths(const Json& scene) {
   std::vector<std::string> sentences;
   if (scene.contains("sensor"))
     for (const char* key : {"height_mm", "aim_mm"}) doubt_length(scene["sensor"], "/sensor", key, 10.0, sentences);
@@ -42,6 +66,17 @@ std::vector<std::string> scene_doubts(const Json& scene) {
     for (const char* key : {"height_mm", "inner_radius_mm", "outer_radius_mm"})
       doubt_length(cup["shape"], place + "/shape", key, 1.0, sentences);
   }
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> scene_doubts(const Setup& setup) {
+  std::vector<std::string> sentences = doubts_of_lengths(setup.source);
+  for (std::size_t i = 0; i < setup.scene.cups.size(); ++i)
+    if (!is_in_image(setup.rig, setup.scene.cups[i]))
+      sentences.push_back(
+          fmt::format("/cups/{}: is outside the camera's image; /sensor/aim_mm says where it looks", i));
   return sentences;
 }
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "core/json_fwd.h"
+#include "sim/scene/setup.h"
 
 namespace fathom {
 
-/// Lengths of a scene that are so small that they may have been given in metres, a sentence each:
-/// "/cups/0/fill_mm: 0.04 mm; …".
-std::vector<std::string> scene_doubts(const Json& scene);
+/// A sentence for each: lengths that are so small that they may have been given in metres, "/cups/0/fill_mm: 0.04 mm;
+/// …"; cups of which no part is in the image.
+std::vector<std::string> scene_doubts(const Setup& setup);
 
 }  // namespace fathom

@@ -98,9 +98,13 @@ TEST_F(EvaluateDataset, ShardsAndARepeatedRunGiveTheSameBytes) {
 
 TEST_F(EvaluateDataset, AnotherMethodsAnswersAreNotMixed) {
   ASSERT_EQ(evaluate("card").exit_code, 0);
+  const auto card = files_below(folder / "card");
   const ProgramRun other = evaluate("card", "--method paper");
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_NE(other.err.find("method was \"robust\", is \"paper\""), std::string::npos) << other.err;
+  EXPECT_EQ(files_below(folder / "card"), card);  // a refused run leaves the other's card as it was
+  ASSERT_EQ(evaluate("shards", "--shard 0/2").exit_code, 0);
+  EXPECT_EQ(evaluate("shards", "--shard 1/2 --method paper").exit_code, 1);
 }
 
 TEST_F(EvaluateDataset, WhatCannotBeIsRefusedWithItsPlace) {

@@ -41,6 +41,17 @@ TEST_F(Warnings, LengthsThatAreSmallButUsualAreNot) {
   EXPECT_EQ(shot(scene).err, "");
 }
 
+TEST_F(Warnings, ACupThatTheCameraDoesNotSeeIsNamed) {
+  const std::string scene = written("scene.json",
+                                    R"({"sensor": {"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 300, 0]},
+ "cups": [{"position_mm": [0, 300], "shape": "paper_cup"}, {"position_mm": [460, 300], "shape": "paper_cup"},
+          {"position_mm": [0, -200], "shape": "paper_cup"}]})");
+  const ProgramRun run = shot(scene);
+  EXPECT_EQ(run.exit_code, 0);
+  const std::string aim = ": is outside the camera's image; /sensor/aim_mm says where it looks\n";
+  EXPECT_EQ(run.err, "warning: " + scene + ": /cups/1" + aim + "warning: " + scene + ": /cups/2" + aim);
+}
+
 TEST_F(Warnings, ACloudInMillimetresIsNamed) {
   std::string cloud =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 400\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"

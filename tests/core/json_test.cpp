@@ -28,6 +28,9 @@ TEST(Json, UnknownNameNamesFilePathAndChoices) {
   expect_error(
       [&] { kReader.at("cups").items().at(0).at("liquid").choice(choices, "liquid"); },
       {"scene.json: /cups/0/liquid: ", "unknown liquid 'wtaer', choose from milk_tea, water; did you mean 'water'?"});
+  const Json tilt = "tilt";
+  const std::vector<std::string> effects{"sensor_height", "surface_tilt"};
+  expect_error([&] { JsonReader(tilt, "f").choice(effects, "effect"); }, {"did you mean 'surface_tilt'?"});
   const Json water = "water";
   EXPECT_EQ(JsonReader(water, "f").choice(choices, "liquid"), 1u);
 }

@@ -115,13 +115,14 @@ TEST(DeskMotion, DeskThatMovesAsAWholeWandersAndMakesNoWaves) {
   EXPECT_LT(std::abs(found("desk_waves_px", motion).z), kChance);
 }
 
-TEST(DeskMotion, RowsThatShakeMakeWavesAndNoCertainWander) {
+TEST(DeskMotion, RowsThatShakeMakeWavesAndNoCertainMotionOfThePlane) {
   const Motion motion{.noise = 0.1, .along_rows = 0.1};
   const Found waves = found("desk_waves_px", motion);
   EXPECT_GT(waves.z, kSure);
   EXPECT_GT(waves.value, 0.05);  // 0.07 px are a sine's root mean square, of which bands and the plane take some
   EXPECT_LT(waves.value, 0.08);
   EXPECT_LT(std::abs(found("desk_wander_mm", motion).z), kChance);
+  EXPECT_LT(std::abs(found("desk_pitch_motion_deg", motion).z), kChance);
 }
 
 TEST(DeskMotion, ASensorThatTremblesMovesItsPitchAlone) {

@@ -413,11 +413,11 @@ TEST_F(MeasurementFolder, RowsMustBePossible) {
       {"0,0,0,0,0,0,none,20,0,0,,", "line 2, column 'fill_mm': must be 0 where the liquid is none, got '20'"},
       {"0,0,0,0,0,0,empty,20,300,0,,7", "line 2, column 'fill_mm': must be 0 where the liquid is empty, got '20'"},
       {"0,0,0,0,0,0,water,20,30,0,,15",
-       "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json sees the cup, "
-       "got '30'"},
+       "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json, 650 mm high "
+       "and pitched down by 58.4 degrees, sees the cup, got '30'"},
       {"0,0,0,0,0,0,water,20,300,-5000,,15",
-       "line 2, column 'distance_mm': must be in mm and, with lateral_mm -5000, where the sensor of rig.json sees the "
-       "cup, got '300'"},
+       "line 2, column 'distance_mm': must be in mm and, with lateral_mm -5000, where the sensor of rig.json, 650 mm "
+       "high and pitched down by 58.4 degrees, sees the cup, got '300'"},
       {"0,0,0,0,0,0,water,20,300,0,,1.5",
        "line 2, column 'height_mm': must be in mm above the desk, from 1.75 to 92 in this cup, got '1.5'"},
       {"0,0,0,0,0,0,water,20,300,0,,15\n0,0,0,0,1,1,water,20,300,0,,15",
