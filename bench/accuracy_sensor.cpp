@@ -24,12 +24,13 @@ struct SensorPart {
   void (*compare)();
 };
 
-constexpr std::array<SensorPart, 8> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
+constexpr std::array<SensorPart, 9> kParts{{{"desks", [] { compare_desks(CaptureMode::photometric); }},
                                             {"pots", [] { compare_pots(CaptureMode::photometric); }},
                                             {"ranges", [] { compare_ranges(CaptureMode::photometric); }},
                                             {"edges", [] { compare_edges(CaptureMode::photometric); }},
                                             {"times", compare_times},
                                             {"materials", compare_materials},
+                                            {"reflections", compare_reflections},
                                             {"turbid", compare_turbid},
                                             {"statistics", compare_statistics}}};
 

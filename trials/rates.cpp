@@ -92,7 +92,8 @@ void add_levels(const std::vector<const TrialCup*>& cups, std::vector<Row>& rows
       "fill_within_95", cups, told, [&](const TrialCup& cup) { return error(cup) <= k95 * *cup.fill_sigma_mm; }, rows);
 }
 
-/// So many different depths are a design; more were drawn evenly, and have no rate each.
+/// So many different depths may be a design. More, or such as never come twice, were drawn evenly: they have no rate
+/// each.
 constexpr std::size_t kMostDepths = 20;
 
 std::string number(double value) { return fmt::format("{:.4f}", value); }
@@ -106,9 +107,10 @@ std::vector<Row> liquid_rates(const std::vector<TrialResult>& trials) {
   const auto said_yes = [](const TrialCup& cup) { return cup.liquid_found == "yes"; };
   add_share_of("sensitivity", cups, sure, said_yes, rows);
   std::set<double> depths_mm;
+  std::size_t filled = 0;
   for (const TrialCup* cup : cups)
-    if (is_filled(*cup)) depths_mm.insert(cup->fill_mm);
-  if (depths_mm.size() > kMostDepths) depths_mm.clear();
+    if (is_filled(*cup)) depths_mm.insert(cup->fill_mm), ++filled;
+  if (depths_mm.size() > kMostDepths || (filled > 1 && depths_mm.size() == filled)) depths_mm.clear();
   for (const double depth_mm : depths_mm)
     add_share_of(
         fmt::format("sensitivity_{:g}_mm", depth_mm), cups,

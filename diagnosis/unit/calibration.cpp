@@ -12,6 +12,7 @@
 #include "core/input_policy.h"
 #include "core/progress.h"
 #include "core/units.h"
+#include "detector/pinhole.h"
 #include "detector/read_cloud.h"
 #include "diagnosis/unit/bias_learner.h"
 
@@ -32,18 +33,8 @@ struct Reading {
 
 /// Of an organised cloud's rays, for an image 640 wide; 0: not organised.
 double image_focal_px(const Cloud& cloud) {
-  if (cloud.height < 2 || cloud.width < 2) return 0.0;
-  std::vector<double> focals;
-  const double middle = 0.5 * cloud.width;
-  for (std::size_t i = 0; i < cloud.points.size(); i += 11) {
-    const Eigen::Vector3f& point = cloud.points[i];
-    const double from_middle = static_cast<double>(i % cloud.width) + 0.5 - middle;
-    if (!point.allFinite() || std::abs(from_middle) < 0.125 * cloud.width || point.x() == 0.0f) continue;
-    focals.push_back(from_middle * point.z() / point.x() * kWidth / cloud.width);
-  }
-  if (focals.empty()) return 0.0;
-  std::nth_element(focals.begin(), focals.begin() + static_cast<std::ptrdiff_t>(focals.size() / 2), focals.end());
-  return focals[focals.size() / 2];
+  const std::optional<Pinhole> pinhole = pinhole_of(cloud);
+  return pinhole ? pinhole->focal_x_px * kWidth / cloud.width : 0.0;
 }
 
 /// Throws Error on a cloud that must be in other units.

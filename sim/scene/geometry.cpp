@@ -203,6 +203,10 @@ class Builder {
 
   void add_clear_wall(const Cup& cup, const CupShape& shape, int object, bool on_desk) {
     const int body = add_body(object, *shape.material, Priority::wall);
+    geometry_.approximations.push_back(
+        fmt::format("{}: light that interfaces reflect in part twice or more on its way to a surface, or from there, "
+                    "is left out: 1 to 3 % each way",
+                    cup_name(cup)));
     for (WallPart& part : wall_parts(shape, on_desk ? kSink : 0.0)) {
       part.mesh.transform(world_from_shape(cup));
       Surface surface{object, std::move(part.mesh), Interface{body}};

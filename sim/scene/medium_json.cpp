@@ -135,9 +135,9 @@ std::span<const Field<Medium>> medium_fields() {
   return fields;
 }
 
-Medium described_medium(const JsonReader& json) {
+Medium described_medium(const JsonReader& json, const char* name = "liquid") {
   Medium medium;
-  medium.name = "liquid";
+  medium.name = name;
   read_fields(json, medium_fields(), medium);
   if (json.has("ranges")) check_ranges(json.at("ranges"), medium);
   return medium;
@@ -210,10 +210,8 @@ Medium medium_from_json(const JsonReader& json) {
 }
 
 Medium wall_from_json(const JsonReader& json) {
-  Medium medium =
-      json.value().is_string() ? library_medium(json.text(), json, "walls", "wall material") : described_medium(json);
-  if (medium.scatters()) json.fail("scatters; a wall of a cup is clear, or opaque with an albedo");
-  return medium;
+  return json.value().is_string() ? library_medium(json.text(), json, "walls", "wall material")
+                                  : described_medium(json, "wall");
 }
 
 std::vector<KeyTable> medium_key_tables() {

@@ -69,8 +69,8 @@ std::span<const Field<CupShape>> shape_fields() {
       {"material",
        Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.material = wall_from_json(json); }, nullptr,
                    R"({"anyOf": [{"type": "string"}, {"$ref": "#/$defs/liquid"}]})", "a name or an object"},
-       "of a clear wall, which refracts: a name of `fathom list walls` or a description; without it the wall is "
-       "opaque"},
+       "of a wall that light enters, such as glass, or plastic that scatters: a name of `fathom list walls` or a "
+       "description; without it the wall is opaque"},
       {"handle",
        Part<Shape>{[](const JsonReader& json, Shape& shape) { shape.handle = handle_from_json(json); }, nullptr,
                    "#/$defs/handle", "an object"},

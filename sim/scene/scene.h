@@ -43,7 +43,7 @@ struct CupShape : CupProfile {
   std::string name;
   double albedo = 0.70;
   std::optional<Coat> glaze;       ///< of an opaque wall
-  std::optional<Medium> material;  ///< of a clear wall, which refracts; without one the wall is opaque
+  std::optional<Medium> material;  ///< of a wall that light enters; without one the wall is opaque
   std::optional<Handle> handle;
   std::string source;
 

@@ -83,9 +83,15 @@ LightModel measured_light(const Setup& setup) {
   // [1/m] of reduced scattering: from less than 0.05 mm deep light comes as from a surface, and walks take too long.
   constexpr double kSurface = 2e4;
   bool is_let_in = setup.light.any();
+  std::vector<const Medium*> media;
   for (const Cup& cup : setup.scene.cups) {
-    if (!cup.filling || !cup.filling->medium.scatters()) continue;
-    if (cup.filling->medium.reduced_scattering() >= kSurface) return LightModel::direct;
+    if (cup.filling) media.push_back(&cup.filling->medium);
+    if (const auto* shape = std::get_if<CupShape>(&cup.shape); shape && shape->material)
+      media.push_back(&*shape->material);
+  }
+  for (const Medium* medium : media) {
+    if (!medium->scatters()) continue;
+    if (medium->reduced_scattering() >= kSurface) return LightModel::direct;
     is_let_in = true;
   }
   return is_let_in ? LightModel::full : LightModel::direct;

@@ -206,7 +206,7 @@ TEST(LiquidForm, MustStayBetweenBottomAndRim) {
                {"/cups/0/surface: needs a liquid"});
 }
 
-TEST(ClearWall, HasNoAlbedoNoHandleAndDoesNotScatter) {
+TEST(ClearWall, HasNoAlbedoAndNoHandle) {
   const auto with = [](const char* more) {
     return [=] {
       changed("/cups/0/shape", (R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43, )" +
@@ -218,7 +218,6 @@ TEST(ClearWall, HasNoAlbedoNoHandleAndDoesNotScatter) {
   expect_error(with(R"("material": "pmma", "albedo": 0.5)"), {"/cups/0/shape/albedo: cannot stand beside material"});
   expect_error(with(R"("material": "pmma", "handle": {})"), {"/cups/0/shape/handle: cannot stand beside material"});
   expect_error(with(R"("material": "glass")"), {"unknown wall material 'glass'", "soda_lime"});
-  expect_error(with(R"("material": {"index": 1.5, "scattering_per_mm": 1})"), {"/cups/0/shape/material: scatters"});
 }
 
 TEST(Glaze, IsForOpaqueCupsOfRevolutionAndNotTooSmooth) {
@@ -266,6 +265,15 @@ TEST(Geometry, WallsWinOverGltfBodiesOverLiquids) {
   EXPECT_GT(geometry.bodies[0].medium.n, 1.3);  // the liquid, though the denser
   EXPECT_EQ(geometry.bodies[1].medium.n, 1.2);
   EXPECT_FALSE(geometry.bodies[0].plain);
+}
+
+TEST(Geometry, WallsMayScatter) {
+  const Setup setup = changed("/cups/0/shape", R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40,
+      "outer_radius_mm": 43, "material": {"index": 1.5, "scattering_per_mm": 1}})");
+  const Geometry geometry = build_geometry(setup.scene, 830.0);
+  EXPECT_TRUE(geometry.bodies.back().scatters());
+  EXPECT_GT(geometry.bodies.back().surface_albedo, 0.0);
+  EXPECT_FALSE(geometry.bodies.front().plain);
 }
 
 TEST(Geometry, TurbidLiquidsSayWhatIsLeftOut) {

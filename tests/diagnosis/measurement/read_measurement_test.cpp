@@ -370,8 +370,8 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
   expect_refused("0,0,0,0,0,0,water,0,300,0,clouds/none.pcd\n", "line 2, column 'cloud': there is no file ");
   expect_refused(
       "0,0,0,0,0,0,water,20,0.3,0,clouds/a.pcd\n",
-      "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json sees the "
-      "cup, got '0.3'");
+      "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json, 650 mm high "
+      "and pitched down by 58.4 degrees, sees the cup, got '0.3'");
   expect_refused("0,0,0,0,0,0,water,200,300,0,clouds/a.pcd\n",
                  "line 2, column 'fill_mm': must be from 0 to 80, the depth of the cup, got '200'");
   expect_refused("0,0,0,0,0,0,water,20,300,0,,nan\n", "line 2, column 'height_mm': must be a finite number, got 'nan'",
