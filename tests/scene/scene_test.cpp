@@ -268,8 +268,9 @@ TEST(Geometry, WallsWinOverGltfBodiesOverLiquids) {
 }
 
 TEST(Geometry, WallsMayScatter) {
-  const Setup setup = changed("/cups/0/shape", R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40,
+  auto setup = changed("/cups/0/shape", R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40,
       "outer_radius_mm": 43, "material": {"index": 1.5, "scattering_per_mm": 1}})");
+  setup.scene.objects.clear();
   const Geometry geometry = build_geometry(setup.scene, 830.0);
   EXPECT_TRUE(geometry.bodies.back().scatters());
   EXPECT_GT(geometry.bodies.back().surface_albedo, 0.0);
