@@ -43,8 +43,7 @@ RunIdentity identity_of(const RunIdentity& evaluation, const DatasetFrames& fram
 
 void require_same_evaluation(const fs::path& folder, const DatasetFrames& frames,
                              const DatasetFrames::SceneFolder& scene, const RunIdentity& identity) {
-  const fs::path answers = answers_to(folder, scene);
-  require_own_trials(answers, Manifest(answers, identity_of(identity, frames, scene)));
+  Manifest(answers_to(folder, scene), identity_of(identity, frames, scene)).require_same_run();
 }
 
 void search_scene(const fs::path& folder, const DatasetFrames& frames, const DatasetFrames::SceneFolder& scene,

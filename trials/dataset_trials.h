@@ -10,13 +10,13 @@
 
 namespace fathom {
 
-/// Throws Error where FOLDER/scenes/NAME holds answers of another evaluation, or of unknown origin.
+/// Throws Error where FOLDER/scenes/NAME holds another evaluation's answers. Also while another process writes there.
 void require_same_evaluation(const std::filesystem::path& folder, const DatasetFrames& frames,
                              const DatasetFrames::SceneFolder& scene, const RunIdentity& identity);
 
 /// Searches those frames of a scene that FOLDER/scenes/NAME does not hold yet, on all threads, and calls `step` for
-/// each frame from any of them. Times are left out, so that the same frames give the same bytes. Throws Error as
-/// require_same_evaluation() does.
+/// each frame from any of them. Times are left out, so that the same frames give the same bytes. Throws Error where
+/// another evaluation's answers are there.
 void search_scene(const std::filesystem::path& folder, const DatasetFrames& frames,
                   const DatasetFrames::SceneFolder& scene, const RunIdentity& identity, const Method& method,
                   const DetectorSettings& settings, const std::function<void()>& step);

@@ -14,17 +14,13 @@ std::string file_of_trial(const std::string& name) { return fmt::format("trials/
 
 }  // namespace
 
-void require_own_trials(const fs::path& folder, const Manifest& manifest) {
-  manifest.require_same_run();
-  if (!manifest.exists() && fs::exists(folder / "trials"))
-    throw Error((folder / "trials").string(), "is there already; choose another folder");
-}
-
 fs::path trial_file(const fs::path& folder, const std::string& name) { return folder / file_of_trial(name); }
 
 TrialFolder::TrialFolder(const fs::path& folder, const RunIdentity& identity)
     : folder_(folder), owner_(folder), manifest_(folder, identity) {
-  require_own_trials(folder_, manifest_);
+  manifest_.require_same_run();
+  if (!manifest_.exists() && fs::exists(folder_ / "trials"))
+    throw Error((folder_ / "trials").string(), "is there already; choose another folder");
   manifest_.begin();
   for (const char* rates : {"rates.txt", "rates.json"}) fs::remove(folder_ / rates);  // they come last
   make_directory(folder_ / "trials");

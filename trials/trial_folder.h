@@ -13,12 +13,10 @@ namespace fathom {
 /// FOLDER/trials/NAME.json
 std::filesystem::path trial_file(const std::filesystem::path& folder, const std::string& name);
 
-/// Throws Error where the folder's manifest is another evaluation's, or where trials of unknown origin are there.
-void require_own_trials(const std::filesystem::path& folder, const Manifest& manifest);
-
 class TrialFolder {
  public:
-  /// Takes the folder for this evaluation. Throws Error as require_own_trials() does.
+  /// Takes the folder for this evaluation. Throws Error when it is another's, or when trials of unknown origin are
+  /// there.
   TrialFolder(const std::filesystem::path& folder, const RunIdentity& identity);
 
   /// A trial that an earlier run kept, as it was written.
