@@ -6,19 +6,17 @@
 
 #include "bench/accuracy.h"
 #include "bench/bench_scene.h"
-#include "core/input_policy.h"
-#include "core/json.h"
+#include "core/files.h"
 #include "core/rng.h"
 #include "sim/optics/interface.h"
 #include "sim/render/crossing.h"
-#include "sim/scene/cup.h"
 
 namespace fathom {
 namespace {
 
 /// Power that arrives on the diffuse surfaces in and below a cup, by how often an interface reflected it in part on its
-/// way: never, once, twice, more often. Total reflection is no such reflection.
-using Arrived = std::array<double, 4>;
+/// way: never, once, twice or more. Total reflection is no such reflection.
+using Arrived = std::array<double, 3>;
 
 /// One packet of the projector's light to the first diffuse surface, by chance at each interface.
 void follow(const Intersector& world, const Cup& cup, Walker walker, Rng& rng, Arrived& arrived) {
@@ -68,37 +66,25 @@ Arrived arrived_in(const Setup& setup) {
   return arrived;
 }
 
-Setup cup_of(const char* shape, const char* content) {
-  return setup_from_json(
-      Json::parse(fmt::format(R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": 650, "aim_mm": [0, 300, 0]}},
-        "cups": [{{"shape": {}, "position_mm": [0, 300]{}}}]}})",
-                              shape, content)),
-      "cup");
+Setup without_liquid(Setup setup) {
+  setup.scene.cups[0].filling.reset();
+  return setup;
 }
 
 }  // namespace
 
 void compare_reflections() {
   print_title("Light in cups that interfaces reflected in part, beside light that none did [%]");
-  constexpr const char *kPaper = R"("paper_cup")",
-                       *kGlass = R"({"height_mm": 87, "bottom_mm": 7, "inner_radius_mm": 40, "outer_radius_mm": 43,
-                                     "material": "soda_lime"})",
-                       *kWater = R"(, "liquid": "water", "fill_mm": 40)";
-  struct Part {
-    const char* name;
-    Setup setup;
-  };
-  for (const auto& [name, setup] :
-       {Part{"paper cup, water", cup_of(kPaper, kWater)}, Part{"glass, empty", cup_of(kGlass, "")},
-        Part{"glass, water", cup_of(kGlass, kWater)}}) {
+  const Setup glass = read_setup(data_directory() / "glass_water.json");
+  const std::pair<const char*, Setup> scenes[] = {
+      {"paper_water", paper_water()}, {"glass_water", glass}, {"glass_water, emptied", without_liquid(glass)}};
+  for (const auto& [name, setup] : scenes) {
     const Arrived arrived = arrived_in(setup);
-    const auto share = [&](std::size_t times) { return 100.0 * arrived[times] / arrived[0]; };
-    print_figure(fmt::format("{}: reflected once", name), share(1), {}, "");
-    print_figure("       twice", share(2), {}, "");
-    print_figure("       more often", share(3), {}, "");
+    print_figure(fmt::format("{}: reflected once", name), 100.0 * arrived[1] / arrived[0], {}, "");
+    print_figure("       twice or more", 100.0 * arrived[2] / arrived[0], {}, "");
   }
   print_note("Captures have what is reflected once on the way to the surface, or once on the way from there, or both.");
-  print_note("By reciprocity as much light is reflected twice on the camera's side as on the projector's.");
+  print_note("By reciprocity as much light is reflected so on the camera's side as on the projector's.");
 }
 
 }  // namespace fathom

@@ -132,6 +132,11 @@ class Builder {
           "albedo {:.3f}",
           medium.name, bodies_.back().body.surface_albedo));
     }
+    if (priority != Priority::liquid)
+      geometry_.approximations.push_back(
+          fmt::format("{}: light that interfaces reflect in part twice or more on its way to a surface, or from there, "
+                      "is left out: 1 to 3 % each way",
+                      geometry_.objects[object - 1]));
     return static_cast<int>(bodies_.size()) - 1;
   }
 
@@ -203,10 +208,6 @@ class Builder {
 
   void add_clear_wall(const Cup& cup, const CupShape& shape, int object, bool on_desk) {
     const int body = add_body(object, *shape.material, Priority::wall);
-    geometry_.approximations.push_back(
-        fmt::format("{}: light that interfaces reflect in part twice or more on its way to a surface, or from there, "
-                    "is left out: 1 to 3 % each way",
-                    cup_name(cup)));
     for (WallPart& part : wall_parts(shape, on_desk ? kSink : 0.0)) {
       part.mesh.transform(world_from_shape(cup));
       Surface surface{object, std::move(part.mesh), Interface{body}};
