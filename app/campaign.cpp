@@ -152,7 +152,7 @@ int shoot(const CampaignSpec& spec, const Placement& placement, const Setup& set
   const std::uint64_t seed = placement.filling ? Rng(common.seed, Draw::camera, placement.number).bits()
                                                : Rng(common.seed, Draw::camera, placement.session, -1).bits();
   const Setup shot = with_effects(setup);
-  Camera camera(shot, spec.mode, options.spp, seed);
+  Camera camera(shot, spec.mode, options.spp, seed, measured_light(shot));
   for (const int trial : missing) {
     const Frame frame = camera.shoot(static_cast<std::uint64_t>(trial));
     write_pcd(common.output / cloud_file(placement, trial), frame.cloud);

@@ -198,8 +198,8 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option(
          "--light", options->light,
          "Direct: from the projector to what the camera sees, liquids that scatter are opaque; full: interreflected, "
-         "mirrored and scattered as well; auto: full where light enters a liquid and is scattered there by more than "
-         "0.05 mm, else direct. To direct light geometric captures add only what liquids scatter")
+         "mirrored and scattered as well; auto: full where a cup or anything else stands, but for liquids that "
+         "scatter like paint. To direct light geometric captures add only what liquids scatter")
       ->check(one_of("light", light_names()))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")

@@ -16,7 +16,7 @@ inline constexpr std::array kCommands{
             "  fathom capture scenes/paper_water.json -o out/water\n"
             "  fathom capture scenes/paper_water.json --mode geometric -o out/exact\n"
             "  fathom capture scenes/paper_milk_tea.json -o out/milk_tea\n"
-            "  fathom capture scenes/glass_water.json --light full -o out/glass",
+            "  fathom capture scenes/glass_water.json -o out/glass",
             define_capture, kNeedsOutput},
     Command{"export", "A scene as glTF 2.0 for Blender and others, or one of its cups as a shape for other scenes",
             "  fathom export scenes/glass_water.json -o out/glass.glb\n"

@@ -14,7 +14,7 @@ void compare_ranges(CaptureMode mode);  ///< axial noise over distance, border, 
 void compare_edges(CaptureMode mode);   ///< shadows, noise of an edge
 void compare_times();                   ///< temporal noise, warming up, units
 void compare_materials();               ///< milky plastic, a black glossy mug
-void compare_reflections();             ///< light that interfaces reflect in part, once and more often
+void compare_reflections();             ///< all light that a glass lets through and reflects
 void compare_turbid();                  ///< liquids that scatter, in geometric and photometric frames
 
 /// What a figure may be to meet its bar.

@@ -1,90 +1,127 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "bench/accuracy.h"
 #include "bench/bench_scene.h"
+#include "core/estimate.h"
 #include "core/files.h"
 #include "core/rng.h"
 #include "sim/optics/interface.h"
+#include "sim/render/connection.h"
 #include "sim/render/crossing.h"
 
 namespace fathom {
 namespace {
 
-/// Power that arrives on the diffuse surfaces in and below a cup, by how often an interface reflected it in part on its
-/// way: never, once, twice or more. Total reflection is no such reflection.
-using Arrived = std::array<double, 3>;
+/// Power on the desk below and around a glass [of unit radiant intensity of the projector].
+struct OnDesk {
+  Estimate once_or_never;  ///< reflected in part by one interface on the way, or none
+  Estimate all;
+};
 
-/// One packet of the projector's light to the first diffuse surface, by chance at each interface.
-void follow(const Intersector& world, const Cup& cup, Walker walker, Rng& rng, Arrived& arrived) {
-  constexpr int kMost = 100;  // interfaces: what is caught in glass has long lost its light
-  std::size_t reflections = 0;
-  for (int i = 0; i < kMost; ++i) {
-    const auto hit = world.first_hit({walker.position, walker.direction});
-    if (!hit) return;
-    const Body* from = medium_in(world.geometry(), walker.region);
-    walker.weight *= std::exp(-extinction_of(from) * hit->distance);
-    walker.position = hit->point;
-    if (!std::holds_alternative<Interface>(hit->surface->optics)) {
-      const double radius = std::get<CupShape>(cup.shape).widest();
-      if ((hit->point.head<2>() - cup.position).norm() < radius)
-        arrived[std::min(reflections, arrived.size() - 1)] += walker.weight;
-      return;
-    }
-    const BodySet after = beyond(*hit, walker.region);
-    const Body* to = medium_in(world.geometry(), after);
-    const double cosine = std::clamp(-walker.direction.dot(hit->normal), 0.0, 1.0);
-    if (from == to || cross_interface(walker, hit->normal, index_of(from), index_of(to), rng))
-      walker.region = after;
-    else if (fresnel_reflectance(cosine, index_of(from), index_of(to)) < 1.0)
-      ++reflections;
-  }
+Estimate over(double area, const Mean& mean) {
+  return {area * mean.estimate().value, area * mean.estimate().standard_error};
 }
 
-/// The projector's light on a disc about the cup's rim, evenly over the disc.
-Arrived arrived_in(const Setup& setup) {
-  constexpr int kPackets = 4'000'000;
-  const BenchScene scene(setup);
+bool is_near(const Eigen::Vector2d& place, const Cup& cup, double around) {
+  return (place - cup.position).norm() < around;
+}
+
+/// By packets that are evenly drawn from all that go through a disc about the cup's rim, each reflected by chance at
+/// each interface.
+OnDesk traced(const Setup& setup, const BenchScene& scene, double around) {
+  constexpr int kPackets = 2'000'000;
+  constexpr int kMost = 100;  // interfaces: what is caught in glass has long lost its light
   const Cup& cup = setup.scene.cups.at(0);
-  const CupShape& shape = std::get<CupShape>(cup.shape);
+  const double top = std::get<CupShape>(cup.shape).height(), radius = 1.6 * around;
   const Eigen::Vector3d projector = setup.rig.projector_in_world();
-  Arrived arrived{};
+  Mean once, all;
   Rng rng(1);
   for (int i = 0; i < kPackets; ++i) {
-    const double radius = 1.5 * shape.widest() * std::sqrt(rng.uniform()),
-                 angle = 2.0 * std::numbers::pi * rng.uniform();
-    const Eigen::Vector3d target(cup.position.x() + radius * std::cos(angle),
-                                 cup.position.y() + radius * std::sin(angle), shape.height());
-    const Eigen::Vector3d way = target - projector;
+    const double far = radius * std::sqrt(rng.uniform()), angle = 2.0 * std::numbers::pi * rng.uniform();
+    const Eigen::Vector3d way =
+        Eigen::Vector3d(cup.position.x() + far * std::cos(angle), cup.position.y() + far * std::sin(angle), top) -
+        projector;
     Walker walker{projector, way.normalized()};
     walker.weight = -walker.direction.z() / way.squaredNorm();
-    follow(scene.world, cup, walker, rng, arrived);
+    int reflections = 0;
+    double arrived = 0.0;
+    for (int met = 0; met < kMost; ++met) {
+      const auto hit = scene.world.first_hit({walker.position, walker.direction});
+      if (!hit) break;
+      const Body* from = medium_in(scene.world.geometry(), walker.region);
+      walker.weight *= std::exp(-extinction_of(from) * hit->distance);
+      walker.position = hit->point;
+      if (!std::holds_alternative<Interface>(hit->surface->optics)) {
+        if (is_near(hit->point.head<2>(), cup, around)) arrived = walker.weight;
+        break;
+      }
+      const BodySet after = beyond(*hit, walker.region);
+      const double n_from = index_of(from), n_to = index_of(medium_in(scene.world.geometry(), after));
+      const bool in_part = refract(walker.direction, hit->normal, n_from, n_to).has_value();
+      if (cross_interface(walker, hit->normal, n_from, n_to, rng))
+        walker.region = after;
+      else
+        reflections += in_part;
+    }
+    all.add(arrived);
+    once.add(reflections < 2 ? arrived : 0.0);
   }
-  return arrived;
+  const double area = std::numbers::pi * radius * radius;
+  return {over(area, once), over(area, all)};
 }
 
-Setup without_liquid(Setup setup) {
-  setup.scene.cups[0].filling.reset();
-  return setup;
+/// By what captures ask for at places on the desk.
+OnDesk asked_for(const Setup& setup, const BenchScene& scene, double around) {
+  constexpr int kPlaces = 100'000;
+  const Cup& cup = setup.scene.cups.at(0);
+  constexpr double kAbove = 0.5;  // [m]
+  Mean once, all;
+  Rng rng(2);
+  for (int i = 0; i < kPlaces; ++i) {
+    const double far = around * std::sqrt(rng.uniform()), angle = 2.0 * std::numbers::pi * rng.uniform();
+    const Eigen::Vector3d above(cup.position.x() + far * std::cos(angle), cup.position.y() + far * std::sin(angle),
+                                kAbove);
+    const auto place = see(scene.world, {above, -Eigen::Vector3d::UnitZ()});  // level surfaces do not bend this ray
+    double irradiance = 0.0;
+    const auto add = [&](const Connection& way) {
+      irradiance -= way.transmittance * way.spreading * place->normal.dot(way.arrival);
+    };
+    const Receiver receiver{place->point, place->around, &place->normal};
+    scene.projector.connect(receiver, add);
+    scene.projector.connect_mirrored(receiver, 1.0, rng.uniform(), add);
+    once.add(irradiance);
+    scene.projector.for_each_photon(place->point, place->normal,
+                                    [&](const Photon&, double more) { irradiance += more; });
+    all.add(irradiance);
+  }
+  const double area = std::numbers::pi * around * around;
+  return {over(area, once), over(area, all)};
+}
+
+void print_ratio(const std::string& what, const Estimate& one, const Estimate& other) {
+  const double error =
+      one.value / other.value * std::hypot(one.standard_error / one.value, other.standard_error / other.value);
+  print_figure(fmt::format("{} (± {:.2f})", what, 100.0 * error), 100.0 * one.value / other.value, {}, "");
 }
 
 }  // namespace
 
 void compare_reflections() {
-  print_title("Light in cups that interfaces reflected in part, beside light that none did [%]");
+  print_title("Light on the desk below and around a glass, beside light that is traced [%]");
   const Setup glass = read_setup(data_directory() / "glass_water.json");
-  const std::pair<const char*, Setup> scenes[] = {
-      {"paper_water", paper_water()}, {"glass_water", glass}, {"glass_water, emptied", without_liquid(glass)}};
-  for (const auto& [name, setup] : scenes) {
-    const Arrived arrived = arrived_in(setup);
-    print_figure(fmt::format("{}: reflected once", name), 100.0 * arrived[1] / arrived[0], {}, "");
-    print_figure("       twice or more", 100.0 * arrived[2] / arrived[0], {}, "");
+  Setup empty = glass;
+  empty.scene.cups[0].filling.reset();
+  for (const auto& [name, setup] : {std::pair("glass_water", glass), std::pair("glass_water, emptied", empty)}) {
+    const BenchScene scene(setup);
+    const double around = 2.0 * std::get<CupShape>(setup.scene.cups[0].shape).widest();
+    const OnDesk expected = traced(setup, scene, around), found = asked_for(setup, scene, around);
+    print_ratio(fmt::format("{}: all", name), found.all, expected.all);
+    print_ratio("       reflected in part at most once", found.once_or_never, expected.once_or_never);
+    print_ratio("       the same light, of all that is traced", expected.once_or_never, expected.all);
   }
-  print_note("Captures have what is reflected once on the way to the surface, or once on the way from there, or both.");
-  print_note("By reciprocity as much light is reflected so on the camera's side as on the projector's.");
 }
 
 }  // namespace fathom

@@ -26,7 +26,7 @@ struct DatasetSpec {
   Interval fill_share{0.1, 0.95};  ///< of the cup's depth
   double empty = 0.3;              ///< share of the cups that hold nothing
   CaptureMode mode = CaptureMode::geometric;
-  std::optional<LightModel> light = {};  ///< of photometric frames; as the liquids ask if it is not given
+  std::optional<LightModel> light = {};  ///< of photometric frames; ordinary_light() if it is not given
 };
 
 /// Keys that the file leaves out have the values of the shipped specification. `seed` draws the shapes of cups that are

@@ -23,7 +23,7 @@ void add_points(const Image<CloudPoint>& cloud, float weight, std::vector<Sensed
 std::vector<SensedPoint> ray_traced_points(const Setup& setup, std::uint64_t seed) {
   Setup still = setup;
   still.rig.sensor.unit.wander_px = 0.0;
-  Camera camera(still, CaptureMode::photometric, kDefaultSamplesPerPixel, seed);
+  Camera camera(still, CaptureMode::photometric, kDefaultSamplesPerPixel, seed, measured_light(still));
   std::vector<SensedPoint> points;
   for (int shot = 0; shot < kShots; ++shot)
     add_points(camera.shoot(static_cast<std::uint64_t>(shot)).cloud, 1.0f / kShots, points);

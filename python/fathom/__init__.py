@@ -75,8 +75,8 @@ class Camera:
         (docs/scene.md); files that a dictionary names are relative to the working folder
     mode: "photometric": infrared image and matching; "geometric": every pixel's exact triangulation, images only of liquids that
         scatter
-    light: "direct", where liquids that scatter are opaque, "full", or "auto": full where light enters a liquid and is
-        scattered there, else direct; "geometric" adds to direct light only what liquids scatter
+    light: "direct", where liquids that scatter are opaque, "full", or "auto": full where a cup or anything else stands,
+        but for liquids that scatter like paint; "geometric" adds to direct light only what liquids scatter
     spp: samples per infrared pixel, on a square grid
     seed: of everything random
     model: model.json of a diagnosis, whose effects are there as well

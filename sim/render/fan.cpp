@@ -9,65 +9,15 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/render/body_directions.h"
+#include "sim/render/boxes.h"
+
 namespace fathom {
 namespace {
 
-constexpr double kSpacing = 2e-3;   ///< [rad] 1.3 mm from the sensor's height
-constexpr double kBox = 5e-3;       ///< [m] edge of a box; pencils that grow wider than this are sent more finely
-constexpr int kMostHalvings = 2;    ///< of the spacing
+constexpr int kMostHalvings = 2;    ///< of the spacing, where pencils grow wider than a box
 constexpr double kBeyond = 5e-3;    ///< [m] that a piece counts beyond its ends: rays beside it may be longer
-constexpr int kLongestChain = 8;    ///< of interfaces; light that is trapped in a wall goes on for long
 constexpr double kFaintest = 1e-4;  ///< transmittance
-
-using GridCell = std::pair<int, int>;
-
-/// A gnomonic grid about an axis, as the source sees it.
-struct Grid {
-  const Eigen::Vector3d& source;
-  const Eigen::Vector3d& axis;
-  Matrix32d basis;
-
-  Eigen::Vector3d middle(const GridCell& cell) const {
-    return (axis + basis * Eigen::Vector2d(cell.first + 0.5, cell.second + 0.5) * kSpacing).normalized();
-  }
-  /// In cells; nothing far off the axis.
-  std::optional<Eigen::Array2d> place(const Eigen::Vector3d& point) const {
-    constexpr double kWidest = 0.1;  // cosine: 84° off the axis
-    const Eigen::Vector3d towards = point - source;
-    const double along = towards.dot(axis);
-    if (along < kWidest * towards.norm()) return std::nullopt;
-    return (basis.transpose() * towards / along).array() / kSpacing;
-  }
-};
-
-/// The cells that contain boundaries of clear bodies, in order.
-std::vector<GridCell> covered_cells(const Geometry& geometry, const Grid& grid) {
-  std::vector<GridCell> cells;
-  std::vector<std::optional<Eigen::Array2d>> places;  // of vertices
-  for (const Surface& surface : geometry.surfaces) {
-    if (!std::holds_alternative<Interface>(surface.optics)) continue;
-    places.clear();
-    for (const Eigen::Vector3d& vertex : surface.mesh.vertices) places.push_back(grid.place(vertex));
-    for (const Eigen::Vector3i& triangle : surface.mesh.triangles) {
-      Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
-      for (const int corner : triangle)
-        if (places[corner]) low = low.min(*places[corner]), high = high.max(*places[corner]);
-      for (int i = static_cast<int>(std::floor(low.x())); i <= high.x(); ++i)
-        for (int j = static_cast<int>(std::floor(low.y())); j <= high.y(); ++j) cells.emplace_back(i, j);
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
-Eigen::Vector3d mean_direction(const Geometry& geometry, const Eigen::Vector3d& source) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Surface& surface : geometry.surfaces)
-    if (std::holds_alternative<Interface>(surface.optics))
-      for (const Eigen::Vector3d& vertex : surface.mesh.vertices) sum += (vertex - source).normalized();
-  return sum.norm() > 0.0 ? Eigen::Vector3d(sum.normalized()) : -Eigen::Vector3d::UnitZ();
-}
 
 Seed seed_of(const Flight& flight, const Eigen::Vector3d& direction, double spacing, int crossings, int mirror,
              const Body* medium, double begin, double end) {
@@ -96,15 +46,6 @@ double squared_reach_of(const Seed& seed, double distance) {
   return std::max(of[0] + distance * (of[1] + distance * of[2]), 0.0);
 }
 
-std::uint64_t box_of(const Eigen::Array3i& index) {
-  constexpr int kHalf = 1 << 20;
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) key = key << 21 | static_cast<std::uint64_t>(index[axis] + kHalf);
-  return key;
-}
-
-Eigen::Array3i box_index(const Eigen::Vector3d& point) { return (point.array() / kBox).floor().cast<int>(); }
-
 }  // namespace
 
 double Seed::reach(double distance) const { return std::sqrt(squared_reach_of(*this, distance)); }
@@ -112,10 +53,8 @@ double Seed::reach(double distance) const { return std::sqrt(squared_reach_of(*t
 Eigen::Matrix2d Seed::jacobian_at(double distance) const { return jacobian + distance * jacobian_per_m; }
 
 Fan::Fan(const Intersector& world, const Source& source, Ways ways) : ways_(ways) {
-  const Eigen::Vector3d axis = mean_direction(world.geometry(), source.position);
-  const Grid grid{source.position, axis, perpendicular_to(axis)};
-  for (const GridCell& cell : covered_cells(world.geometry(), grid))
-    send(world, source, grid.middle(cell), kSpacing, 0);
+  for (const DirectionCell& cell : directions_to_bodies(world.geometry(), source.position))
+    send(world, source, cell.middle, kDirectionSpacing, 0);
   for (std::uint32_t seed = 0; seed < seeds_.size(); ++seed) file(seed);
 }
 
@@ -171,21 +110,18 @@ void Fan::file(std::uint32_t number) {
     const Eigen::Vector3d middle = seed.origin + distance * seed.heading;
     const double strength = seed.transmittance / std::fabs(seed.jacobian_at(distance).determinant());
     const double around = std::clamp(2.0 * seed.reach(distance), 0.5 * kBox, kBox);
-    const Eigen::Array3i low = box_index(middle.array() - around), high = box_index(middle.array() + around);
-    for (int i = low.x(); i <= high.x(); ++i)
-      for (int j = low.y(); j <= high.y(); ++j)
-        for (int k = low.z(); k <= high.z(); ++k) {
-          Box& box = boxes_[box_of({i, j, k})];
-          if (box.seeds.empty() || box.seeds.back() != number) box.seeds.push_back(number);  // steps share most boxes
-          box.strength = std::max(box.strength, strength);
-        }
+    for_each_box(middle, around, [&](std::uint64_t key) {
+      Box& box = boxes_[key];
+      if (box.seeds.empty() || box.seeds.back() != number) box.seeds.push_back(number);  // steps share most boxes
+      box.strength = std::max(box.strength, strength);
+    });
   }
 }
 
 std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body* around) const {
   constexpr double kMostSteps = 2.5;
   std::vector<Candidate> candidates;
-  const Box* box = box_around(target);
+  const Box* box = box_near(target);
   if (!box) return candidates;
   for (const std::uint32_t number : box->seeds) {
     const Seed& seed = seeds_[number];
@@ -215,12 +151,12 @@ std::vector<Fan::Candidate> Fan::near(const Eigen::Vector3d& target, const Body*
 }
 
 double Fan::strength_near(const Eigen::Vector3d& target) const {
-  const Box* box = box_around(target);
+  const Box* box = box_near(target);
   return box ? box->strength : 0.0;
 }
 
-const Fan::Box* Fan::box_around(const Eigen::Vector3d& point) const {
-  const auto box = boxes_.find(box_of(box_index(point)));
+const Fan::Box* Fan::box_near(const Eigen::Vector3d& point) const {
+  const auto box = boxes_.find(box_around(point));
   return box == boxes_.end() ? nullptr : &box->second;
 }
 

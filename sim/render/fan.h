@@ -31,6 +31,9 @@ struct Seed {
   Eigen::Matrix2d jacobian_at(double distance) const;  ///< [m/rad] of a landing
 };
 
+/// Interfaces on the ways that are looked for; light that is trapped in a wall goes on for long.
+inline constexpr int kLongestChain = 8;
+
 /// Whether one of the interfaces on a way reflects in part, or none.
 enum class Ways { refracted, mirrored };
 
@@ -69,7 +72,7 @@ class Fan {
     double strength = 0.0;             ///< as strength_near()
   };
   /// nullptr where no pencil touches it.
-  const Box* box_around(const Eigen::Vector3d& point) const;
+  const Box* box_near(const Eigen::Vector3d& point) const;
 
   Ways ways_;
   std::vector<Seed> seeds_;

@@ -132,11 +132,6 @@ class Builder {
           "albedo {:.3f}",
           medium.name, bodies_.back().body.surface_albedo));
     }
-    if (priority != Priority::liquid)
-      geometry_.approximations.push_back(
-          fmt::format("{}: light that interfaces reflect in part twice or more on its way to a surface, or from there, "
-                      "is left out: 1 to 3 % each way",
-                      geometry_.objects[object - 1]));
     return static_cast<int>(bodies_.size()) - 1;
   }
 

@@ -75,26 +75,44 @@ void move_to_colour_view(const SensorModel& sensor, Frame& shot) {
   shot.cloud = cloud_of_depth(colour, shot.depth, Image<float>(shot.depth.width(), shot.depth.height()));
 }
 
+/// Where the light goes that enters the media in and of cups.
+enum class Scattering {
+  none,
+  within,
+  at_the_surface  ///< of one of them, as if it were opaque
+};
+
+Scattering scattering_of(const Scene& scene) {
+  // [1/m] of reduced scattering: from less than 0.05 mm deep light comes as from a surface, and walks take too long.
+  constexpr double kSurface = 2e4;
+  Scattering strongest = Scattering::none;
+  const auto see = [&](const Medium& medium) {
+    if (medium.scatters())
+      strongest = std::max(strongest,
+                           medium.reduced_scattering() >= kSurface ? Scattering::at_the_surface : Scattering::within);
+  };
+  for (const Cup& cup : scene.cups) {
+    if (cup.filling) see(cup.filling->medium);
+    if (const auto* shape = std::get_if<CupShape>(&cup.shape); shape && shape->material) see(*shape->material);
+  }
+  return strongest;
+}
+
 Eigen::Vector2d pixel_centre(int number, int width) { return {number % width + 0.5, number / width + 0.5}; }
 
 }  // namespace
 
 LightModel measured_light(const Setup& setup) {
-  // [1/m] of reduced scattering: from less than 0.05 mm deep light comes as from a surface, and walks take too long.
-  constexpr double kSurface = 2e4;
-  bool is_let_in = setup.light.any();
-  std::vector<const Medium*> media;
-  for (const Cup& cup : setup.scene.cups) {
-    if (cup.filling) media.push_back(&cup.filling->medium);
-    if (const auto* shape = std::get_if<CupShape>(&cup.shape); shape && shape->material)
-      media.push_back(&*shape->material);
-  }
-  for (const Medium* medium : media) {
-    if (!medium->scatters()) continue;
-    if (medium->reduced_scattering() >= kSurface) return LightModel::direct;
-    is_let_in = true;
-  }
-  return is_let_in ? LightModel::full : LightModel::direct;
+  const Scattering scattering = scattering_of(setup.scene);
+  if (scattering == Scattering::at_the_surface) return LightModel::direct;
+  return setup.light.any() || scattering == Scattering::within ? LightModel::full : LightModel::direct;
+}
+
+LightModel ordinary_light(const Setup& setup, CaptureMode mode) {
+  if (mode == CaptureMode::geometric) return measured_light(setup);
+  const Scene& scene = setup.scene;
+  if (scene.cups.empty() && scene.objects.empty()) return LightModel::direct;
+  return scattering_of(scene) == Scattering::at_the_surface ? LightModel::direct : LightModel::full;
 }
 
 const std::vector<std::string>& light_names() {
@@ -123,8 +141,8 @@ Camera::Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std:
       statistics_.build_s, [&] { return std::make_unique<const PointLight>(world, setup_.rig.projector_in_world()); });
   truth_ = timed(statistics_.truth_s, [&] { return trace_truth(*projector, setup_.rig); });
   statistics_.camera_rays = truth_.size();
-  const LightModel measured = measured_light(setup_);
-  light_ = setup_.light.any() && measured == LightModel::full ? measured : light.value_or(measured);
+  const LightModel ordinary = ordinary_light(setup_, mode);
+  light_ = setup_.light.any() && ordinary == LightModel::full ? ordinary : light.value_or(ordinary);
   samples_across_ = static_cast<int>(std::ceil(std::sqrt(samples_per_pixel)));
   if (mode == CaptureMode::geometric) {
     if (light_ == LightModel::full)

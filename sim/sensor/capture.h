@@ -25,13 +25,18 @@ enum class CaptureMode {
   photometric  ///< infrared image → matching → depth
 };
 
-/// The light that a measurement's images are made of: all of it where a liquid lets it in before it scatters it back or
-/// an effect is about it, else direct light, which carries no noise of its own. Where a liquid sends it back from less
-/// than 0.05 mm below its surface it is direct, too: walks take too long there. Effects are switched on
-/// already.
+/// The light that the images of campaigns and of predictions are made of: all of it where a liquid lets it in before it
+/// scatters it back or an effect is about it, else direct light, which carries no noise of its own. Where a liquid
+/// sends it back from less than 0.05 mm below its surface it is direct, too: walks take too long there. Effects are
+/// switched on already.
 LightModel measured_light(const Setup& setup);
 
-/// What files and options call the light, and what they mean: measured_light() by "auto". Throws Error on other names.
+/// The light of a capture, unless one asks for another: of images of anything that stands on a desk all of it, since
+/// cups and goods throw light on one another, and liquids and glass mirror it. Direct light where there is no other, on
+/// a bare desk, and where walks take too long; geometric captures have measured_light().
+LightModel ordinary_light(const Setup& setup, CaptureMode mode);
+
+/// What files and options call the light, and what they mean: ordinary_light() by "auto". Throws Error on other names.
 const std::vector<std::string>& light_names();
 std::optional<LightModel> light_named(const std::string& name);
 /// What run.json calls it.
@@ -47,8 +52,8 @@ struct Frame {
 /// A scene that is ready to be shot several times: traced, rendered and memorised once.
 class Camera {
  public:
-  /// `light`: of images, measured_light() if it is not given; in geometric mode direct light takes liquids that scatter
-  /// for opaque. Where an effect of light is on, direct light is not enough, and measured_light() decides.
+  /// `light`: of images, ordinary_light() if it is not given; in geometric mode direct light takes liquids that scatter
+  /// for opaque. Where an effect of light is on, direct light is not enough, and ordinary_light() decides.
   Camera(const Setup& setup, CaptureMode mode, int samples_per_pixel, std::uint64_t seed,
          std::optional<LightModel> light = std::nullopt);
 

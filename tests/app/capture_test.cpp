@@ -205,6 +205,27 @@ TEST_F(CaptureCommand, FramesDifferInTheirNoiseOnly) {
   EXPECT_EQ(read_json(out / "run.json")["frames"], 2);
 }
 
+TEST_F(CaptureCommand, HasAllLightWhereAnythingStandsUnlessAskedOtherwise) {
+  const auto light_of = [&](const std::string& name, const std::string& options) {
+    return read_json(capture(name, options) / "run.json")["light"];
+  };
+  EXPECT_EQ(light_of("water", ""), "full");
+  EXPECT_EQ(light_of("direct", "--light direct"), "direct");
+  EXPECT_EQ(light_of("geometric", "--mode geometric"), "direct");
+  Json scene = small_scene();
+  scene["cups"][0]["liquid"] = {{"index", 1.33}, {"scattering_per_mm", 100}, {"anisotropy", 0}};  // like paint
+  write_json(scene_, scene);
+  EXPECT_EQ(light_of("paint", ""), "direct");
+  scene.erase("cups");
+  scene["objects"] = {{{"solid", "can"}, {"position_mm", {0, 300}}}};
+  write_json(scene_, scene);
+  EXPECT_EQ(light_of("can", ""), "full");
+  scene.erase("objects");
+  scene["desk"] = Json::object();
+  write_json(scene_, scene);
+  EXPECT_EQ(light_of("desk", ""), "direct");
+}
+
 TEST_F(CaptureCommand, IsReadBackAsItWasShot) {
   const std::filesystem::path out = capture("out", "--frames 2 --seed 3");
   const RecordedCapture recorded = read_capture(out);
