@@ -11,6 +11,7 @@
 #include "sim/optics/interface.h"
 #include "sim/render/connection.h"
 #include "sim/render/crossing.h"
+#include "sim/render/photon_map.h"
 
 namespace fathom {
 namespace {
@@ -78,6 +79,7 @@ OnDesk asked_for(const Setup& setup, const BenchScene& scene, double around) {
   constexpr int kPlaces = 100'000;
   const Cup& cup = setup.scene.cups.at(0);
   constexpr double kAbove = 0.5;  // [m]
+  const PhotonMap photons(scene.world, scene.projector.source(), 1);
   Mean once, all;
   Rng rng(2);
   for (int i = 0; i < kPlaces; ++i) {
@@ -93,8 +95,7 @@ OnDesk asked_for(const Setup& setup, const BenchScene& scene, double around) {
     scene.projector.connect(receiver, add);
     scene.projector.connect_mirrored(receiver, 1.0, rng.uniform(), add);
     once.add(irradiance);
-    scene.projector.for_each_photon(place->point, place->normal,
-                                    [&](const Photon&, double more) { irradiance += more; });
+    photons.near(place->point, place->normal, [&](const Eigen::Vector3d&, double more) { irradiance += more; });
     all.add(irradiance);
   }
   const double area = std::numbers::pi * around * around;

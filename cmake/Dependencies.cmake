@@ -37,13 +37,23 @@ if(FATHOM_SIMULATOR AND FATHOM_PYTHON AND NOT (FATHOM_PYTHON STREQUAL AUTO AND F
   endif()
 endif()
 # Debian's PCL asks for optional parts that are not installed; only its own are used here.
-set(FATHOM_PCL_COMPONENTS common io kdtree search sample_consensus segmentation filters features registration)
-find_package(PCL 1.12 REQUIRED QUIET COMPONENTS ${FATHOM_PCL_COMPONENTS})
+# Of its libraries programs load that of its common functions alone (detector/CMakeLists.txt).
+find_package(PCL 1.12 REQUIRED QUIET COMPONENTS common kdtree search filters features registration)
+find_package(liblzf REQUIRED)
 
 # PCL's variables as one target, with its include folders marked as system headers.
 add_library(fathom_pcl INTERFACE)
 target_include_directories(fathom_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
-target_link_libraries(fathom_pcl INTERFACE ${PCL_LIBRARIES})
+target_link_libraries(fathom_pcl INTERFACE pcl_common lz4)
+# All of it, with VTK, which its readers of files bring: tests and benches compare with it.
+if(FATHOM_TESTS OR FATHOM_BENCH)
+  add_library(fathom_all_pcl INTERFACE)
+  block(SCOPE_FOR VARIABLES)
+    find_package(PCL 1.12 REQUIRED QUIET COMPONENTS common io kdtree search sample_consensus segmentation filters features registration)
+    target_include_directories(fathom_all_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+    target_link_libraries(fathom_all_pcl INTERFACE ${PCL_LIBRARIES})
+  endblock()
+endif()
 if(FATHOM_BENCH AND FATHOM_SIMULATOR)
   find_package(benchmark REQUIRED)
   find_package(Ceres 2.1 REQUIRED)

@@ -40,7 +40,6 @@ install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" \"-Dsource=${PROJECT_
 install(DIRECTORY ${public_headers}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fathom COMPONENT development)
 
 install(EXPORT FathomTargets NAMESPACE Fathom:: DESTINATION ${package_folder} COMPONENT development)
-list(JOIN FATHOM_PCL_COMPONENTS " " pcl_components)
 configure_package_config_file(cmake/FathomConfig.cmake.in FathomConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(FathomConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/FathomConfig.cmake ${PROJECT_BINARY_DIR}/FathomConfigVersion.cmake
@@ -49,10 +48,8 @@ install(FILES ${PROJECT_BINARY_DIR}/FathomConfig.cmake ${PROJECT_BINARY_DIR}/Fat
 # A static library stands before those that it needs: modules in the reverse of the order in which they were added.
 set(pkgconfig_libraries ${modules})
 list(REVERSE pkgconfig_libraries)
-list(TRANSFORM FATHOM_PCL_COMPONENTS PREPEND pcl_ OUTPUT_VARIABLE pkgconfig_pcl)
-list(REVERSE pkgconfig_pcl)
-list(APPEND pkgconfig_libraries ${pkgconfig_pcl})
-set(pkgconfig_requires eigen3 fmt libcrypto libpng nlohmann_json OpenEXR tbb)
+list(APPEND pkgconfig_libraries pcl_common lz4)
+set(pkgconfig_requires eigen3 fmt libcrypto liblzf libpng nlohmann_json OpenEXR tbb)
 if(FATHOM_SIMULATOR)
   list(APPEND pkgconfig_libraries embree3)
   list(APPEND pkgconfig_requires fontconfig)

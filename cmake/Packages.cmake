@@ -45,7 +45,7 @@ and says where a measurement disagrees with its model."
 fathom_deb(development libfathom-dev "Libraries and headers of Fathom
 Static libraries of the simulator, the detector and the diagnosis, for C++ programs
 that find them by find_package(Fathom) or pkg-config."
-  DEPENDS ${this_data} libeigen3-dev libembree-dev libfmt-dev libfontconfig-dev libopenexr-dev libpcl-dev libpng-dev libssl-dev libtbb-dev
+  DEPENDS ${this_data} libeigen3-dev libembree-dev libfmt-dev libfontconfig-dev liblzf-dev libopenexr-dev libpcl-dev libpng-dev libssl-dev libtbb-dev
           nlohmann-json3-dev)
 fathom_deb(openni2 libfathom-openni2 "Virtual Xtion for programs that use OpenNI2
 A driver by which programs that read an Xtion read Fathom's scenes and captures: the

@@ -71,7 +71,7 @@ endfunction()
 function(fathom_use_precompiled target name)
   get_target_property(libraries ${target} LINK_LIBRARIES)
   # PCL brings an option of position-independent code that others do not have.
-  if(TARGET ${name} AND "fmt::fmt" IN_LIST libraries AND NOT fathom_pcl IN_LIST libraries)
+  if(TARGET ${name} AND "fmt::fmt" IN_LIST libraries AND NOT fathom_pcl IN_LIST libraries AND NOT fathom_all_pcl IN_LIST libraries)
     target_precompile_headers(${target} REUSE_FROM ${name})
   endif()
 endfunction()

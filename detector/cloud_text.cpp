@@ -52,25 +52,29 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
-void check_text_points(const std::string& file, TextBody body) {
-  std::uint64_t found = 0;
-  for (std::uint64_t number = body.first_line; found < body.points; ++number) {
-    if (body.text.empty())
-      throw Error(file,
-                  fmt::format("is truncated: the header promises {} points, the file has {}", body.points, found));
-    std::string_view line = take_line(body.text);
-    std::uint64_t values = 0;
-    if (is_blank(line)) continue;
-    while (const std::optional<std::string_view> word = take_word(line)) {
-      if (!number_of<double>(*word))
-        throw Error(file, fmt::format("line {}", number), fmt::format("must hold numbers, got '{}'", printable(*word)));
-      ++values;
-    }
-    if (values < body.values)
-      throw Error(file, fmt::format("line {}", number),
-                  fmt::format("must hold {} numbers, has {}", body.values, values));
-    ++found;
-  }
+void TextNumbers::begin_item() {
+  do {
+    if (rest_.empty())
+      throw Error(file_,
+                  fmt::format("is truncated: it ends after line {}, before the last point that the header promises",
+                              line_number_));
+    line_ = take_line(rest_);
+    ++line_number_;
+  } while (is_blank(line_));
+  values_ = 0;
+}
+
+double TextNumbers::number(bool is_float) {
+  const std::optional<std::string_view> word = take_word(line_);
+  if (!word) fail(fmt::format("must hold more than {} numbers", values_));
+  ++values_;
+  const std::optional<double> number = is_float ? number_of<float>(*word) : number_of<double>(*word);
+  if (!number) fail(fmt::format("must hold numbers, got '{}'", printable(*word)));
+  return *number;
+}
+
+void TextNumbers::fail(const std::string& what) const {
+  throw Error(file_, fmt::format("line {}", line_number_), what);
 }
 
 }  // namespace fathom

@@ -8,14 +8,6 @@
 
 namespace fathom {
 
-/// Where the points stand in a text file.
-struct TextBody {
-  std::string_view text;     ///< from the first line after the header
-  std::uint64_t first_line;  ///< its number in the file, from 1
-  std::uint64_t points;      ///< one a line; empty lines do not count
-  std::uint64_t values;      ///< in a line, at least; more are left alone by readers
-};
-
 /// The start of a damaged text, without bytes that must not reach a terminal.
 std::string printable(std::string_view text);
 
@@ -29,8 +21,26 @@ bool is_blank(std::string_view line);
 template <class Number>
 std::optional<double> number_of(std::string_view word);
 
-/// PCL reads a word as 0. Throws Error naming `file` and the line when a value is no number, a line is short or there
-/// are too few of them. "nan" and "inf" are numbers.
-void check_text_points(const std::string& file, TextBody body);
+/// Numbers out of a body that is text, with one item on each line; empty lines do not count.
+class TextNumbers {
+ public:
+  /// `first_line`: number of the body's first in the file, from 1. Keeps a reference to `file`.
+  TextNumbers(const std::string& file, std::string_view body, std::uint64_t first_line)
+      : file_(file), rest_(body), line_number_(first_line - 1) {}
+
+  /// Goes on to the next item's line. Throws Error where there is none.
+  void begin_item();
+  /// The item's next number, rounded to a float if it `is_float`; what stands behind the last one that is asked for is
+  /// left alone. Throws Error where there is none.
+  double number(bool is_float);
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  const std::string& file_;
+  std::string_view rest_, line_;
+  std::uint64_t line_number_;
+  std::uint64_t values_ = 0;
+};
 
 }  // namespace fathom

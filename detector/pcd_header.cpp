@@ -15,19 +15,30 @@
 namespace fathom {
 namespace {
 
-/// What there is at once while the points are read: the file, what PCL makes of it, and then the cloud.
-std::uint64_t claimed_bytes(const std::string& encoding, std::uint64_t file_bytes, std::uint64_t points,
+/// What there is at once while the points are read: the file, its points unpacked, and the cloud.
+std::uint64_t claimed_bytes(PcdEncoding encoding, std::uint64_t file_bytes, std::uint64_t points,
                             std::uint64_t point_bytes) {
   constexpr std::uint64_t kCloud = 4 * sizeof(float);  // of a point and its intensity
-  constexpr std::uint64_t kTexts = 3;                  // PCL reads text from a stream, which is made of a copy
-  const std::uint64_t unpacked = encoding == "binary_compressed" ? point_bytes : 0;  // gone before there is a cloud
-  return bytes_of({file_bytes, encoding == "ascii" ? kTexts : 1}) +
-         bytes_of({points, point_bytes + std::max(kCloud, unpacked)});
+  const std::uint64_t unpacked = encoding == PcdEncoding::packed ? point_bytes : 0;
+  return file_bytes + bytes_of({points, kCloud + unpacked});
+}
+
+PcdEncoding encoding_named(const std::string& file, const std::string& name) {
+  if (name == "ascii") return PcdEncoding::text;
+  if (name == "binary") return PcdEncoding::binary;
+  if (name == "binary_compressed") return PcdEncoding::packed;
+  throw Error(file, "DATA", fmt::format("must be ascii, binary or binary_compressed, got '{}'", printable(name)));
 }
 
 }  // namespace
 
-PcdHeader check_pcd(const std::string& file, std::string_view content) {
+std::uint64_t PcdHeader::point_bytes() const {
+  std::uint64_t sum = 0;
+  for (const PcdField& field : fields) sum += field.bytes * field.count;
+  return sum;
+}
+
+PcdHeader read_pcd_header(const std::string& file, std::string_view content) {
   HeaderLines lines{file, content};
   static constexpr std::string_view kKeys[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
@@ -52,18 +63,23 @@ PcdHeader check_pcd(const std::string& file, std::string_view content) {
       counts.size() != fields.size())
     throw Error(file, "header", "must have as many values of SIZE, TYPE and COUNT as FIELDS");
 
-  std::uint64_t point_bytes = 0, point_values = 0;
+  PcdHeader header{};
+  std::uint64_t values = 0;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::string& type = entries["TYPE"][i];
     const std::uint64_t size = whole_number(file, "SIZE", entries["SIZE"][i]);
     const std::uint64_t count = whole_number(file, "COUNT", counts[i]);
     const bool known = (type == "F" && (size == 4 || size == 8)) ||
                        ((type == "I" || type == "U") && (size == 1 || size == 2 || size == 4 || size == 8));
-    if (!known || count > 4096)
+    constexpr std::uint64_t kMost = 4096;
+    if (count < 1 || count > kMost)
+      throw Error(file, "header",
+                  fmt::format("has a COUNT of {} for '{}', must be from 1 to {}", count, printable(fields[i]), kMost));
+    if (!known)
       throw Error(file, "header",
                   fmt::format("has an unknown type {}{} for '{}'", printable(type), size, printable(fields[i])));
-    point_bytes += size * count;
-    point_values += count;
+    header.fields.push_back({fields[i], type[0], size, count});
+    values += count;
   }
   const std::uint64_t width = whole_number(file, "WIDTH", entries["WIDTH"][0]);
   const std::uint64_t height = whole_number(file, "HEIGHT", entries["HEIGHT"][0]);
@@ -71,15 +87,18 @@ PcdHeader check_pcd(const std::string& file, std::string_view content) {
   if (width * height != points)
     throw Error(file, "header", fmt::format("says {} x {} but {} points", width, height, points));
 
-  const std::string& encoding = entries["DATA"][0];
-  require_within_limit(file, "header", claimed_bytes(encoding, content.size(), points, point_bytes), "points");
-  if (encoding == "ascii") {
-    need_body(file, lines.rest.size() + 1, 2 * points * point_values);  // a digit and a separator each
-    check_text_points(file, {lines.rest, lines.line, points, point_values});
-  } else if (encoding == "binary") {
+  header.columns = width, header.rows = height;
+  header.body = lines.rest, header.body_line = lines.line;
+
+  header.encoding = encoding_named(file, entries["DATA"][0]);
+  const std::uint64_t point_bytes = header.point_bytes();
+  require_within_limit(file, "header", claimed_bytes(header.encoding, content.size(), points, point_bytes), "points");
+  if (header.encoding == PcdEncoding::text) {
+    need_body(file, lines.rest.size() + 1, 2 * points * values);  // a digit and a separator each
+  } else if (header.encoding == PcdEncoding::binary) {
     need_body(file, lines.rest.size(), points * point_bytes);
-  } else if (encoding == "binary_compressed") {
-    std::uint32_t sizes[2];  // compressed, uncompressed
+  } else {
+    std::uint32_t sizes[2];  // packed, unpacked
     need_body(file, lines.rest.size(), sizeof sizes);
     std::memcpy(sizes, lines.rest.data(), sizeof sizes);
     need_body(file, lines.rest.size() - sizeof sizes, sizes[0]);
@@ -89,10 +108,8 @@ PcdHeader check_pcd(const std::string& file, std::string_view content) {
     constexpr std::uint64_t kMostPacked = 88;  // LZF stands for at most 264 bytes by 3
     if (sizes[1] > bytes_of({sizes[0], kMostPacked}))
       throw Error(file, fmt::format("is damaged: {} bytes cannot be packed in {}", sizes[1], sizes[0]));
-  } else {
-    throw Error(file, "DATA", fmt::format("must be ascii, binary or binary_compressed, got '{}'", printable(encoding)));
   }
-  return {content.size() - lines.rest.size(), points * point_bytes};
+  return header;
 }
 
 }  // namespace fathom

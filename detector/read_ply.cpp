@@ -63,41 +63,19 @@ class BinaryNumbers {
   bool swap_;
 };
 
-/// Numbers out of a body that is text, with one item on each line.
-class TextNumbers {
+/// Numbers out of a body that is text, of PLY's types.
+class PlyText {
  public:
-  TextNumbers(const std::string& file, const PlyHeader& header)
-      : file_(file), rest_(header.body), number_(header.body_line - 1) {}
+  PlyText(const std::string& file, const PlyHeader& header) : text_(file, header.body, header.body_line) {}
 
-  void begin_item() {
-    do {
-      if (rest_.empty()) throw Error(file_, "is truncated: it has fewer lines than the header promises points");
-      line_ = take_line(rest_);
-      ++number_;
-    } while (is_blank(line_));
-    values_ = 0;
-  }
-
-  double number(const PlyType& type) {
-    const std::optional<std::string_view> word = take_word(line_);
-    if (!word) fail(fmt::format("must hold more than {} numbers", values_));
-    ++values_;
-    const std::optional<double> number = type.bytes == 4 ? number_of<float>(*word) : number_of<double>(*word);
-    if (!number) fail(fmt::format("must hold numbers, got '{}'", printable(*word)));
-    return *number;
-  }
-
+  void begin_item() { text_.begin_item(); }
+  double number(const PlyType& type) { return text_.number(type.kind == PlyType::Kind::real && type.bytes == 4); }
   void skip_numbers(const PlyType& type, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) number(type);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw Error(file_, fmt::format("line {}", number_), what); }
-
-  const std::string& file_;
-  std::string_view rest_, line_;
-  std::uint64_t number_;
-  std::uint64_t values_ = 0;
+  TextNumbers text_;
 };
 
 /// Calls `visit(property's index, value)` for every property of one item, of lists with their first value if any.
@@ -220,7 +198,7 @@ class Body {
 
 Cloud read_ply(const std::string& file, std::string_view content) {
   const PlyHeader header = read_ply_header(file, content);
-  return header.encoding == PlyEncoding::text ? Body(file, header, TextNumbers(file, header)).read(header)
+  return header.encoding == PlyEncoding::text ? Body(file, header, PlyText(file, header)).read(header)
                                               : Body(file, header, BinaryNumbers(file, header)).read(header);
 }
 

@@ -1,16 +1,18 @@
 #include "detector/registration.h"
 
 #include <fmt/format.h>
-#include <pcl/features/fpfh.h>
 #include <pcl/features/normal_3d.h>
 #include <pcl/registration/ia_ransac.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
 #include <pcl/search/kdtree.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "core/units.h"
+#include "detector/fpfh.h"
 #include "detector/judge_segments.h"
 #include "detector/nearest.h"
 #include "detector/pcl_points.h"
@@ -37,19 +39,23 @@ Described describe(const Points& points, const RegistrationConfig& config) {
   estimation.compute(*normals);
 
   Described result{std::make_shared<PclCloud>(), std::make_shared<Descriptors>()};
-  const auto kept = std::make_shared<pcl::PointCloud<pcl::Normal>>();
+  Points kept;  // normals
   for (std::size_t i = 0; i < all->size(); ++i) {
     if (!std::isfinite((*normals)[i].normal_x)) continue;  // too few neighbours
     result.points->push_back((*all)[i]);
-    kept->push_back((*normals)[i]);
+    kept.emplace_back((*normals)[i].getNormalVector3fMap());
   }
   if (result.points->empty()) return result;
-  pcl::FPFHEstimation<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> fpfh;
-  fpfh.setInputCloud(result.points);
-  fpfh.setInputNormals(kept);
-  fpfh.setSearchMethod(tree);
-  fpfh.setRadiusSearch(config.feature_radius_m);
-  fpfh.compute(*result.descriptors);
+  tree->setInputCloud(result.points);
+  std::vector<std::vector<Neighbour>> neighbours(result.points->size());
+  std::vector<int> indices;
+  std::vector<float> squared_distances;
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    tree->radiusSearch(static_cast<int>(i), config.feature_radius_m, indices, squared_distances);
+    for (std::size_t k = 0; k < indices.size(); ++k) neighbours[i].push_back({indices[k], squared_distances[k]});
+  }
+  for (const Fpfh& histograms : fast_point_feature_histograms(points_from(*result.points), kept, neighbours))
+    std::copy(histograms.begin(), histograms.end(), result.descriptors->emplace_back().histogram);
   return result;
 }
 

@@ -12,7 +12,6 @@
 #include "core/json.h"
 #include "core/median.h"
 #include "core/units.h"
-#include "detector/quiet_pcl.h"
 #include "diagnosis/decision/sufficiency.h"
 #include "diagnosis/measurement/cup_in_sight.h"
 #include "diagnosis/measurement/frame_cloud.h"
@@ -85,7 +84,6 @@ class CloudChecker {
     for (std::size_t row = 0; row < frames_.size(); ++row)
       if (!frames_[row].cloud.empty()) rows.push_back(row);
     const std::size_t count = std::min(rows.size(), kMost);
-    const QuietPcl quiet;
     std::vector<std::size_t> silent, bare;
     std::vector<double> height_mm, pitch_deg, roll_deg;
     bool is_bright = true;

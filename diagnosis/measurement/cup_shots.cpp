@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "core/parallel.h"
-#include "detector/quiet_pcl.h"
 #include "diagnosis/measurement/frame_cloud.h"
 #include "diagnosis/measurement/sensed_frame.h"
 
@@ -57,7 +56,6 @@ std::vector<CupShot> cup_shots(const Measurement& measurement, std::span<const s
   for (auto& [condition, frames] : by_condition) conditions.push_back(std::move(frames));
   std::vector<std::optional<CupShot>> shots(conditions.size());
   const std::size_t most_each = most / std::max<std::size_t>(conditions.size(), 1);
-  const QuietPcl quiet;
   parallel_items(static_cast<int>(conditions.size()), [&](int i) {
     for (auto frame = conditions[i].begin(); frame != conditions[i].end() && !shots[i]; ++frame)
       shots[i] = cup_shot(**frame, measurement, folders[(*frame)->folder]);

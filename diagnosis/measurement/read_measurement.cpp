@@ -11,7 +11,6 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/units.h"
-#include "detector/quiet_pcl.h"
 #include "diagnosis/measurement/copies.h"
 #include "diagnosis/measurement/desk_motion.h"
 #include "diagnosis/measurement/frame_cloud.h"
@@ -61,7 +60,6 @@ std::vector<FrameReading> read_frames_of(const Measurement& measurement, const s
                                          const Table& table, const BiasField* bias, bool quiet) {
   std::vector<FrameReading> readings(measurement.frames.size());
   std::vector<std::string> problems(readings.size());
-  const QuietPcl quiet_pcl;  // its verbosity is global: threads that silence it must all find it silent
   Progress progress("frame", readings.size(), quiet);
   parallel_items(static_cast<int>(readings.size()), [&](int i) {
     try {

@@ -153,11 +153,6 @@ const Fan& PointLight::mirrored_fan() const {
   return *mirrored_fan_;
 }
 
-const PhotonMap& PointLight::photon_map() const {
-  std::call_once(traced_once_, [this] { photon_map_.emplace(world_, source_); });
-  return *photon_map_;
-}
-
 void PointLight::connect_mirrored_each(const Receiver& receiver, double share, double drawn,
                                        const std::function<void(const Connection&)>& visit) const {
   std::vector<Connection> found;

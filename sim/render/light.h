@@ -11,7 +11,6 @@
 
 #include "core/rng.h"
 #include "sim/render/fan.h"
-#include "sim/render/photon_map.h"
 #include "sim/render/shoot.h"
 
 namespace fathom {
@@ -64,13 +63,6 @@ class PointLight {
     connect_mirrored_each(receiver, share, drawn, std::ref(visit));
   }
 
-  /// Calls `visit(photon, irradiance)`, as PhotonMap::near(), for light that neither connect() nor connect_mirrored()
-  /// looks for. It is traced when first asked for.
-  template <class Visit>
-  void for_each_photon(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, Visit&& visit) const {
-    if (fan_) photon_map().near(point, normal, visit);
-  }
-
   /// Whether there are ways that connect() has to search for.
   bool searches() const { return fan_.has_value(); }
   /// These ways: all but the straight one, or all that one interface reflects in part, however faint.
@@ -92,7 +84,6 @@ class PointLight {
                              const std::function<void(const Connection&)>& visit) const;
   void connect_level_mirrors(const Receiver& receiver, std::vector<Connection>& found) const;
   const Fan& mirrored_fan() const;
-  const PhotonMap& photon_map() const;
   void connect_by_search(const Packet<Receiver>& receivers,
                          const std::function<void(std::size_t, const Connection&)>& visit, const Starts& starts) const;
   void connect_from(const Fan& fan, const Receiver& receiver, std::vector<Connection>& found) const;
@@ -107,8 +98,6 @@ class PointLight {
   std::optional<Fan> fan_;
   mutable std::once_flag mirrored_once_;
   mutable std::optional<Fan> mirrored_fan_;  ///< where there is a fan
-  mutable std::once_flag traced_once_;
-  mutable std::optional<PhotonMap> photon_map_;  ///< the same
 };
 
 }  // namespace fathom

@@ -21,17 +21,6 @@ class Connector {
             const std::function<void(const ReturnedLight&)>& visit)
       : projector_(projector), start_(start), beam_(beam), rng_(rng), visit_(visit) {}
 
-  /// What falls on a surface other than by connections. `reflectance(arrival)` is π · BRDF.
-  template <class Reflectance>
-  void add_photons(const Walker& walker, const Eigen::Vector3d& normal, double n, Reflectance reflectance) {
-    const double factor = walker.weight / (n * n),
-                 apart = PhotonMap::kRadius / (walker.position - projector_.position()).norm();
-    projector_.for_each_photon(walker.position, normal, [&](const Photon& photon, double irradiance) {
-      visit_(
-          {photon.direction.cast<double>(), factor * irradiance * reflectance(photon.arrival.cast<double>()), apart});
-    });
-  }
-
   void at_scattering(const Walker& walker) {
     // The walk's own way to its first scattering and the scattering itself are the medium's; the light's way is not.
     const Turbid& medium = space_.medium(walker);
@@ -43,22 +32,22 @@ class Connector {
   }
 
   void at_wall(const Walker& walker, const Eigen::Vector3d& normal, double albedo) {
-    at_surface(walker, normal, [&](const Eigen::Vector3d&) { return albedo; });
+    at_surface(walker, normal, [&](const Connection&) { return albedo; });
   }
 
   void at_glazed_wall(const Walker& walker, const Eigen::Vector3d& normal, const Glaze& glaze) {
-    at_surface(walker, normal, [&](const Eigen::Vector3d& arrival) {
-      return reflectance_factor(glaze, normal, -arrival, -walker.direction);
+    at_surface(walker, normal, [&](const Connection& way) {
+      return reflectance_factor(glaze, normal, -way.arrival, -walker.direction);
     });
   }
 
  private:
+  /// `reflectance(way)` is π · BRDF.
   template <class Reflectance>
   void at_surface(const Walker& walker, const Eigen::Vector3d& normal, Reflectance reflectance) {
     const double n = space_.medium(walker).n, factor = walker.weight / (n * n);
     connect(walker, &normal, walker.scatterings == 0 ? Loss::all : Loss::without_peak,
-            [&](const Connection& way) { return -factor * reflectance(way.arrival) * normal.dot(way.arrival); });
-    add_photons(walker, normal, n, reflectance);
+            [&](const Connection& way) { return -factor * reflectance(way) * normal.dot(way.arrival); });
   }
 
   /// Chance with which mirrored light is looked for: it is a few hundredths of all.
@@ -119,9 +108,6 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
   const WorldSpace space(projector.world());
   if (!survives(walker, kRouletteShare, rng)) return;
   if (seen.entered) {
-    // What of the photons comes out again is what a diffuse surface of the body's albedo would reflect.
-    Connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit)
-        .add_photons(walker, seen.normal, n, [&](const Eigen::Vector3d&) { return seen.albedo; });
     const double n_entered = seen.entered->medium.n;
     const double cosine = std::min(-seen.arriving.dot(seen.normal), 1.0);
     walker.weight *= 1.0 - fresnel_reflectance(cosine, n, n_entered);
@@ -130,19 +116,14 @@ void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,
     Connector connector(projector, seen.point, walker.direction, rng, visit);
     random_walk_of_beam(space, walker, rng, connector, first, near);
   } else if (seen.glaze) {
-    Connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit)
-        .add_photons(walker, seen.normal, n, [&](const Eigen::Vector3d& arrival) {
-          return reflectance_factor(*seen.glaze, seen.normal, -arrival, -seen.arriving);
-        });
     if (!bounce_off_glaze(walker, seen.normal, *seen.glaze, rng)) return;
     Connector connector(projector, seen.point, walker.direction, rng, visit);  // its lobe may be narrow
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   } else {
-    Connector connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit);
-    connector.add_photons(walker, seen.normal, n, [&](const Eigen::Vector3d&) { return seen.albedo; });
     walker.weight *= seen.albedo;
     walker.direction =
         first ? sample_diffuse(seen.normal, first->cosine, first->azimuth) : sample_diffuse(seen.normal, rng);
+    Connector connector(projector, seen.point, Eigen::Vector3d::Zero(), rng, visit);
     random_walk(space, walker, kRouletteShare * walker.weight, rng, connector);
   }
 }

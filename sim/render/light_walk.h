@@ -21,7 +21,7 @@ struct ReturnedLight {
 
 /// Walks once from the point `seen` and calls `visit` with each ReturnedLight. Their sum is an estimate, unbiased but
 /// for what without_forward_peak() changes: where a body that scatters is entered, of all that comes out of it; at a
-/// diffuse point, of what arrives there other than by connect() and connect_mirrored(). Where little of
+/// diffuse point, of what arrives there other than from the projector or its mirror image in a liquid. Where little of
 /// it gets to the camera, most walks end at once. `first`: how it begins; drawn if it is not given. `near` [m]: of
 /// walks into a body, as in NearStart.
 void walk_light(const PointLight& projector, const SeenPoint& seen, Rng& rng,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "core/rng.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/medium.h"
@@ -15,8 +16,8 @@ namespace {
 
 constexpr std::uint64_t kPhotonStream = 0x70686f746fULL;
 
-/// Packets from each cell of directions. In a glass some 60,000 of them become photons: about 15 count for a place.
-constexpr int kPerCell = 64;
+/// Packets from each cell of directions. About 20 photons count for a place in a glass.
+constexpr int kPerCell = 32;
 
 /// A packet on its way.
 struct PhotonPath {
@@ -48,9 +49,8 @@ bool goes_on(PhotonPath& path, Rng& rng) {
 void trace(const Intersector& world, PhotonPath path, double solid_angle, Rng& rng, std::vector<Photon>& photons) {
   const Eigen::Vector3f direction = path.ray.direction.cast<float>();
   const auto arrives = [&](const Hit& hit) {
-    if (!path.is_left_out()) return;
-    photons.push_back({hit.point.cast<float>(), hit.normal.cast<float>(), path.ray.direction.cast<float>(), direction,
-                       static_cast<float>(path.weight * solid_angle)});
+    photons.push_back(
+        {hit.point.cast<float>(), hit.normal.cast<float>(), direction, static_cast<float>(path.weight * solid_angle)});
   };
   while (path.crossings < kMostCrossings && goes_on(path, rng)) {
     const auto hit = world.first_hit(path.ray);
@@ -58,7 +58,10 @@ void trace(const Intersector& world, PhotonPath path, double solid_angle, Rng& r
     const Body* from = medium_in(world.geometry(), path.inside);
     path.weight *= transmittance(extinction_of(from), hit->distance);
     path.ray.origin = hit->point;
-    if (!std::holds_alternative<Interface>(hit->surface->optics)) return arrives(*hit);
+    if (!std::holds_alternative<Interface>(hit->surface->optics)) {
+      if (path.is_left_out()) arrives(*hit);
+      return;
+    }
     const BodySet after = beyond(*hit, path.inside);
     const Body* to = medium_in(world.geometry(), after);
     if (from == to) {
@@ -66,12 +69,15 @@ void trace(const Intersector& world, PhotonPath path, double solid_angle, Rng& r
       continue;
     }
     ++path.crossings;
-    if (to && to->scatters()) arrives(*hit);
+    const auto bent = refract(path.ray.direction, hit->normal, index_of(from), index_of(to));
+    // Of what enters a body that scatters all counts where it does so.
+    const bool is_taken_up = bent && to && to->scatters() && path.is_left_out();
+    if (is_taken_up) arrives(*hit);
     const double cosine = std::clamp(-path.ray.direction.dot(hit->normal), 0.0, 1.0),
                  reflectance = fresnel_reflectance(cosine, index_of(from), index_of(to)),
                  chance = chance_of_reflection(path, reflectance);
-    const auto bent = refract(path.ray.direction, hit->normal, index_of(from), index_of(to));
     if (bent && rng.uniform() >= chance) {
+      if (is_taken_up) return;
       path.weight *= (1.0 - reflectance) / (1.0 - chance);
       path.ray.direction = *bent;
       path.inside = after;
@@ -84,16 +90,18 @@ void trace(const Intersector& world, PhotonPath path, double solid_angle, Rng& r
 
 }  // namespace
 
-PhotonMap::PhotonMap(const Intersector& world, const Source& source) {
-  std::uint64_t number = 0;
-  for (const DirectionCell& cell : directions_to_bodies(world.geometry(), source.position)) {
-    Rng rng(kPhotonStream, number++);
+PhotonMap::PhotonMap(const Intersector& world, const Source& source, std::uint64_t seed) {
+  const std::vector<DirectionCell> cells = directions_to_bodies(world.geometry(), source.position);
+  std::vector<std::vector<Photon>> of_cell(cells.size());
+  parallel_rows(static_cast<int>(cells.size()), [&](int cell) {
+    Rng rng(seed, kPhotonStream, cell);
     for (int packet = 0; packet < kPerCell; ++packet) {
       const double right = rng.uniform() - 0.5, up = rng.uniform() - 0.5;
-      const Ray ray{source.position, cell.at({right, up})};
-      trace(world, {ray, source.inside}, cell.solid_angle() / kPerCell, rng, photons_);
+      const Ray ray{source.position, cells[cell].at({right, up})};
+      trace(world, {ray, source.inside}, cells[cell].solid_angle() / kPerCell, rng, of_cell[cell]);
     }
-  }
+  });
+  for (const std::vector<Photon>& some : of_cell) photons_.insert(photons_.end(), some.begin(), some.end());
   for (std::uint32_t photon = 0; photon < photons_.size(); ++photon)
     for_each_box(photons_[photon].point.cast<double>(), kRadius,
                  [&](std::uint64_t key) { boxes_[key].push_back(photon); });

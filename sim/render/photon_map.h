@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 #include <vector>
 
@@ -17,7 +18,6 @@ namespace fathom {
 struct Photon {
   Eigen::Vector3f point;      ///< [m] world
   Eigen::Vector3f normal;     ///< unit, of the surface, on the side that it arrives on
-  Eigen::Vector3f arrival;    ///< unit, in which it travels
   Eigen::Vector3f direction;  ///< unit, in which it left the source
   float power;                ///< [sr] per unit radiant intensity of the source in that direction
 };
@@ -25,32 +25,34 @@ struct Photon {
 class PhotonMap {
  public:
   /// Photons count for places that lie less than this [m] from them.
-  static constexpr double kRadius = 2.5e-3;
+  static constexpr double kRadius = 4e-3;
 
-  /// Same world and source, same photons, for any number of threads.
-  PhotonMap(const Intersector& world, const Source& source);
+  /// Same arguments, same photons, for any number of threads.
+  PhotonMap(const Intersector& world, const Source& source, std::uint64_t seed);
 
-  /// Calls `visit(photon, irradiance)` for each photon near `point` [m] on a surface that has this unit normal.
-  /// irradiance [1/m²]: what it stands for there, per unit radiant intensity. Within kRadius of its edge a surface
-  /// seems darker, down to half at the edge.
+  /// Calls `visit(direction, irradiance)` for each photon near `point` [m] on a surface that has this unit normal:
+  /// in which direction it left the source, and what it stands for there [1/m²], per unit radiant intensity. Within
+  /// kRadius of its edge a surface seems darker, down to half at the edge.
   template <class Visit>
   void near(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, Visit&& visit) const {
+    constexpr double kArea = std::numbers::pi * kRadius * kRadius;
     const std::vector<std::uint32_t>* box = box_near(point);
     if (!box) return;
     const Eigen::Vector3f at = point.cast<float>(), facing = normal.cast<float>();
     for (const std::uint32_t number : *box)
-      if (const Photon& photon = photons_[number]; lights(photon, at, facing)) visit(photon, photon.power / kArea);
+      if (const Photon& photon = photons_[number]; lights(photon, at, facing))
+        visit(Eigen::Vector3d(photon.direction.cast<double>()), photon.power / kArea);
   }
 
   const std::vector<Photon>& photons() const { return photons_; }
 
  private:
-  static constexpr double kArea = 3.14159265358979324 * kRadius * kRadius;  // [m²]
-
   static bool lights(const Photon& photon, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
     constexpr float kSameNormal = 0.9f;  // 26 degrees
+    constexpr float kSamePlane = 5e-4f;  // [m] a cup's wall bends by less
     const Eigen::Vector3f apart = point - photon.point;
-    return apart.squaredNorm() < static_cast<float>(kRadius * kRadius) && photon.normal.dot(normal) > kSameNormal;
+    return apart.squaredNorm() < static_cast<float>(kRadius * kRadius) && photon.normal.dot(normal) > kSameNormal &&
+           std::abs(apart.dot(normal)) < kSamePlane;
   }
   const std::vector<std::uint32_t>* box_near(const Eigen::Vector3d& point) const;
 

@@ -11,6 +11,7 @@
 #include "sim/render/connection.h"
 #include "sim/render/light_walk.h"
 #include "sim/render/nearby_ways.h"
+#include "sim/render/photon_map.h"
 #include "sim/render/radiance.h"
 #include "sim/sensor/bloom.h"
 #include "sim/sensor/blurred_pattern.h"
@@ -68,7 +69,8 @@ struct Renderer {
   LightModel light;
   std::uint64_t seed;
   const SharedWalks* shared = nullptr;  ///< of all but direct light
-  const NearbyWays* nearby = nullptr;   ///< where ways are searched for
+  const NearbyWays* nearby = nullptr;   ///< where ways are searched for …
+  const PhotonMap* photons = nullptr;   ///< … and some are not found
   CameraRays camera_ray{rig};
   std::optional<Defocus> defocus = rig.sensor.optics.defocuses() ? std::optional(Defocus(rig.sensor)) : std::nullopt;
 
@@ -192,8 +194,8 @@ struct Renderer {
   /// Radiance [DN] by reflections in liquids and glass; a share of a pixel's samples looks for it.
   double ghost_radiance(SharedWalks::Look look, const Eigen::Vector2d& place, const SeenPoint& seen, double share,
                         Rng& rng) const {
-    if (seen.entered) return 0.0;
-    double sum = 0.0;
+    double sum = photon_radiance(seen);
+    if (seen.entered) return sum / share;
     const Receiver receiver{seen.point, seen.around, &seen.normal};
     std::vector<Connection> found;
     const auto known = starts(Ways::mirrored, look, place, seen);
@@ -204,6 +206,19 @@ struct Renderer {
                                  [&](const Connection& way) { sum += radiance_by(way, seen); });
     }
     return sum / share;
+  }
+
+  /// Radiance [DN] by what no search finds, with its dots as blurred as places are that photons count for. Glazes and
+  /// bodies that scatter reflect it as diffuse surfaces of their albedo would.
+  double photon_radiance(const SeenPoint& seen) const {
+    double sum = 0.0;
+    if (!photons) return sum;
+    const double spread = PhotonMap::kRadius / (seen.point - projector.position()).norm();
+    photons->near(seen.point, seen.normal, [&](const Eigen::Vector3d& direction, double irradiance) {
+      const double reflected = seen.transmittance * seen.albedo * irradiance;
+      sum += radiance_dn(rig.sensor, reflected) * intensity_around(blurred, rig, {direction, reflected, spread});
+    });
+    return sum;
   }
 
   /// Radiance [DN] by walks of its own.
@@ -233,6 +248,8 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
   if (projector.searches())
     nearby.emplace(projector, CameraRays{rig}, rig.sensor.ir_width,
                    NearbyWays::Scope{light != LightModel::direct, light == LightModel::full});
+  std::optional<PhotonMap> photons;
+  if (projector.searches() && light == LightModel::full) photons.emplace(projector.world(), projector.source(), seed);
   const Renderer renderer{projector,
                           rig,
                           pattern,
@@ -241,7 +258,8 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
                           light,
                           seed,
                           shared ? &*shared : nullptr,
-                          nearby ? &*nearby : nullptr};
+                          nearby ? &*nearby : nullptr,
+                          photons ? &*photons : nullptr};
   const int width = rig.sensor.ir_width, height = rig.sensor.ir_height;
   const double ambient_dn = rig.sensor.noise.ambient_dn;
   IrLight image{Image<float>(width, height), ambient_dn > 0.0 ? Image<float>(width, height) : Image<float>()};

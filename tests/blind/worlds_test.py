@@ -2,6 +2,7 @@
 """usage: tests/blind/worlds_test.py
 The worlds of other people's parts: how answers in them are judged, and that the world of POV-Ray and OpenCV keeps the laws
 that it is to be trusted for. What needs POV-Ray, NumPy, SciPy or OpenCV is skipped where they are not installed."""
+import gzip
 import importlib.util
 import json
 import shutil
@@ -12,6 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "blind"), str(ROOT / "blind" / "povray")]
+import answers  # noqa: E402
 import worlds  # noqa: E402
 
 HAS_SCIPY = importlib.util.find_spec("scipy") is not None
@@ -30,6 +32,42 @@ def judged(kind, hidden, report):
 def named(*effects, probability=0.99):
     return {"verdict": "named", "effects": [{"name": name} for name in effects],
             "ambiguity_set": [{"effects": list(effects), "probability": probability}]}
+
+
+class Answers(unittest.TestCase):
+    def test_what_is_kept_of_a_pack_is_judged_as_the_pack_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pack, file, again = Path(folder) / "pack", Path(folder) / "pack.jsonl.gz", Path(folder) / "again"
+            report = named("foam") | {"size_errors": [{"name": "foam", "parameter": "thickness_mm", "standard_error": 0.1}], "heights": [1] * 999}
+            for number, content in enumerate((report, None)):
+                answer = pack / "answers" / f"{number:04d}"
+                answer.mkdir(parents=True)
+                (answer / "truth.json").write_text(json.dumps({"set": answer.name, "class": "single", "effects": [
+                    {"name": "foam", "parameters": {"thickness_mm": 2}}]}))
+                if content:
+                    (answer / "report.json").write_text(json.dumps(content))
+            (pack / "answers" / "0002.part").mkdir()
+            answers.keep(pack, file)
+            first = file.read_bytes()
+            answers.keep(pack, file)
+            self.assertEqual(file.read_bytes(), first)
+            answers.restore(file, again)
+            self.assertEqual(sorted(path.name for path in (again / "answers").iterdir()), ["0000", "0001"])
+            for number in ("0000", "0001"):
+                truth = json.loads((again / "answers" / number / "truth.json").read_text())
+                was, now = (worlds.Judged(truth, of / "answers" / number) for of in (pack, again))
+                self.assertEqual(vars(was), vars(now))
+            self.assertNotIn("heights", json.loads((again / "answers" / "0000" / "report.json").read_text()))
+
+    def test_lines_from_elsewhere_write_nothing_elsewhere(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "bad.jsonl.gz"
+            for line in ({"set": "../0000", "files": {"report.json": "{}"}}, {"set": "0000/..", "files": {}}, {"set": 3, "files": {}},
+                         {"set": "0000", "files": {"../report.json": "{}"}}, {"set": "0000", "files": {"report.json": {}}}, []):
+                file.write_bytes(gzip.compress(json.dumps(line).encode()))
+                with self.assertRaises((ValueError, TypeError)):
+                    answers.restore(file, Path(folder) / "out" / "pack")
+                self.assertFalse((Path(folder) / "out").exists())
 
 
 class Judging(unittest.TestCase):

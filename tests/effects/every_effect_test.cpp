@@ -42,7 +42,8 @@ Setup stood(const char* liquid, const char* quantization) {
 /// All that a shot gives, as bytes: noise is the same in every shot of a seed.
 std::string shot(const Setup& setup, CaptureMode mode) {
   const Setup changed = with_effects(setup);
-  const Frame frame = Camera(changed, mode, 1, 1).shoot(0);
+  // As campaigns do: other images have all light anyway.
+  const Frame frame = Camera(changed, mode, 1, 1, measured_light(changed)).shoot(0);
   std::string bytes;
   const auto add = [&](const auto& image) {
     bytes.append(reinterpret_cast<const char*>(image.pixels().data()), image.size() * sizeof(image.pixels()[0]));
