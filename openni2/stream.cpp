@@ -97,10 +97,15 @@ OniStatus Stream::setProperty(int id, const void* data, int size) {
 
 /// The size of frames is settled when a stream starts.
 OniStatus Stream::set_mode(const OniVideoMode& mode) {
-  if (std::none_of(modes_.begin(), modes_.end(), [&](const OniVideoMode& each) { return same(each, mode); }))
+  if (std::none_of(modes_.begin(), modes_.end(), [&](const OniVideoMode& each) { return same(each, mode); })) {
+    services_.errorLoggerAppend("%s", "the virtual Xtion does not have this video mode");
     return ONI_STATUS_NOT_SUPPORTED;
+  }
   const std::lock_guard lock(mutex_);
-  if (started_ && !same(mode, state_.mode)) return ONI_STATUS_OUT_OF_FLOW;
+  if (started_ && !same(mode, state_.mode)) {
+    services_.errorLoggerAppend("%s", "a stream's video mode cannot change while it runs: stop it first");
+    return ONI_STATUS_OUT_OF_FLOW;
+  }
   state_.mode = mode;
   state_.cropping = whole_image(mode);
   return ONI_STATUS_OK;

@@ -290,11 +290,16 @@ TEST_F(Device, RefusesModesThatItDoesNotHave) {
   Client client(captured().frames, openni::SENSOR_DEPTH);
   openni::VideoMode mode = client.stream.getVideoMode();
   mode.setFps(60);
+  const auto says = [](const char* reason) {
+    return std::string(openni::OpenNI::getExtendedError()).find(reason) != std::string::npos;
+  };
   EXPECT_NE(client.stream.setVideoMode(mode), STATUS_OK);
+  EXPECT_TRUE(says("does not have this video mode"));
   mode = client.stream.getVideoMode();
   mode.setPixelFormat(openni::PIXEL_FORMAT_DEPTH_100_UM);
   ASSERT_EQ(client.stream.start(), STATUS_OK);
   EXPECT_NE(client.stream.setVideoMode(mode), STATUS_OK);  // the size of frames is settled
+  EXPECT_TRUE(says("stop it first"));
 }
 
 /// OpenNI2's own words around a line are a tab and a line break.
