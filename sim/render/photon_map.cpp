@@ -7,6 +7,7 @@
 #include "core/rng.h"
 #include "sim/optics/fresnel.h"
 #include "sim/optics/medium.h"
+#include "sim/optics/snell.h"
 #include "sim/render/body_directions.h"
 #include "sim/render/boxes.h"
 #include "sim/render/fan.h"
