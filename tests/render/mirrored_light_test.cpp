@@ -43,11 +43,7 @@ using Region = bool (*)(const Eigen::Vector3d& point, int object);
 /// Power on the region [of unit radiant intensity] that one interface on its way has reflected in part: of rays that
 /// leave the projector evenly in a cone around the liquid, all that is reflected anywhere is followed to its end.
 Estimate thrown(const LitScene& scene, Region region) {
-  constexpr double kCone = 0.1;     // [rad] the glass fills 0.15 in width
   constexpr int kLongestChain = 8;  // as Fan
-  const Eigen::Vector3d source = scene.projector.position();
-  const Eigen::Vector3d axis = (kAxis + Eigen::Vector3d(0.0, 0.0, kLevel) - source).normalized();
-  const Matrix32d basis = perpendicular_to(axis);
   const auto power_of = [&](const auto& self, Flight flight, int crossings, bool mirrored) -> double {
     double power = 0.0;
     for (; crossings <= kLongestChain; ++crossings) {
@@ -67,16 +63,11 @@ Estimate thrown(const LitScene& scene, Region region) {
     }
     return power;
   };
-  Rng rng(8);
-  Mean power;
-  for (int i = 0; i < 300'000; ++i) {
-    const double cosine = 1.0 - rng.uniform() * (1.0 - std::cos(kCone));
-    const Eigen::Vector2d aside =
-        std::sqrt(1.0 - cosine * cosine) * direction_of(2.0 * std::numbers::pi * rng.uniform());
-    power.add(power_of(power_of, {ray_differential_from(source, cosine * axis + basis * aside), 0, 1.0}, 0, false));
-  }
-  const double solid_angle = 2.0 * std::numbers::pi * (1.0 - std::cos(kCone));
-  return {solid_angle * power.estimate().value, solid_angle * power.estimate().standard_error};
+  return power_of_cone(scene, kAxis + Eigen::Vector3d(0.0, 0.0, kLevel), 300'000, Rng(8),
+                       [&](const Eigen::Vector3d& direction, Rng&) {
+                         const Flight flight{ray_differential_from(scene.projector.position(), direction), 0, 1.0};
+                         return power_of(power_of, flight, 0, false);
+                       });
 }
 
 /// A place drawn evenly from an area [m²].

@@ -23,11 +23,8 @@ double from_axis(const Eigen::Vector3d& point) { return (point - kAxis).head<2>(
 /// kLongestChain led there, on the desk and where it enters what scatters: of packets that leave the projector evenly
 /// in a cone, each reflected by Fresnel's chance.
 Estimate traced(const LitScene& scene) {
-  constexpr double kCone = 0.1;  // [rad] the glass fills 0.15 in width
-  const Eigen::Vector3d source = scene.projector.position();
-  const Eigen::Vector3d axis = (kAxis + Eigen::Vector3d(0.0, 0.0, 0.05) - source).normalized();
-  const Matrix32d basis = perpendicular_to(axis);
-  const auto arriving = [&](Walker walker, Rng& rng) {
+  const auto arriving = [&](const Eigen::Vector3d& direction, Rng& rng) {
+    Walker walker{scene.projector.position(), direction};
     int crossings = 0, reflections = 0;
     double sum = 0.0;
     while (crossings < kMostCrossings) {
@@ -56,16 +53,7 @@ Estimate traced(const LitScene& scene) {
     }
     return sum;
   };
-  Rng rng(3);
-  Mean power;
-  for (int i = 0; i < 600'000; ++i) {
-    const double cosine = 1.0 - rng.uniform() * (1.0 - std::cos(kCone));
-    const Eigen::Vector2d aside =
-        std::sqrt(1.0 - cosine * cosine) * direction_of(2.0 * std::numbers::pi * rng.uniform());
-    power.add(arriving({source, cosine * axis + basis * aside}, rng));
-  }
-  const double solid_angle = 2.0 * std::numbers::pi * (1.0 - std::cos(kCone));
-  return {solid_angle * power.estimate().value, solid_angle * power.estimate().standard_error};
+  return power_of_cone(scene, kAxis + Eigen::Vector3d(0.0, 0.0, 0.05), 600'000, Rng(3), arriving);
 }
 
 /// The same of the photons within some radius [m].

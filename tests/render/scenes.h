@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/estimate.h"
 #include "core/json.h"
+#include "core/rng.h"
 #include "core/units.h"
 #include "sim/render/connection.h"
 #include "sim/scene/setup.h"
@@ -55,6 +59,24 @@ struct LitScene {
   Intersector world;
   PointLight projector;
 };
+
+/// Power [of unit radiant intensity] of rays that leave the projector evenly in a cone of 0.1 rad about `target`, which
+/// holds a cup 300 mm away: `power_of(direction, rng)` is what becomes of one.
+template <class Power>
+Estimate power_of_cone(const LitScene& scene, const Eigen::Vector3d& target, int rays, Rng rng, Power power_of) {
+  constexpr double kCone = 0.1;  // [rad] a glass fills 0.15 in width
+  const Eigen::Vector3d axis = (target - scene.projector.position()).normalized();
+  const Matrix32d basis = perpendicular_to(axis);
+  Mean power;
+  for (int i = 0; i < rays; ++i) {
+    const double cosine = 1.0 - rng.uniform() * (1.0 - std::cos(kCone));
+    const Eigen::Vector2d aside =
+        std::sqrt(1.0 - cosine * cosine) * direction_of(2.0 * std::numbers::pi * rng.uniform());
+    power.add(power_of(cosine * axis + basis * aside, rng));
+  }
+  const double solid_angle = 2.0 * std::numbers::pi * (1.0 - std::cos(kCone));
+  return {solid_angle * power.estimate().value, solid_angle * power.estimate().standard_error};
+}
 
 /// Closes a scene with the walls of a black room, its last object, so that every ray ends.
 inline void add_room(Geometry& geometry) {
