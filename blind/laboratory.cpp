@@ -10,7 +10,7 @@
 namespace fathom::blind {
 namespace {
 
-enum class Draw : std::uint64_t { rig = 101, session, fill, place, dust };
+enum class Stream : std::uint64_t { rig = 101, session, fill, place, dust };
 
 const std::array kRig{
     Uncertain{"height_mm", 0.5, [](World& w, double mm) { w.sensor.height += metres_from_mm(mm); }},
@@ -89,18 +89,18 @@ std::span<const Uncertain> dust() { return kDust; }
 
 World true_world(const Placement& placement, std::uint64_t seed, double scale) {
   World world = believed(placement);
-  Rng rig(seed, Draw::rig);
+  Rng rig(seed, Stream::rig);
   for (const Uncertain& value : kRig) value.add(world, scale * value.sigma * rig.normal());
-  Rng session(seed, Draw::session, placement.session);
+  Rng session(seed, Stream::session, placement.session);
   for (const SessionError& error : kSession) error.add(world, scale * error.sigma * session.normal());
   if (world.fill > 0.0)
-    world.fill = std::max(1e-3, world.fill + scale * kFillSigma * Rng(seed, Draw::fill, placement.pour).normal());
-  Rng place(seed, Draw::place, placement.number);
+    world.fill = std::max(1e-3, world.fill + scale * kFillSigma * Rng(seed, Stream::fill, placement.pour).normal());
+  Rng place(seed, Stream::place, placement.number);
   world.cup.centre.x() += scale * kPlacementSigma * place.normal();
   world.cup.centre.y() += scale * kPlacementSigma * place.normal();
   world.noise_scale = scale;
   world.unit = draw_unit(seed);
-  Rng specks(seed, Draw::dust);
+  Rng specks(seed, Stream::dust);
   for (const Uncertain& value : kDust) value.add(world, value.sigma * specks.normal());
   return world;
 }

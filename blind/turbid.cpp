@@ -16,12 +16,12 @@ constexpr double kSineInside = 0.45;  // 37° in air in water: shifts are propor
 
 double core_of(int i) { return 0.25 * std::exp2(i); }
 
-struct Table {
+struct WalkedLight {
   std::array<double, kCores> shift{};     ///< of the weighed centroid, over that of the far field
   std::array<double, kCores> contrast{};  ///< weighed share of what leaves
 };
 
-Table walk() {
+WalkedLight walk() {
   std::array<double, kCores> weight{}, moment{};
   double left = 0.0;
   const double cosine = std::sqrt(1.0 - kSineInside * kSineInside);
@@ -45,7 +45,7 @@ Table walk() {
       dx = r * std::cos(azimuth), dy = r * std::sin(azimuth);
     }
   }
-  Table table;
+  WalkedLight table;
   for (int k = 0; k < kCores; ++k) {
     table.shift[k] = moment[k] / weight[k] / (2.0 * kSineInside);
     table.contrast[k] = weight[k] / left;
@@ -53,8 +53,8 @@ Table walk() {
   return table;
 }
 
-const Table& walked() {
-  static const Table table = walk();
+const WalkedLight& walked() {
+  static const WalkedLight table = walk();
   return table;
 }
 

@@ -21,7 +21,7 @@ double commonest(std::vector<float>& heights) {
   return 0.5 * (static_cast<double>(heights[best]) + heights[best + half]);
 }
 
-struct Patch {
+struct FittedPlane {
   Eigen::Vector3d mean;
   Eigen::Vector2d gradient;
   double sd;                       ///< of the points about the plane
@@ -31,8 +31,8 @@ struct Patch {
   }
 };
 
-Patch plane_through(const Points& points) {
-  Patch plane{Eigen::Vector3d::Zero(), {}, 0.0, {}};
+FittedPlane plane_through(const Points& points) {
+  FittedPlane plane{Eigen::Vector3d::Zero(), {}, 0.0, {}};
   for (const Eigen::Vector3f& point : points) plane.mean += point.cast<double>();
   plane.mean /= static_cast<double>(points.size());
   constexpr double kTiny = 1e-12;  // m²: a patch without extent has no gradient to speak of
@@ -64,7 +64,7 @@ std::optional<LevelSurface> find_surface(const Points& inside, const RoundWall& 
     heights.push_back(point.z());
   }
   if (static_cast<int>(points.size()) < settings.points_min) return std::nullopt;
-  Patch plane{{0.0, 0.0, commonest(heights)}, {0.0, 0.0}, 0.0, {}};
+  FittedPlane plane{{0.0, 0.0, commonest(heights)}, {0.0, 0.0}, 0.0, {}};
   Points level;
   constexpr int kRounds = 4;  // a plane that leans takes in more of its points each time
   for (int round = 0; round < kRounds; ++round) {

@@ -10,13 +10,13 @@ namespace fathom {
 namespace {
 
 constexpr int kWindow = 31;
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoDesk = std::numeric_limits<float>::quiet_NaN();
 constexpr double kWithin_px = 0.6;
 
 /// [px] off the desk's plane; NaN where there is no desk.
 Image<float> errors_of(const Points& points, int width, const Plane& desk, const DeviceScale& scale) {
   const bool organised = width > 1 && points.size() > static_cast<std::size_t>(width);
-  Image<float> errors(organised ? width : 640, organised ? static_cast<int>(points.size()) / width : 480, kNone);
+  Image<float> errors(organised ? width : 640, organised ? static_cast<int>(points.size()) / width : 480, kNoDesk);
   const Eigen::Vector3d plane = -desk.normal / desk.offset * scale.focal_px * scale.baseline_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f& point = points[i];

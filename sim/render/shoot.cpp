@@ -54,7 +54,7 @@ struct Aim {
   std::optional<Trial> solve(const Eigen::Vector3d& start, const Guess* guess) const {
     constexpr double kExact = 1e-13, kGood = 1e-10;  // [m] roundings of about 1 m; what is accepted when stuck above
     constexpr double kLongestStep = 0.05;            // [rad]
-    constexpr int kMostHalvings = 1;  // 5 find one way in 800 more, and take four times as many trials in vain
+    constexpr int kMostHalvedSteps = 1;  // 5 find one way in 800 more, and take four times as many trials in vain
     std::optional<Trial> best = guess ? trial(guess->direction) : std::nullopt;
     if (!best || best->miss() >= guess->miss) best = trial(start);
     for (int iteration = 0; best && iteration < 30 && best->miss() > kExact; ++iteration) {
@@ -64,7 +64,7 @@ struct Aim {
       if (!step.allFinite()) return std::nullopt;
       step *= std::min(1.0, kLongestStep / step.norm());
       std::optional<Trial> next;
-      const int most_halvings = best->miss() > kGood ? kMostHalvings : 0;
+      const int most_halvings = best->miss() > kGood ? kMostHalvedSteps : 0;
       for (int halving = 0; halving <= most_halvings; ++halving, step *= 0.5) {
         next = trial((direction + basis * step).normalized());
         if (next && next->miss() < best->miss()) break;

@@ -33,7 +33,7 @@ constexpr std::array<Step, 9> kAround{{{0, 0},
                                        {kReach, kReach}}};
 
 /// A surface that was found near a pixel, extended to the pixel.
-struct Candidate {
+struct CandidateSurface {
   LocalSurface surface;
   float correlation;     ///< of the window that found it
   bool own;              ///< whether the pixel's own window found it too
@@ -93,13 +93,13 @@ class EdgeSettler {
   }
 
   /// The surface whose dots are most like those at the pixel; nothing when none is.
-  std::optional<Candidate> settle(int x, int y) const {
-    std::optional<Candidate> best;
+  std::optional<CandidateSurface> settle(int x, int y) const {
+    std::optional<CandidateSurface> best;
     float best_correlation = -1.0f;
     Candidates candidates = candidates_around(x, y);
     if (candidates.empty()) return best;
     const Neighbours neighbours = neighbours_of(clean_, x, y);
-    for (Candidate& candidate : candidates) {
+    for (CandidateSurface& candidate : candidates) {
       fit(neighbours, candidate.surface);
       const Likeness found = dot_likeness(sensor_, paired_, reference_, x, y, candidate.surface.disparity);
       // A pixel without dots keeps its own surface but takes no other's.
@@ -132,7 +132,7 @@ class EdgeSettler {
   }
 
   /// In place: edges are settled a hundred thousand times a frame.
-  using Candidates = boost::container::static_vector<Candidate, kAround.size() + 1>;
+  using Candidates = boost::container::static_vector<CandidateSurface, kAround.size() + 1>;
 
   /// The different surfaces that the pixel's own and the neighbouring windows found, each from its best correlated
   /// window. Where the pixel's own found nothing there is still what was searched, on a steep wall say; far from all
@@ -150,16 +150,16 @@ class EdgeSettler {
     }
     if (estimates_.valid(x, y)) return candidates;
     const float searched = coarse_(x / 2, y / kSearchStep);
-    const bool joined = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+    const bool joined = std::any_of(candidates.begin(), candidates.end(), [&](const CandidateSurface& other) {
       return std::fabs(other.surface.disparity - searched) < kJoined;
     });
     if (joined) propose({{searched, 0.0f, 0.0f}, 0.0f, false, kOthersLikeness}, candidates);
     return candidates;
   }
 
-  static void propose(const Candidate& found, Candidates& candidates) {
+  static void propose(const CandidateSurface& found, Candidates& candidates) {
     constexpr float kDifferent = 0.6f;  // [px]
-    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const CandidateSurface& other) {
       return std::fabs(other.surface.disparity - found.surface.disparity) < kDifferent;
     });
     if (same == candidates.end())
@@ -192,7 +192,7 @@ void settle_edges(const SensorModel& sensor, const SplitColumns<float>& paired, 
   std::vector<std::vector<Settled>> settled(sensor.height);
   parallel_rows(sensor.height, [&](int y) {
     for (int x = settler.next_edge(0, y); x < sensor.width; x = settler.next_edge(x + 1, y)) {
-      const std::optional<Candidate> best = settler.settle(x, y);
+      const std::optional<CandidateSurface> best = settler.settle(x, y);
       settled[y].push_back({x, y, best ? best->surface.disparity : std::numeric_limits<float>::quiet_NaN(),
                             best ? best->correlation : 0.0f});
     }

@@ -39,6 +39,32 @@ Json unit_of(const std::string& model) {
   return {{"model", model}, {"height_mm", 650}, {"aim_mm", {0, 300, 0}}, {"unit", {{"serial", 7}}}};
 }
 
+/// A table of heights alone, as the theory has them and a little noise, of liquids that are all water.
+void write_heights(const std::filesystem::path& campaign, const std::vector<std::string>& labels) {
+  Json rig = {{"sensor", {{"model", "xtion_pro_live"}, {"height_mm", 650}, {"pitch_deg", 58.4}}},
+              {"cup", {{"shape", "paper_cup"}}}};
+  Table frames({"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm", "distance_mm",
+                "lateral_mm", "cloud", "height_mm", "height_sd_mm", "points"});
+  Rng rng(1);
+  int pour = 0;
+  for (const std::string& label : labels) {
+    rig["liquids"][label] = "water";
+    for (const double fill_mm : {10.0, 30.0})
+      for (int i = 0; i < 3; ++i, ++pour)
+        for (const double distance_mm : {200.0, 300.0, 400.0}) {
+          const double raised_m = theory::raised_height_at(
+              metres_from_mm(fill_mm), {.h = 0.643, .b = 0.075, .d = metres_from_mm(distance_mm), .n = 1.329});
+          const std::string number = fmt::format("{}", frames.rows());
+          frames.add({number, "0", fmt::format("{}", pour), number, "0", fmt::format("{}", 10 * frames.rows()), label,
+                      fmt::format("{}", fill_mm), fmt::format("{}", distance_mm), "0", "",
+                      fmt::format("{:.3f}", 7.0 + mm_from_metres(raised_m) + 0.3 * rng.normal()), "1.0", "900"});
+        }
+  }
+  make_directory(campaign);
+  write_json(campaign / "rig.json", rig);
+  write_table(campaign / "frames.csv", frames);
+}
+
 struct DiagnoseCommand : testing::Test {
   TemporaryFolder folder;
 
@@ -122,7 +148,7 @@ TEST_F(DiagnoseCommand, SaysWhatItCostsThatNoViewShowsTheBareDesk) {
 }
 
 TEST_F(DiagnoseCommand, SaysWhatItWasToldNotToLookForAndNothingElse) {
-  measure(Json::array());
+  write_heights(folder / "campaign", {"water"});
   const std::string words = "Not looked for", all = diagnosis("all")["notes"].dump();
   EXPECT_EQ(all.find(words), std::string::npos) << all;
   const std::string some = diagnosis("some", "--without foam")["notes"].dump();
@@ -209,7 +235,7 @@ TEST_F(DiagnoseCommand, ACoarserLawIsNamedFromOneSession) {
 }
 
 TEST_F(DiagnoseCommand, FoldersThatGoTogetherHaveOneRig) {
-  measure(Json::array());
+  write_heights(folder / "campaign", {"water"});
   std::filesystem::copy(folder / "campaign", folder / "other", std::filesystem::copy_options::recursive);
   Json rig = read_json(folder / "other" / "rig.json");
   rig["sensor"]["height_mm"] = 651;
@@ -221,7 +247,7 @@ TEST_F(DiagnoseCommand, FoldersThatGoTogetherHaveOneRig) {
 }
 
 TEST_F(DiagnoseCommand, SaysWhatIsMissing) {
-  measure(Json::array());
+  write_heights(folder / "campaign", {"water"});
   write_text(folder / "campaign" / "frames.csv",
              "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud,height_mm\n"
              "0,0,0,0,0,0,water,20,200,0,,13.2\n");
@@ -245,7 +271,7 @@ TEST_F(DiagnoseCommand, MistakesStandInEveryReport) {
 }
 
 TEST_F(DiagnoseCommand, AKilledRunLeavesWholeFilesOnly) {
-  measure(Json::array());
+  write_heights(folder / "campaign", {"water"});
   for (const int files : {1, 3, 5, 8}) {
     std::filesystem::remove_all(folder / "out");
     const std::string killed = fmt::format(
@@ -263,32 +289,6 @@ TEST_F(DiagnoseCommand, AKilledRunLeavesWholeFilesOnly) {
   diagnosis("out");
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
     EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
-}
-
-/// A table of heights alone, as the theory has them and a little noise, of liquids that are all water.
-void write_heights(const std::filesystem::path& campaign, const std::vector<std::string>& labels) {
-  Json rig = {{"sensor", {{"model", "xtion_pro_live"}, {"height_mm", 650}, {"pitch_deg", 58.4}}},
-              {"cup", {{"shape", "paper_cup"}}}};
-  Table frames({"frame", "session", "pour", "placement", "trial", "time_s", "liquid", "fill_mm", "distance_mm",
-                "lateral_mm", "cloud", "height_mm", "height_sd_mm", "points"});
-  Rng rng(1);
-  int pour = 0;
-  for (const std::string& label : labels) {
-    rig["liquids"][label] = "water";
-    for (const double fill_mm : {10.0, 30.0})
-      for (int i = 0; i < 3; ++i, ++pour)
-        for (const double distance_mm : {200.0, 300.0, 400.0}) {
-          const double raised_m = theory::raised_height_at(
-              metres_from_mm(fill_mm), {.h = 0.643, .b = 0.075, .d = metres_from_mm(distance_mm), .n = 1.329});
-          const std::string number = fmt::format("{}", frames.rows());
-          frames.add({number, "0", fmt::format("{}", pour), number, "0", fmt::format("{}", 10 * frames.rows()), label,
-                      fmt::format("{}", fill_mm), fmt::format("{}", distance_mm), "0", "",
-                      fmt::format("{:.3f}", 7.0 + mm_from_metres(raised_m) + 0.3 * rng.normal()), "1.0", "900"});
-        }
-  }
-  make_directory(campaign);
-  write_json(campaign / "rig.json", rig);
-  write_table(campaign / "frames.csv", frames);
 }
 
 TEST_F(DiagnoseCommand, APictureShowsTheLabelsAsWrittenAndNobodyObeysThem) {
@@ -444,7 +444,7 @@ TEST_F(DiagnoseCommand, WholeFramesSayWhatFewRaysSaidOfAShallowerSensor) {
 }
 
 TEST_F(DiagnoseCommand, RefusesWhatIsNoMeasurement) {
-  measure(Json::array());
+  write_heights(folder / "campaign", {"water"});
   write_text(folder / "campaign" / "frames.csv", "frame,session\n0,0\n");
   const ProgramRun run = run_fathom("diagnose " + path("campaign") + " -o " + path("out"));
   EXPECT_EQ(run.exit_code, 1);
