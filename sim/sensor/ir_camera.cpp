@@ -13,6 +13,7 @@
 #include "sim/render/nearby_ways.h"
 #include "sim/render/photon_map.h"
 #include "sim/render/radiance.h"
+#include "sim/scene/geometry.h"
 #include "sim/sensor/bloom.h"
 #include "sim/sensor/blurred_pattern.h"
 #include "sim/sensor/glints.h"
@@ -236,6 +237,12 @@ struct Renderer {
   }
 };
 
+/// Light goes back and forth between the faces of a solid. Waves and menisci in opaque cups reflect some of it twice,
+/// too, but that is at most 0.04 % of what a square of 16 pixels sees.
+bool has_clear_solid(const Geometry& geometry) {
+  return std::ranges::any_of(geometry.bodies, [](const Body& body) { return !body.level; });
+}
+
 }  // namespace
 
 IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pattern, int samples_across,
@@ -249,7 +256,8 @@ IrLight render_ir(const PointLight& projector, const Rig& rig, const Pattern& pa
     nearby.emplace(projector, CameraRays{rig}, rig.sensor.ir_width,
                    NearbyWays::Scope{light != LightModel::direct, light == LightModel::full});
   std::optional<PhotonMap> photons;
-  if (projector.searches() && light == LightModel::full) photons.emplace(projector.world(), projector.source(), seed);
+  if (light == LightModel::full && has_clear_solid(projector.world().geometry()))
+    photons.emplace(projector.world(), projector.source(), seed);
   const Renderer renderer{projector,
                           rig,
                           pattern,
