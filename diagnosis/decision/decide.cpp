@@ -34,14 +34,20 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
   diagnosis.limits.confusable = confusable_pairs(c.evidence, c.problem);
   diagnosis.limits.near_null = near_null_directions(c.evidence, c.problem);
+}
+
+/// Where measured and predicted differ, the liquids among it in which the explanation that was fitted shows.
+std::vector<GapLocation> locations_of(const Case& c, const Refit& fit) {
+  const double level = c.settings.p_where;
   const Eigen::MatrixXd columns = stratum_columns(c.strata, c.covariance);
-  diagnosis.departures.where =
-      locate(c.strata, columns, degrees_of_freedom(c.covariance, columns), c.problem.residual, c.settings.p_where);
+  std::vector<GapLocation> locations = locate(c.strata, columns, degrees_of_freedom(c.covariance, columns),
+                                              c.problem.residual, level, liquids_with(c, fit.prediction, level));
   const Eigen::VectorXd departures = measured_minus_predicted(c.evidence);
-  for (GapLocation& where : diagnosis.departures.where)
+  for (GapLocation& where : locations)
     for (const Stratum& stratum : c.strata)
       if (stratum.observable == where.observable && stratum.name == where.stratum)
         where.departure = departures(stratum.rows).mean();
+  return locations;
 }
 
 /// The likeliest option's effects that are surely there, fitted by themselves; nothing where there are none.
@@ -124,7 +130,9 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
     diagnosis.unknown =
         describe_unknown(evidence, c.covariance, c.problem, c.discrepancy, rest.residual, rest.explained);
   // Where several explanations are left a reader wants to see what the likeliest makes of the differences.
-  measure_gaps(c, diagnosis.verdict == Verdict::ambiguous && !sure ? first_fit(c, posterior, set) : fit, diagnosis);
+  const Refit shown = diagnosis.verdict == Verdict::ambiguous && !sure ? first_fit(c, posterior, set) : fit;
+  measure_gaps(c, shown, diagnosis);
+  diagnosis.departures.where = locations_of(c, shown);
   diagnosis.limits.upper = upper_limits(evidence, c.problem, fit.hypothesis.effects, rest.residual, rest.explained);
   diagnosis.limits.size_errors = size_errors(evidence, c.problem);
   if (sure) {

@@ -26,7 +26,7 @@ struct GapLocation {
   std::string observable, stratum;  ///< "height_mm", "liquid=milk_tea, distance_mm=400"
   double mean = 0.0, sigma = 0.0;   ///< in the observable's unit, beside the other parts'
   double share_of_gap = 0.0;        ///< of the squared gap in units of its error; of all parts at most 1 together
-  double p = 1.0;                   ///< that errors alone make a part depart as one does, of all that were looked at
+  double p = 1.0;                   ///< that errors alone make a part depart so, of all that were looked at
   double departure = 0.0;           ///< plain mean of what was measured there minus predicted
 };
 

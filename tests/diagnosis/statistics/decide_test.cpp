@@ -374,6 +374,39 @@ TEST(Locate, DescribesADepartureThatIsEverywhereAsOneThoughItsErrorIsKnownByFewP
   EXPECT_LT(where[0].p, 1e-12);
 }
 
+TEST(Locate, ListsLiquidsOfTheExplanationLastAndNoneThatIsListedAlready) {
+  const std::vector<Stratum> strata{{"height_mm", "liquid=water", true, {0}},
+                                    {"height_mm", "liquid=milk", true, {1, 2}},
+                                    {"height_mm", "liquid=milk, distance_mm=300", false, {1}}};
+  const Eigen::MatrixXd columns{{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}, {0.0, 1.0, 0.0}};
+  const Eigen::Vector3d residual(2.0, 9.0, 0.0);
+  const std::vector<ExplainedStratum> explained{{0, 0.004}, {1, 1e-6}};
+  const std::vector<GapLocation> where =
+      locate(strata, columns, Eigen::Vector3d(50, 50, 50), residual, 0.001, explained);
+  ASSERT_EQ(where.size(), 2U);
+  EXPECT_EQ(where[0].stratum, "liquid=milk, distance_mm=300");
+  EXPECT_EQ(where[1].stratum, "liquid=water");
+  EXPECT_EQ(where[1].p, 0.004);
+  EXPECT_NEAR(where[1].share_of_gap, 4.0 / 85.0, 1e-12);
+}
+
+// A cup that holds more stands higher in milk tea and seems to in water.
+TEST(Decide, ListsEveryLiquidInWhichWhatIsNamedShows) {
+  const World world(small_design());
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Diagnosis diagnosis =
+        decide(world.measure({world.at_strength("fill_scale", 20.0, 1.0)}, {}, seed), world.predict());
+    ASSERT_EQ(diagnosis.verdict, Verdict::named);
+    const auto lists = [&](const std::string& stratum) {
+      return std::ranges::any_of(diagnosis.departures.where, [&](const GapLocation& where) {
+        return where.stratum == stratum || where.stratum.starts_with(stratum + ",");
+      });
+    };
+    EXPECT_TRUE(lists("all") || (lists("liquid=water") && lists("liquid=milk_tea"))) << seed;
+    EXPECT_FALSE(lists("liquid=empty")) << seed;
+  }
+}
+
 TEST(Decide, NamesWhatIsLargeThoughSomethingElseStaysOpen) {
   const World world(small_design());
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
