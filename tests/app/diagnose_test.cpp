@@ -276,7 +276,7 @@ TEST_F(DiagnoseCommand, AKilledRunLeavesWholeFilesOnly) {
     std::filesystem::remove_all(folder / "out");
     const std::string killed = fmt::format(
         "{} diagnose {} -o {} > /dev/null 2>&1 & run=$!; "
-        "until [ $(ls -A {} 2> /dev/null | wc -l) -ge {} ] || ! kill -0 $run; do sleep 0.002; done; "
+        "until {{ set -- {}/*; [ -e $1 ] && [ $# -ge {} ]; }} || ! kill -0 $run; do :; done; "
         "kill -KILL $run && {{ wait $run; true; }}",
         FATHOM_PROGRAM, path("campaign"), path("out"), path("out"), files);
     ASSERT_EQ(std::system(killed.c_str()), 0) << "it ended before it wrote " << files << " files";
