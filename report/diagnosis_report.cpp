@@ -103,9 +103,8 @@ std::string where_html(const std::vector<GapLocation>& locations) {
                     rows) +
          paragraph(
              "The offsets are fitted together, weighted by the errors. The shares are of the squared misfit in units "
-             "of the errors. Each p allows for all places that were looked at. A liquid is listed, too, if what was "
-             "measured "
-             "in it alone departs as the best explanation has it: then its p is that of this agreement.");
+             "of the errors. Each p allows for all places that were looked at. A liquid is listed, too, if the heights "
+             "in it, taken alone, depart as the best explanation has it. Then p is that of this agreement.");
 }
 
 std::string effects_html(const Diagnosis& diagnosis) {
