@@ -16,7 +16,7 @@ constexpr double kAbsorbed = 0.05;  // share of a column's squared norm below wh
 struct SignificantStratum {
   Eigen::Index number = 0;
   double z = 0.0;  ///< of what those before it leave
-  double p = 1.0;  ///< that errors alone make any stratum depart as one does
+  double p = 1.0;  ///< as in GapLocation
 };
 
 /// Whether one holds all observations of the other.
