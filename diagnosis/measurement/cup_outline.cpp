@@ -16,21 +16,22 @@ constexpr double kFarthest = 0.032;                   ///< [m] the bound of cup_
 
 }  // namespace
 
-double inner_wall_from(const LaboratoryRig& rig, double fill) {
+double inner_wall_above(const CupProfile& cup, double level) {
   constexpr double kBelowRim = 0.035;  // [m] however little is written: notes may be wrong
-  return std::max(rig.cup.height() - kBelowRim, rig.cup.bottom() + fill + kAboveFill);
+  return std::max(cup.height() - kBelowRim, level + kAboveFill);
 }
 
 OutlineFit::OutlineFit(const LaboratoryRig& rig, const Eigen::Vector2d& axis, double fill)
     : cup_(rig.cup),
-      inner_from_(inner_wall_from(rig, fill)),
       level_(rig.cup.bottom() + fill),
       to_sensor_(-axis.normalized()),
       steepness_(rig.height_m / axis.norm()) {}
 
 void OutlineFit::add(const Eigen::Vector2d& from_axis, double height, double weight) {
   constexpr double kReach = 0.010;  // [m] of a matcher's window across desk and rim
-  if (height < kReach || height > cup_.height() - kReach || std::abs(height - level_) < kAboveFill) return;
+  if (from_axis.norm() < interior_radius(cup_))
+    inside_.push_back({static_cast<float>(height), static_cast<float>(weight)});
+  if (height < kReach || height > cup_.height() - kReach) return;
   const auto lean = [&](double (CupProfile::*radius)(double) const) {
     constexpr double kSpan = 0.5e-3;  // [m]
     return steepness_ * ((cup_.*radius)(height + kSpan) - (cup_.*radius)(height - kSpan)) / (2.0 * kSpan);
@@ -126,7 +127,14 @@ Eigen::Vector2d OutlineFit::place_of_walls() const {
   return best;
 }
 
-std::optional<CupOutline> OutlineFit::solve() const {
+void OutlineFit::leave_out_liquid() {
+  if (!inside_.empty()) level_ = std::max<double>(level_, middle_height(inside_));
+  inner_from_ = inner_wall_above(cup_, level_);
+  std::erase_if(sensed_, [&](const Sensed& one) { return std::abs(one.height - level_) < kAboveFill; });
+}
+
+std::optional<CupOutline> OutlineFit::solve() {
+  leave_out_liquid();
   constexpr double kSharp = 0.003, kOwnWidth = 0.002;  // [m]
   const std::optional<CupOutline> as_written = fit_from(Eigen::Vector2d::Zero());
   const double scattered = as_written ? std::min(scatter(*as_written), kSharp) : kSharp;

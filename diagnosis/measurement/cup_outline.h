@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/laboratory_rig.h"
 
 namespace fathom {
@@ -17,14 +18,14 @@ struct CupOutline {
   Eigen::Vector3d pixels = Eigen::Vector3d::Zero();
 };
 
-/// [m] above the desk: the inner wall is looked at from there on, clear of a liquid of that fill.
-double inner_wall_from(const LaboratoryRig& rig, double fill);
+/// [m] above the desk: the inner wall is looked at from there on, clear of a liquid whose surface is at `level`.
+double inner_wall_above(const CupProfile& cup, double level);
 
 /// Takes points one by one, in the frame of the desk. Those count that lie near the wall that the sensor can see there:
 /// on its own side the outer one, clear of the desk, on the far side the inner one (of a wall that leans outward more
 /// of it), between the rim and what stands in the cup: there a surface's edge, or what is seen through it, lies near
-/// the wall and is none. On neither side do points count that lie as high as the surface should, nor on the sensor's
-/// side those that lie inside the cup: of a steep view of a leaning wall the device sees nothing but the liquid.
+/// the wall and is none. On neither side do points count that lie as high as the surface should or, if that is higher,
+/// as what is seen inside, nor on the sensor's side those that lie inside the cup: of a steep view of a leaning wall the device sees nothing but the liquid.
 class OutlineFit {
  public:
   /// `axis` [m]: from the foot of the camera to where the cup should stand; `fill` [m]: of what should stand in it.
@@ -37,7 +38,7 @@ class OutlineFit {
   /// then of those within 7 mm of where it was found, so that of a cup beside its place the liquid counts for no wall.
   /// Where that finds no cup of the rig's width, from where most of one's walls lie, up to 30 mm beside its place.
   /// Nothing with less than 60 pixels on either side, or where they lie on too short an arc.
-  std::optional<CupOutline> solve() const;
+  std::optional<CupOutline> solve();
 
   /// [m] from where the cup should stand to the farthest points that are of use.
   double reach() const;
@@ -54,6 +55,7 @@ class OutlineFit {
     double excess;            ///< [m] outside the wall
     bool is_inside;           ///< the inner wall
   };
+  void leave_out_liquid();
   std::optional<NearWall> near_wall(const Sensed& sensed, const CupOutline& outline, double gate) const;
   std::optional<CupOutline> step(const CupOutline& from, double gate) const;
   std::optional<CupOutline> fit_from(const Eigen::Vector2d& off) const;
@@ -62,10 +64,11 @@ class OutlineFit {
   Eigen::Vector2d place_of_walls() const;
 
   CupProfile cup_;
-  double inner_from_, level_;  // [m]
+  double level_, inner_from_ = 0.0;  // [m]
   Eigen::Vector2d to_sensor_;  // unit
   double steepness_;           // of the line of sight, height over distance
   std::vector<Sensed> sensed_;
+  std::vector<SharedHeight> inside_;
 };
 
 }  // namespace fathom

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "core/cup_profile.h"
 
@@ -58,6 +59,21 @@ inline std::array<double, 5> shares_of_regions(const Eigen::Vector2d& from_axis,
                other = step(kDiagonal * (from_axis.y() + from_axis.x()));
   return {central, ring * (1.0 - one) * (1.0 - other), ring * one * other, ring * one * (1.0 - other),
           ring * (1.0 - one) * other};
+}
+
+/// A height with the share of its point that lies in a region.
+struct SharedHeight {
+  float height, weight;
+};
+
+/// Their weighted median; sorts them. There must be one.
+inline float middle_height(std::vector<SharedHeight>& heights) {
+  std::sort(heights.begin(), heights.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
+  double all = 0.0, below = 0.0;
+  for (const SharedHeight& one : heights) all += one.weight;
+  for (const SharedHeight& one : heights)
+    if ((below += one.weight) >= 0.5 * all) return one.height;
+  return heights.back().height;
 }
 
 }  // namespace fathom

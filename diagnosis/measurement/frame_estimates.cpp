@@ -89,26 +89,13 @@ Eigen::Vector2d middle_of_regions(const std::optional<CupOutline>& outline) {
   return (1.0 - kFree / outline->off.norm()) * outline->off;
 }
 
-/// A height with the share of its point that lies in a region.
-struct SharedHeight {
-  float height, weight;
-};
-
 /// Mean of a region. A hundredth of a device's pixels is matched wrongly, off by pixels; a single one of them weighs as
 /// much as the noise of thousands, and of a low bottom those that are too low are no longer the cup's. So only heights
 /// near the median count: within half a pixel of disparity, which is five times what noise and blocks make.
 RegionEstimate region_mean(std::vector<SharedHeight>& heights) {
   constexpr float kNear = 0.006f;  // [m] half a pixel, 0.75 m away
   if (heights.empty()) return {};
-  std::sort(heights.begin(), heights.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
-  double all = 0.0, below = 0.0;
-  for (const SharedHeight& one : heights) all += one.weight;
-  float middle = heights.back().height;
-  for (const SharedHeight& one : heights)
-    if ((below += one.weight) >= 0.5 * all) {
-      middle = one.height;
-      break;
-    }
+  const float middle = middle_height(heights);
   Sums sums;
   for (const SharedHeight& one : heights)
     if (std::abs(one.height - middle) <= kNear) sums.add(one.height, one.weight);

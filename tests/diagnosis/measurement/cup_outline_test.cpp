@@ -140,6 +140,22 @@ TEST_F(Outline, HoldsNothingOfALiquidNearTheRim) {
   }
 }
 
+/// The notes may say less than was poured.
+TEST_F(Outline, HoldsNothingOfALiquidThatStandsHigherThanWritten) {
+  for (const double higher : {0.003, 0.006, 0.009}) {
+    const double level = rig.cup.bottom() + 0.052 + higher;
+    fit = OutlineFit(rig, {0.0, 0.200}, 0.052);
+    add_wall(kNear, rig.cup.widest(), {0.0, 0.0}, 0.015, 0.075);
+    for (const double above : {0.002, 0.004}) add_wall(kFar, rig.cup.narrowest(), {0.0, 0.0}, level + above, 0.080);
+    for (double radius = 0.002; radius < rig.cup.narrowest(); radius += 0.001)
+      for (const double towards : {kNear, kFar}) add_wall(towards, radius, {0.0, 0.0}, level, level + 0.001);
+    const auto outline = fit.solve();
+    ASSERT_TRUE(outline) << higher;
+    EXPECT_NEAR(outline->wider, 0.0, 1e-5) << higher;
+    EXPECT_LT(outline->off.norm(), 1e-5) << higher;
+  }
+}
+
 /// A radius and a place that belong to each other fit one side alike.
 TEST_F(Outline, OfOneSideIsNone) {
   add_wall(kFar, rig.cup.narrowest(), {0.0, 0.0}, 0.055, 0.075);
