@@ -202,14 +202,6 @@ Json truth_json(const std::vector<Placement>& placements, const Json& effects) {
   return {{"effects", effects}, {"placements", list}};
 }
 
-/// Throws Error where the folder holds another run, or clouds of unknown origin.
-void require_own_folder(const fs::path& folder, const Manifest& manifest) {
-  manifest.require_same_run();
-  if (manifest.exists()) return;
-  for (const char* name : {"clouds", "infrared", "frames.csv", "rig.json"})
-    if (fs::exists(folder / name)) throw Error((folder / name).string(), "is there already; choose another folder");
-}
-
 void require_truth_outside(const fs::path& truth, const fs::path& folder) {
   const auto resolved = [](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); };
   const fs::path inside = resolved(truth).lexically_relative(resolved(folder));
@@ -238,7 +230,7 @@ void run_campaign(const CampaignOptions& options, const CommonOptions& common) {
 
   const FolderOwner owner(common.output);
   Manifest manifest(common.output, identity);
-  require_own_folder(common.output, manifest);
+  manifest.require_same_run(std::vector<std::string>{"clouds", "infrared", "frames.csv", "rig.json"});
   if (!options.truth.empty()) {
     if (options.truth.has_parent_path()) make_directory(options.truth.parent_path());
     write_json(options.truth, truth_json(placements, effects));

@@ -50,6 +50,9 @@ Pose read_pose(const JsonReader& json) {
   const Eigen::Matrix3d rotation = pose.linear();
   if (!(rotation * rotation.transpose()).isIdentity(kRounded) || rotation.determinant() < 0.0)
     json.fail("is no rotation: its rows must be orthogonal, of length 1 and right-handed");
+  constexpr double kFarthest = 20.0;  // [m] cameras that look at one desk
+  if (!(pose.translation().norm() < kFarthest))
+    json.fail(fmt::format("must be in metres: its camera would stand {:.4g} m away", pose.translation().norm()));
   return pose;
 }
 

@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/print.h"
 #include "campaign/next_campaign.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "core/folder_owner.h"
 #include "core/json.h"
@@ -106,6 +107,13 @@ constexpr std::array kTables{
     TableFile{"heights.csv", "number,before_mm"},       TableFile{"shape.csv", "x,y,mean_mm"},
     TableFile{"sessions.csv", "x,before_mm,after_mm"},  TableFile{"residuals.csv", "observable,region"}};
 
+/// Throws Error where a table of somebody else's would be written over, such as the heights.csv of `fathom measure`.
+void require_own_tables(const fs::path& folder) {
+  for (const TableFile& table : kTables)
+    if (const fs::path file = folder / table.name; fs::exists(file) && !is_ours(file, table.columns))
+      throw Error(file.string(), "is there already, and of no diagnosis; choose another folder");
+}
+
 /// next_1.json and so on, which write_next() writes.
 bool is_next_campaign(const std::string& name) {
   constexpr std::string_view kBegin = "next_", kEnd = ".json";
@@ -141,6 +149,7 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                                                      .seed = common.seed},
                                                     common.quiet);
   const FolderOwner owner(common.output);  // what cannot be written shows before the long work
+  require_own_tables(common.output);
   const WholeDiagnosis whole = diagnose(input, common.quiet);
   std::vector<std::string> names;
   for (const fs::path& folder : options.folders) names.push_back(folder.lexically_normal().string());

@@ -10,6 +10,7 @@
 #include "core/library.h"
 #include "core/table.h"
 #include "core/units.h"
+#include "diagnosis/measurement/cup_in_sight.h"
 #include "sim/scene/medium_json.h"
 
 namespace fathom {
@@ -186,7 +187,7 @@ LaboratoryRig nominal_rig(const Rig& rig, const CupShape& cup, const std::string
   nominal.pitch_rad = std::atan2(-forward.z(), forward.y());
   nominal.roll_rad = roll_of(world_from_camera);
   nominal.baseline_m = rig.sensor.baseline;
-  nominal.focal_px = rig.sensor.focal_px;
+  nominal.focal_px = rig.sensor.focal_px * kImageWidth_px / rig.sensor.width;
   nominal.cup_shape = cup.name;
   nominal.cup = cup;
   return nominal;
@@ -199,6 +200,12 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   read_fields(json, spec_fields(), spec);
   if (spec.fillings.empty() && spec.bare_desk_views == 0)
     json.fail_at("fillings", "must hold at least one filling, where there are no bare_desk_views");
+  if (spec.fillings.empty()) return spec;
+  for (const double distance : spec.distances)
+    for (const double lateral : spec.laterals)
+      if (const Eigen::Vector2d place(lateral, distance); !is_in_sight(place, spec.nominal))
+        json.fail_at("distance_mm", fmt::format("must be {}, got {:g}", words_in_sight(place, spec.nominal),
+                                                mm_from_metres(distance)));
   return spec;
 }
 

@@ -151,12 +151,16 @@ fs::path data_directory() {
   throw Error(FATHOM_INSTALLED_DATA, "the libraries of cups, media and sensors are missing; set FATHOM_DATA");
 }
 
-void remove_if_ours(const std::filesystem::path& file, std::string_view words) {
-  if (!std::filesystem::is_regular_file(file)) return;
+bool is_ours(const std::filesystem::path& file, std::string_view words) {
+  if (!std::filesystem::is_regular_file(file)) return false;
   std::string head(1000, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (head.find(words) != std::string::npos) std::filesystem::remove(file);
+  return head.find(words) != std::string::npos;
+}
+
+void remove_if_ours(const std::filesystem::path& file, std::string_view words) {
+  if (is_ours(file, words)) std::filesystem::remove(file);
 }
 
 }  // namespace fathom

@@ -38,7 +38,9 @@ void make_directory(const std::filesystem::path& path);
 /// source tree, the first that exists. Throws Error when there is none.
 std::filesystem::path data_directory();
 
-/// Removes a file if its first 1,000 bytes hold these words, by which ours is known.
+/// Whether the first 1,000 bytes of a file hold these words, by which ours is known.
+bool is_ours(const std::filesystem::path& file, std::string_view words);
+/// Removes a file that is.
 void remove_if_ours(const std::filesystem::path& file, std::string_view words);
 
 }  // namespace fathom

@@ -45,9 +45,13 @@ std::string text_of(const Json& options, const std::string& key) {
 }
 
 /// `was` is an identity that may be anything.
+bool is_same_command(const Json& was, const Json& is) {
+  return was.is_object() && was.value("command", Json()) == is["command"];
+}
+
 std::optional<std::string> difference_between(const Json& was, const Json& is, const RunIdentity& identity) {
   if (was == is) return std::nullopt;
-  if (!was.is_object() || was.value("command", Json()) != is["command"]) return "it was made by another command";
+  if (!is_same_command(was, is)) return "it was made by another command";
   if (was.value("program", Json()) != is["program"]) return "the program is another build";
   const Json options = was.value("options", Json::object());
   for (const auto& [key, value] : is["options"].items())
@@ -92,16 +96,26 @@ Manifest::Manifest(fs::path folder, const RunIdentity& identity)
   std::istringstream lines(read_text(path_));
   std::string line;
   std::getline(lines, line);
-  difference_ = difference_between(parsed(line, path_.string()), identity_, identity);
+  const Json was = parsed(line, path_.string());
+  difference_ = difference_between(was, identity_, identity);
+  is_same_command_ = is_same_command(was, identity_);
   if (difference_) return;
   while (std::getline(lines, line))
     if (auto file = file_in(line, path_.string()))
       files_.insert_or_assign(std::move(file->first), std::move(file->second));
 }
 
-void Manifest::require_same_run() const {
+void Manifest::require_same_run(std::span<const std::string> names) const {
   if (difference_)
     throw Error(path_.string(), fmt::format("is of another run: {}; choose another folder", *difference_));
+  require_same_command(names);
+}
+
+void Manifest::require_same_command(std::span<const std::string> names) const {
+  if (exists_ && !is_same_command_) throw Error(path_.string(), "is of another command; choose another folder");
+  if (exists_) return;
+  for (const std::string& name : names)
+    if (fs::exists(folder_ / name)) throw Error((folder_ / name).string(), "is there already; choose another folder");
 }
 
 void Manifest::begin() {

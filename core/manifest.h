@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "core/json.h"
@@ -33,8 +34,11 @@ class Manifest {
   /// What parts this run from the one whose manifest it is: "spec.json has changed". Nothing where they are the same,
   /// or where there is none.
   const std::optional<std::string>& difference() const { return difference_; }
-  /// Throws Error when there is a difference.
-  void require_same_run() const;
+  /// Throws Error when there is a difference, or when the folder has no manifest but one of these names: it is somebody
+  /// else's.
+  void require_same_run(std::span<const std::string> names = {}) const;
+  /// The same where another run of this command may be written over.
+  void require_same_command(std::span<const std::string> names) const;
 
   /// Writes the identity and the files that are noted so far: none, where there was a difference. Call before add().
   void begin();
@@ -48,7 +52,7 @@ class Manifest {
  private:
   std::filesystem::path folder_, path_;
   Json identity_;
-  bool exists_ = false;
+  bool exists_ = false, is_same_command_ = false;
   std::optional<std::string> difference_;
   std::map<std::string, Json> files_;
   std::ofstream appended_;

@@ -14,8 +14,8 @@ struct JsonMemory {
 };
 
 /// To be asked of JSON before any parser is given it. Throws Error when `text` is nested too deep for code that takes
-/// it apart by recursion, or when it would take more memory than the InputPolicy allows. Whether it is JSON does not
-/// matter.
+/// it apart by recursion, has an object of more keys than are found one by one in seconds, or when it would take more
+/// memory than the InputPolicy allows. Whether it is JSON does not matter.
 void require_modest_json(std::string_view text, const std::string& file, JsonMemory memory);
 
 }  // namespace fathom

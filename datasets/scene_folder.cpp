@@ -248,10 +248,7 @@ std::string scene_folder(int scene) { return fmt::format("train/{:06}", scene); 
 void write_common(const fs::path& folder, const Dataset& dataset, const RunIdentity& identity) {
   make_directory(folder);
   Manifest manifest(folder, identity);
-  manifest.require_same_run();
-  for (const char* name : {"train", "models", "dataset.json"})
-    if (!manifest.exists() && fs::exists(folder / name))
-      throw Error((folder / name).string(), "is there already; choose another folder");
+  manifest.require_same_run(std::vector<std::string>{"train", "models", "dataset.json"});
   manifest.begin();
   if (!is_complete(folder, dataset)) fs::remove(folder / "index.html");  // it comes last
   make_directory(folder / "models");
@@ -293,9 +290,7 @@ int write_scene(const fs::path& data_set, const Dataset& dataset, int scene, con
   const fs::path folder = data_set / scene_folder(scene);
   const FolderOwner owner(folder);
   Manifest manifest(folder, identity);
-  manifest.require_same_run();
-  if (!manifest.exists() && fs::exists(folder / "labels"))
-    throw Error((folder / "labels").string(), "is there already; choose another folder");
+  manifest.require_same_run(std::vector<std::string>{"labels"});
   manifest.begin();
   std::vector<std::string> kinds{"depth", "depth_true", "depth_apparent", "depth_first",
                                  "mask",  "mask_visib", "labels"};

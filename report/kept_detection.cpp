@@ -33,14 +33,15 @@ fs::path kept_cloud(const fs::path& folder, int number) {
 }
 
 KeptDetection::KeptDetection(fs::path folder, int clouds)
-    : folder_(std::move(folder)), owner_(folder_), clouds_(clouds) {
-  fs::remove(folder_ / kDetectionFile);
-  fs::remove(folder_ / kDetectionRows);
-  remove_view_page(folder_);
-}
+    : folder_(std::move(folder)), owner_(folder_), clouds_(clouds) {}
 
 void KeptDetection::add(const Cloud& cloud) {
   const int number = added_++;
+  if (number == 0) {
+    fs::remove(folder_ / kDetectionFile);
+    fs::remove(folder_ / kDetectionRows);
+    remove_view_page(folder_);
+  }
   if (number >= clouds_) return;
   Image<CloudPoint> image(cloud.width, cloud.height);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {

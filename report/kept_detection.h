@@ -17,9 +17,10 @@ std::filesystem::path kept_cloud(const std::filesystem::path& folder, int number
 /// A detection that is being written. The folder is this process's while the object lives.
 class KeptDetection {
  public:
-  /// An older one no longer counts. `clouds`: how many are kept at most.
+  /// `clouds`: how many are kept at most.
   KeptDetection(std::filesystem::path folder, int clouds);
 
+  /// With the first an older detection no longer counts.
   void add(const Cloud& cloud);
   /// Writes detection.txt, where there are rows, and detection.json: its presence says that the detection is whole. An
   /// older one's clouds are gone then.

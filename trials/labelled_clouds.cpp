@@ -34,6 +34,10 @@ LabelledContainer container_of(const Table& table, std::size_t row) {
   container.on_desk = table.text(row, "support") == "table";
   container.is_cup = is_cup(container.object);
   container.distance_m = table.number(row, "horiz_dist_m");
+  constexpr double kFarthest = 10.0;
+  if (container.distance_m < 0.0 || container.distance_m > kFarthest)
+    table.fail(row, "horiz_dist_m",
+               fmt::format("must be in metres, from 0 to {:g}, got '{}'", kFarthest, table.text(row, "horiz_dist_m")));
   container.radius_m = metres("circle_r_mm");
   container.floor_m = metres("inner_median_mm");
   return container;

@@ -18,9 +18,7 @@ fs::path trial_file(const fs::path& folder, const std::string& name) { return fo
 
 TrialFolder::TrialFolder(const fs::path& folder, const RunIdentity& identity)
     : folder_(folder), owner_(folder), manifest_(folder, identity) {
-  manifest_.require_same_run();
-  if (!manifest_.exists() && fs::exists(folder_ / "trials"))
-    throw Error((folder_ / "trials").string(), "is there already; choose another folder");
+  manifest_.require_same_run(std::vector<std::string>{"trials"});
   manifest_.begin();
   for (const char* rates : {"rates.txt", "rates.json"}) fs::remove(folder_ / rates);  // they come last
   make_directory(folder_ / "trials");

@@ -134,6 +134,42 @@ void check_other_cup(const Evidence& evidence, std::vector<std::string>& warning
   }
 }
 
+/// A height of a table that stands alone: all others of its liquid and fill lie together, far from it.
+void check_single_readings(const Evidence& evidence, std::vector<std::string>& warnings) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kAlone = 4.0;  // times as far from the others as these lie apart
+  const Eigen::VectorXd off = measured_minus_predicted(evidence);
+  const Groups fillings = group_by(evidence.observations, [](const Observation& o) {
+    const bool is_of_table = o.observable == "height_mm" && o.factors.region == "interior";
+    return is_of_table ? fmt::format("{} {:g}", o.factors.liquid, o.factors.fill_mm) : std::string();
+  });
+  for (std::vector<Eigen::Index> rows : fillings.members()) {
+    if (rows.size() < kFewest) continue;
+    std::sort(rows.begin(), rows.end(), [&](auto a, auto b) { return off[a] < off[b]; });
+    const auto check = [&](Eigen::Index one, Eigen::Index lowest, Eigen::Index highest) {
+      const double away = std::max(off[lowest] - off[one], off[one] - off[highest]);
+      if (away < kOtherCup_mm || away < kAlone * (off[highest] - off[lowest])) return;
+      const Factors& f = evidence.observations[one].factors;
+      warnings.push_back(fmt::format(
+          "one reading of {} {} mm (session {}, pour {}, {} mm away) is {:+.1f} mm off what the model has, where the "
+          "other {} are {:+.1f} to {:+.1f} mm off: a typing error?",
+          f.liquid, f.fill_mm, f.session, f.pour, f.distance_mm, off[one], rows.size() - 1, off[lowest], off[highest]));
+    };
+    check(rows.front(), rows[1], rows.back());
+    check(rows.back(), rows.front(), rows[rows.size() - 2]);
+  }
+}
+
+void check_all_alike(const Evidence& evidence, std::vector<std::string>& warnings) {
+  std::vector<double> heights_mm;
+  for (const Observation& o : evidence.observations)
+    if (is_height(o)) heights_mm.push_back(o.value);
+  if (heights_mm.size() >= kFewestTwins &&
+      std::ranges::count(heights_mm, heights_mm.front()) == static_cast<std::ptrdiff_t>(heights_mm.size()))
+    warnings.push_back(fmt::format("all {} heights are {:g} mm: is this column another quantity?", heights_mm.size(),
+                                   heights_mm.front()));
+}
+
 /// Such clouds have the same axes, but begin where the colour camera is; their points keep their depths.
 void check_colour_view(const Evidence& evidence, std::vector<std::string>& warnings) {
   constexpr double kColourCamera_mm = 25.0, kByHand_mm = 3.0;  // of Carmine, Xtion and Kinect; a place's error
@@ -161,6 +197,8 @@ std::vector<std::string> hygiene_warnings(const Evidence& evidence) {
   check_mirrored(evidence, warnings);
   check_swapped(evidence, warnings);
   check_other_cup(evidence, warnings);
+  check_single_readings(evidence, warnings);
+  check_all_alike(evidence, warnings);
   check_colour_view(evidence, warnings);
   return warnings;
 }

@@ -1,5 +1,7 @@
 #include "diagnosis/measurement/cup_in_sight.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -70,6 +72,19 @@ double pixels_in_sight(const Eigen::Vector2d& cup, double fill, const Laboratory
       pixels += rig.focal_px * rig.focal_px * side * side * (rig.height_m - height) / std::pow(depth, 3);
     }
   return pixels;
+}
+
+bool is_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
+  constexpr double kNear = 0.15, kNear_m = 0.1;
+  if (cup.y() < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;
+  return share_in_image(cup, rig) > 0.0;
+}
+
+std::string words_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
+  return fmt::format(
+      "in mm and, with lateral_mm {:g}, where the sensor, {:g} mm high and pitched down by {:.4g} degrees, sees the "
+      "cup",
+      mm_from_metres(cup.x()), mm_from_metres(rig.height_m), deg_from_radians(rig.pitch_rad));
 }
 
 double height_per_px_mm(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {

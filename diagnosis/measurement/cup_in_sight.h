@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 
 #include "diagnosis/measurement/laboratory_rig.h"
 
@@ -14,6 +15,12 @@ Eigen::AlignedBox2d cup_in_image(const Eigen::Vector2d& cup, const LaboratoryRig
 
 /// Of its foot and its rim the share that is in the image.
 double share_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
+
+/// Whether the cup is in the image, and not far nearer than where the sensor looks. A steep sensor sees the desk beside
+/// its own foot, where a distance is most often one in cm.
+bool is_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
+/// What a distance_mm must be for that, in words that follow "must be".
+std::string words_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
 
 /// Pixels in which camera and projector see what is looked at in the cup. A clear liquid lifts the bottom by a third of
 /// its depth; what is turbid is seen from farther still.

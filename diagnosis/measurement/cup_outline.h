@@ -25,7 +25,8 @@ double inner_wall_above(const CupProfile& cup, double level);
 /// on its own side the outer one, clear of the desk, on the far side the inner one (of a wall that leans outward more
 /// of it), between the rim and what stands in the cup: there a surface's edge, or what is seen through it, lies near
 /// the wall and is none. On neither side do points count that lie as high as the surface should or, if that is higher,
-/// as what is seen inside, nor on the sensor's side those that lie inside the cup: of a steep view of a leaning wall the device sees nothing but the liquid.
+/// as what is seen inside, nor on the sensor's side those that lie inside the cup: of a steep view of a leaning wall
+/// the device sees nothing but the liquid.
 class OutlineFit {
  public:
   /// `axis` [m]: from the foot of the camera to where the cup should stand; `fill` [m]: of what should stand in it.
@@ -65,8 +66,8 @@ class OutlineFit {
 
   CupProfile cup_;
   double level_, inner_from_ = 0.0;  // [m]
-  Eigen::Vector2d to_sensor_;  // unit
-  double steepness_;           // of the line of sight, height over distance
+  Eigen::Vector2d to_sensor_;        // unit
+  double steepness_;                 // of the line of sight, height over distance
   std::vector<Sensed> sensed_;
   std::vector<SharedHeight> inside_;
 };

@@ -39,14 +39,6 @@ std::optional<double> not_negative(const Table& frames, std::size_t row, const c
   return value;
 }
 
-/// Whether the cup is in the image, and not far nearer than where the sensor looks. A steep sensor sees the desk beside
-/// its own foot, where a distance is most often one in cm.
-bool is_in_sight(const FrameRecord& record, const LaboratoryRig& rig) {
-  constexpr double kNear = 0.15, kNear_m = 0.1;
-  if (record.distance_m < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;
-  return share_in_image({record.lateral_m, record.distance_m}, rig) > 0.0;
-}
-
 /// What a liquid and a place cannot be, most often because of another unit.
 void require_possible(const Table& frames, std::size_t row, const FrameRecord& record, const LaboratoryRig& rig) {
   const auto must = [&](const char* column, const std::string& what) {
@@ -63,11 +55,8 @@ void require_possible(const Table& frames, std::size_t row, const FrameRecord& r
     must("fill_mm",
          fmt::format("from 0 to {:g}, the depth of the cup", mm_from_metres(rig.cup.height() - rig.cup.bottom())));
   if (record.liquid != "empty" && record.fill_m == 0.0) must("fill_mm", "above 0, or the liquid empty");
-  if (!is_in_sight(record, rig))
-    must("distance_mm",
-         fmt::format("in mm and, with lateral_mm {}, where the sensor of rig.json, {:g} mm high and pitched down by "
-                     "{:.4g} degrees, sees the cup",
-                     frames.text(row, "lateral_mm"), mm_from_metres(rig.height_m), deg_from_radians(rig.pitch_rad)));
+  const Eigen::Vector2d place(record.lateral_m, record.distance_m);
+  if (!is_in_sight(place, rig)) must("distance_mm", words_in_sight(place, rig));
 }
 
 /// Heights of tables, most often because of another unit: single ones may be noise, those of one filling are not.

@@ -13,6 +13,7 @@
 #include "core/library.h"
 #include "core/range.h"
 #include "core/units.h"
+#include "diagnosis/measurement/cup_regions.h"
 
 namespace fathom {
 namespace {
@@ -27,9 +28,12 @@ std::span<const Field<LaboratoryRig>> sensor_fields() {
       {"height_mm", Length{&Rig::height_m}, kLengthMm, "height of the baseline's middle above the desk", true},
       {"pitch_deg", Angle{&Rig::pitch_rad}, {-90.0, 90.0}, "0: level, 90: straight down", true},
       {"roll_deg", Angle{&Rig::roll_rad}, {-180.0, 180.0}, "turn about the optical axis, clockwise from behind"},
-      {"baseline_mm", Length{&Rig::baseline_m}, kLengthMm, "from the camera to the projector"},
-      {"focal_px", &Rig::focal_px, {1.0, 1e6}, "focal length at 640 × 480; of a Kinect 575.816 where it is not given"},
-      {"disparity_offset_px", &Rig::disparity_offset_px, {}, "what the disparities are off by"},
+      {"baseline_mm", Length{&Rig::baseline_m}, {10.0, 1000.0}, "from the camera to the projector"},
+      {"focal_px",
+       &Rig::focal_px,
+       {200.0, 3000.0},
+       "focal length at 640 × 480; of a Kinect 575.816 where it is not given"},
+      {"disparity_offset_px", &Rig::disparity_offset_px, {-100.0, 100.0}, "what the disparities are off by"},
       {"unit",
        Part<Rig>{[](const JsonReader& json, Rig& rig) { rig.unit = learned_unit_from_json(json); }, nullptr,
                  R"({"type": "string"})", "a path"},
@@ -193,6 +197,13 @@ LaboratoryRig read_rig(const std::filesystem::path& path) {
   const JsonReader json(value, path.string());
   LaboratoryRig rig;
   read_fields(json, rig_fields(), rig);
+  constexpr double kLeastInside = 0.005;  // [m]
+  if (interior_radius(rig.cup) < kLeastInside)
+    json.fail_at(
+        "cup", fmt::format("must have an inner radius of at least {:g} mm, because heights are taken {:g} mm from the "
+                           "wall; got {:g}",
+                           mm_from_metres(kInteriorMargin + kLeastInside), mm_from_metres(kInteriorMargin),
+                           mm_from_metres(rig.cup.narrowest())));
   if (rig.height_m <= rig.cup.height())
     json.at("sensor").fail_at("height_mm", fmt::format("must be above {:g}, the height of the cup, got {:g}",
                                                        mm_from_metres(rig.cup.height()), mm_from_metres(rig.height_m)));

@@ -20,7 +20,8 @@ std::vector<SensedPoint> sensed_points(const Cloud& cloud, const LaboratoryRig& 
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     if (is_measured(cloud.points[i]))
       points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
-  if (cloud.height <= 1) weigh_by_sampling(points, rig.focal_px);
+  // An image of another size may be thinned, or cut out.
+  if (cloud.height <= 1 || cloud.width != static_cast<int>(kImageWidth_px)) weigh_by_sampling(points, rig.focal_px);
   return points;
 }
 

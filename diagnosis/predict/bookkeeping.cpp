@@ -140,9 +140,7 @@ void correct(const Reading& reading, Measurement& measurement) {
 /// Walls were looked for above the fills as written: what stands higher than that has been taken for some.
 void leave_out_walls_below(const Reading& reading, Measurement& measurement) {
   const CupProfile& cup = measurement.rig.cup;
-  const auto from = [&](const Factors& f) {
-    return inner_wall_above(cup, cup.bottom() + metres_from_mm(f.fill_mm));
-  };
+  const auto from = [&](const Factors& f) { return inner_wall_above(cup, cup.bottom() + metres_from_mm(f.fill_mm)); };
   std::erase_if(measurement.observations, [&](const Observation& observation) {
     const Factors& written = observation.factors;
     return written.region == "walls" && from(reading(written)) > from(written);

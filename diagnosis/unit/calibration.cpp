@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/estimate.h"
 #include "core/input_policy.h"
 #include "core/progress.h"
 #include "core/units.h"
@@ -302,6 +303,20 @@ void require_room(const std::vector<BiasView>& views, std::size_t cells, const s
   require_within_limit(file, "", bytes, fmt::format("equations of {} views in {} poses", views.size(), poses));
 }
 
+/// Most often because of another unit.
+void require_possible_depth(const CalibrationView& desk, const DeviceScale& scale, const std::filesystem::path& file) {
+  constexpr double kNearest_m = 0.2, kFarthest_m = 10.0;  // of such devices: 0.4 to 8 m
+  const double product = scale.focal_px * scale.baseline_m;
+  Mean disparity_px;
+  for (const BiasCell& cell : desk.view.cells) disparity_px.add(cell.nearer_px + product / kReferenceDistance_m);
+  const double depth_m = product / disparity_px.estimate().value;
+  if (depth_m < kNearest_m || depth_m > kFarthest_m)
+    throw Error(file.string(),
+                fmt::format("its desk would be {:.3g} m away, must be from {:g} to {:g}: is this cloud in "
+                            "metres, in the camera's frame?",
+                            depth_m, kNearest_m, kFarthest_m));
+}
+
 std::optional<WarmUp> warm_up_in(const std::vector<Reading>& readings) {
   std::vector<TimedDisparity> timed;
   std::vector<BiasView> views;
@@ -328,6 +343,7 @@ UnitCalibration calibrate(const std::vector<CalibrationCloud>& clouds, const Cal
     const Plane guess = desk_of(cloud, read.points, options, result.scale);
     auto desk = desk_view({&read.points, 1}, guess, result.scale);
     if (!desk) throw Error(cloud.file.string(), "no desk found: it covers fewer than 20 squares of 16 pixels");
+    require_possible_depth(*desk, result.scale, cloud.file);
     noise.add(read.points, read.height > 1 ? read.width : 1, desk->plane, result.scale);
     readings.push_back({std::move(*desk), cloud.time_s});
     progress.step();

@@ -284,6 +284,21 @@ TEST_F(CaptureCommand, NothingOfAnotherCaptureStays) {
   EXPECT_EQ(read_text(out / "frame_0002/notes.txt"), "mine");
 }
 
+TEST_F(CaptureCommand, AFolderOfSomebodyElseIsLeftAlone) {
+  std::filesystem::create_directories(folder_ / "mine");
+  write_text(folder_ / "mine/cloud.pcd", "mine");
+  const std::string command =
+      fmt::format("capture {} -o {} --mode geometric", scene_.string(), (folder_ / "mine").string());
+  EXPECT_EQ(run_fathom(command).err,
+            fmt::format("error: {}: is there already; choose another folder\n", (folder_ / "mine/cloud.pcd").string()));
+  EXPECT_EQ(read_text(folder_ / "mine/cloud.pcd"), "mine");
+  std::filesystem::remove(folder_ / "mine/cloud.pcd");
+  write_text(folder_ / "mine/manifest.jsonl", "{\"command\": \"campaign\"}\n");
+  EXPECT_EQ(run_fathom(command).err, fmt::format("error: {}: is of another command; choose another folder\n",
+                                                 (folder_ / "mine/manifest.jsonl").string()));
+  EXPECT_EQ(read_text(folder_ / "mine/manifest.jsonl"), "{\"command\": \"campaign\"}\n");
+}
+
 TEST_F(CaptureCommand, AFolderThatAnotherProcessWritesIsLeftAlone) {
   const std::filesystem::path out = capture("out", "--mode geometric");
   const auto written = std::filesystem::last_write_time(out / "run.json");

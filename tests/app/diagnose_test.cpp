@@ -362,14 +362,12 @@ TEST_F(DiagnoseCommand, LeavesNothingOfAnOlderDiagnosisAndAllThatIsNotOfOne) {
 TEST_F(DiagnoseCommand, InAMeasurementsFolderItLeavesWhatWasMeasured) {
   write_heights(folder / "campaign", {"water"});
   ASSERT_EQ(run_fathom("measure " + path("campaign")).exit_code, 0);
-  const std::string rows =
-      "frame,session,pour,placement,trial,time_s,liquid,fill_mm,distance_mm,lateral_mm,cloud,height_mm\n"
-      "0,0,0,0,0,0,water,20,200,0,,13.2\n";
-  write_text(folder / "campaign" / "frames.csv", rows);
-  const std::string heights = read_text(folder / "campaign" / "heights.csv");
-  EXPECT_EQ(diagnosis("campaign")["verdict"], "insufficient");
-  EXPECT_EQ(read_text(folder / "campaign" / "frames.csv"), rows);
-  EXPECT_EQ(read_text(folder / "campaign" / "heights.csv"), heights);
+  const auto before = files_in(folder / "campaign");
+  const ProgramRun run = run_fathom(fmt::format("diagnose {0} -o {0}", path("campaign")));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.err, "error: " + path("campaign/heights.csv") +
+                         ": is there already, and of no diagnosis; choose another folder\n");
+  EXPECT_EQ(files_in(folder / "campaign"), before);
 }
 
 // Whoever finds report.json finds one diagnosis, the older or the newer.

@@ -368,10 +368,9 @@ TEST_F(MeasurementFolder, MistakesGetOneLineEach) {
   expect_refused("0,0,0.5,0,0,0,water,0,300,0,clouds/a.pcd\n",
                  "line 2, column 'pour': must be a whole number from 0, got '0.5'");
   expect_refused("0,0,0,0,0,0,water,0,300,0,clouds/none.pcd\n", "line 2, column 'cloud': there is no file ");
-  expect_refused(
-      "0,0,0,0,0,0,water,20,0.3,0,clouds/a.pcd\n",
-      "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json, 650 mm high "
-      "and pitched down by 58.4 degrees, sees the cup, got '0.3'");
+  expect_refused("0,0,0,0,0,0,water,20,0.3,0,clouds/a.pcd\n",
+                 "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor, 650 mm high "
+                 "and pitched down by 58.4 degrees, sees the cup, got '0.3'");
   expect_refused("0,0,0,0,0,0,water,200,300,0,clouds/a.pcd\n",
                  "line 2, column 'fill_mm': must be from 0 to 80, the depth of the cup, got '200'");
   expect_refused("0,0,0,0,0,0,water,20,300,0,,nan\n", "line 2, column 'height_mm': must be a finite number, got 'nan'",
@@ -413,10 +412,10 @@ TEST_F(MeasurementFolder, RowsMustBePossible) {
       {"0,0,0,0,0,0,none,20,0,0,,", "line 2, column 'fill_mm': must be 0 where the liquid is none, got '20'"},
       {"0,0,0,0,0,0,empty,20,300,0,,7", "line 2, column 'fill_mm': must be 0 where the liquid is empty, got '20'"},
       {"0,0,0,0,0,0,water,20,30,0,,15",
-       "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor of rig.json, 650 mm high "
+       "line 2, column 'distance_mm': must be in mm and, with lateral_mm 0, where the sensor, 650 mm high "
        "and pitched down by 58.4 degrees, sees the cup, got '30'"},
       {"0,0,0,0,0,0,water,20,300,-5000,,15",
-       "line 2, column 'distance_mm': must be in mm and, with lateral_mm -5000, where the sensor of rig.json, 650 mm "
+       "line 2, column 'distance_mm': must be in mm and, with lateral_mm -5000, where the sensor, 650 mm "
        "high and pitched down by 58.4 degrees, sees the cup, got '300'"},
       {"0,0,0,0,0,0,water,20,300,0,,1.5",
        "line 2, column 'height_mm': must be in mm above the desk, from 1.75 to 92 in this cup, got '1.5'"},

@@ -84,6 +84,28 @@ TEST(Hygiene, APourThatIsFarOffIsNamedWithItsSessionAndAgainstTheModel) {
             "+0.0 mm off: another cup or filling?");
 }
 
+TEST(Hygiene, AReadingThatStandsAloneIsNamed) {
+  Evidence evidence;
+  evidence.predicted = Eigen::VectorXd::Constant(4, 12.0);
+  for (const double value : {12.2, 12.1, -12.0, 12.4}) {
+    Observation observation;
+    observation.observable = "height_mm";
+    observation.value = value;
+    observation.factors.region = "interior";
+    observation.factors.liquid = "water";
+    observation.factors.fill_mm = 20.0;
+    observation.factors.distance_mm = 250.0;
+    evidence.observations.push_back(observation);
+  }
+  const auto found = warnings(evidence);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0],
+            "one reading of water 20 mm (session 0, pour 0, 250 mm away) is -24.0 mm off what the model has, where the "
+            "other 3 are +0.1 to +0.4 mm off: a typing error?");
+  evidence.observations[0].value = 0.0;  // where more scatter, none stands alone
+  EXPECT_TRUE(warnings(evidence).empty());
+}
+
 /// Walls of four cups that stand so far beside their places.
 Evidence cups_beside(double x_mm, double y_mm) {
   Evidence evidence;
