@@ -74,10 +74,7 @@ class CaptureFolder {
  public:
   CaptureFolder(const fs::path& folder, const RunIdentity& identity, int frames, std::vector<std::string> names)
       : folder_(folder), owner_(folder), manifest_(folder, identity), frames_(frames), names_(std::move(names)) {
-    std::vector<std::string> written{"run.json", "truth.exr"};
-    for (int number = 0; number < frames_; ++number)
-      for (const std::string& name : names_) written.push_back(noted(number, name));
-    manifest_.require_same_command(written);
+    manifest_.require_same_command(capture_names(folder_));
     if (manifest_.difference()) remove_capture(folder_);
     fs::remove(folder_ / kRecord);
     manifest_.begin();

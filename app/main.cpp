@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <span>
@@ -132,6 +133,8 @@ int main(int argc, char** argv) {
     return bad_usage(problem.what());
   } catch (const std::bad_alloc&) {
     fathom::print_error("out of memory");
+  } catch (const std::filesystem::filesystem_error& problem) {
+    fathom::print_error(problem.path1().string() + ": " + problem.code().message());
   } catch (const std::exception& problem) {
     fathom::print_error(problem.what());
   }

@@ -57,15 +57,15 @@ void run_measure(const std::filesystem::path& folder, const CommonOptions& commo
     frames.set(row, "height_sd_mm", fmt::format("{:.4f}", mm_from_metres(height.sd_m)));
     frames.set(row, "points", fmt::format("{}", height.points));
   }
-  const std::filesystem::path output = common.output.empty() ? folder : common.output;
-  const FolderOwner owner(output);
-  write_table(output / "heights.csv", frames);
   for (const auto& [reason, numbers] : frames_without) warn(reason, numbers);
-  if (std::all_of(records.begin(), records.end(), [](const FrameRecord& record) { return record.cloud.empty(); }))
-    print_note("frames.csv names no clouds: heights.csv has the heights that stand there already");
   if (clouds > 0 && measured == 0)
     throw Error(folder.string(),
                 "none of its clouds has a height in the cup: does rig.json say how the sensor stands?");
+  const std::filesystem::path output = common.output.empty() ? folder : common.output;
+  const FolderOwner owner(output);
+  write_table(output / "heights.csv", frames);
+  if (std::all_of(records.begin(), records.end(), [](const FrameRecord& record) { return record.cloud.empty(); }))
+    print_note("frames.csv names no clouds: heights.csv has the heights that stand there already");
   print_text(format_rows(
       {{"clouds_with_cup", static_cast<double>(clouds), ""}, {"heights_measured", static_cast<double>(measured), ""}},
       common.json));

@@ -200,6 +200,8 @@ CampaignSpec read_campaign_spec(const std::filesystem::path& path) {
   read_fields(json, spec_fields(), spec);
   if (spec.fillings.empty() && spec.bare_desk_views == 0)
     json.fail_at("fillings", "must hold at least one filling, where there are no bare_desk_views");
+  const Json rig = json_from_laboratory_rig(spec.nominal);
+  laboratory_rig_from_json(JsonReader(rig, path.string() + ": its rig.json"));  // which will be read back
   if (spec.fillings.empty()) return spec;
   for (const double distance : spec.distances)
     for (const double lateral : spec.laterals)

@@ -112,7 +112,8 @@ void Manifest::require_same_run(std::span<const std::string> names) const {
 }
 
 void Manifest::require_same_command(std::span<const std::string> names) const {
-  if (exists_ && !is_same_command_) throw Error(path_.string(), "is of another command; choose another folder");
+  if (exists_ && !is_same_command_)
+    throw Error(path_.string(), "is of another command, or damaged; choose another folder");
   if (exists_) return;
   for (const std::string& name : names)
     if (fs::exists(folder_ / name)) throw Error((folder_ / name).string(), "is there already; choose another folder");

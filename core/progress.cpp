@@ -101,7 +101,11 @@ void Progress::show() const {
   if (total_ > 1) text += fmt::format(" {}/{}", done_, total_);
   if (done_ > 0 && done_ < total_) {
     const double rate = static_cast<double>(done_) / seconds;
-    text += fmt::format("  {:.2g}/s  {:.0f} s left", rate, static_cast<double>(total_ - done_) / rate);
+    text += fmt::format("  {:.{}f}/s  {:.0f} s left", rate,
+                        rate < 0.1    ? 4
+                        : rate < 10.0 ? 2
+                                      : 0,
+                        static_cast<double>(total_ - done_) / rate);
   } else {
     text += fmt::format("  {:.0f} s", seconds);
   }

@@ -31,10 +31,6 @@ double paper_height(const Rig& rig, const PixelRays& rays) {
                                                          from_middle.head<2>().norm(), liquid->medium.n});
 }
 
-PathKind path_of(const SeenPoint& seen) {
-  return seen.entered ? PathKind::scattered : seen.refracted ? PathKind::refracted : PathKind::direct;
-}
-
 /// Fills one row; returns its bends.
 std::vector<BentPixel> trace_row(const Rig& rig, const PointLight& projector, int row, PixelTable& table) {
   std::vector<BentPixel> bent;

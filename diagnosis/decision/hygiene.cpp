@@ -136,8 +136,8 @@ void check_other_cup(const Evidence& evidence, std::vector<std::string>& warning
 
 /// A height of a table that stands alone: all others of its liquid and fill lie together, far from it.
 void check_single_readings(const Evidence& evidence, std::vector<std::string>& warnings) {
-  constexpr std::size_t kFewest = 3;
-  constexpr double kAlone = 4.0;  // times as far from the others as these lie apart
+  constexpr std::size_t kFewest = 4;
+  constexpr double kAlone = 10.0;  // times as far from the others as these lie apart: one normal sample of four in 500
   const Eigen::VectorXd off = measured_minus_predicted(evidence);
   const Groups fillings = group_by(evidence.observations, [](const Observation& o) {
     const bool is_of_table = o.observable == "height_mm" && o.factors.region == "interior";
@@ -160,12 +160,18 @@ void check_single_readings(const Evidence& evidence, std::vector<std::string>& w
   }
 }
 
+/// Heights that are all the same number, where the model has them differ.
 void check_all_alike(const Evidence& evidence, std::vector<std::string>& warnings) {
-  std::vector<double> heights_mm;
-  for (const Observation& o : evidence.observations)
-    if (is_height(o)) heights_mm.push_back(o.value);
-  if (heights_mm.size() >= kFewestTwins &&
-      std::ranges::count(heights_mm, heights_mm.front()) == static_cast<std::ptrdiff_t>(heights_mm.size()))
+  constexpr double kDiffer_mm = 3.0;
+  std::vector<double> heights_mm, predicted_mm;
+  for (std::size_t i = 0; i < evidence.observations.size(); ++i)
+    if (is_height(evidence.observations[i])) {
+      heights_mm.push_back(evidence.observations[i].value);
+      predicted_mm.push_back(evidence.predicted[static_cast<Eigen::Index>(i)]);
+    }
+  if (heights_mm.size() < kFewestTwins) return;
+  const auto [lowest, highest] = std::ranges::minmax(predicted_mm);
+  if (highest - lowest > kDiffer_mm && std::ranges::all_of(heights_mm, [&](double h) { return h == heights_mm[0]; }))
     warnings.push_back(fmt::format("all {} heights are {:g} mm: is this column another quantity?", heights_mm.size(),
                                    heights_mm.front()));
 }

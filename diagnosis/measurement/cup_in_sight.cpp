@@ -75,8 +75,8 @@ double pixels_in_sight(const Eigen::Vector2d& cup, double fill, const Laboratory
 }
 
 bool is_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
-  constexpr double kNear = 0.15, kNear_m = 0.1;
-  if (cup.y() < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m)) return false;
+  constexpr double kNear = 0.15, kNear_m = 0.1, kRounding_m = 1e-9;
+  if (cup.y() < std::min(kNear * rig.height_m / std::tan(rig.pitch_rad), kNear_m) - kRounding_m) return false;
   return share_in_image(cup, rig) > 0.0;
 }
 

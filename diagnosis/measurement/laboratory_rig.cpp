@@ -194,7 +194,10 @@ Json cup_json_of(const LaboratoryRig& rig) {
 
 LaboratoryRig read_rig(const std::filesystem::path& path) {
   const Json value = read_json(path);
-  const JsonReader json(value, path.string());
+  return laboratory_rig_from_json(JsonReader(value, path.string()));
+}
+
+LaboratoryRig laboratory_rig_from_json(const JsonReader& json) {
   LaboratoryRig rig;
   read_fields(json, rig_fields(), rig);
   constexpr double kLeastInside = 0.005;  // [m]

@@ -74,6 +74,7 @@ Json cup_json_of(const LaboratoryRig& rig);
 /// Throws Error on unknown, missing or impossible values. Only sensor.model, sensor.height_mm, sensor.pitch_deg, cup
 /// and liquids must be there. A cup is one of scenes/cups by `shape`, or described by its profiles or its lengths.
 /// Lengths beside a cup of scenes/cups stand for those of its own if it is straight, else they must be the same.
+LaboratoryRig laboratory_rig_from_json(const JsonReader& json);
 LaboratoryRig read_rig(const std::filesystem::path& path);
 
 /// rig.json, as read_rig reads it, with numbers to a millionth.

@@ -21,7 +21,9 @@ std::vector<SensedPoint> sensed_points(const Cloud& cloud, const LaboratoryRig& 
     if (is_measured(cloud.points[i]))
       points.push_back({cloud.points[i], cloud.intensity.empty() ? 0.0f : cloud.intensity[i]});
   // An image of another size may be thinned, or cut out.
-  if (cloud.height <= 1 || cloud.width != static_cast<int>(kImageWidth_px)) weigh_by_sampling(points, rig.focal_px);
+  const bool is_whole_image =
+      cloud.width == static_cast<int>(kImageWidth_px) && cloud.height == static_cast<int>(kImageHeight_px);
+  if (!is_whole_image) weigh_by_sampling(points, rig.focal_px);
   return points;
 }
 

@@ -6,11 +6,12 @@
 #include "sim/render/radiance.h"
 
 namespace fathom {
-namespace {
 
 PathKind path_of(const SeenPoint& seen) {
   return seen.entered ? PathKind::scattered : seen.refracted ? PathKind::refracted : PathKind::direct;
 }
+
+namespace {
 
 /// The pixels from (x, y) on to the right.
 void trace_packet(const PointLight& projector, const Rig& rig, int x, int y, std::span<TruePixel> pixels) {

@@ -13,6 +13,7 @@ namespace fathom {
 
 /// How a pixel sees its point; the codes of truth.exr's channel `path`.
 enum class PathKind : std::uint8_t { nothing = 0, direct = 1, refracted = 2, scattered = 3 };
+PathKind path_of(const SeenPoint& seen);
 
 /// As small as may be: a frame has 300,000, and every pass over them takes as long as reading them does.
 struct TruePixel {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
 #include "core/json.h"
 
 namespace fathom {
@@ -73,10 +74,12 @@ std::vector<std::string> doubts_of_lengths(const Json& scene) {
 
 std::vector<std::string> scene_doubts(const Setup& setup) {
   std::vector<std::string> sentences = doubts_of_lengths(setup.source);
+  std::vector<std::string> outside;
   for (std::size_t i = 0; i < setup.scene.cups.size(); ++i)
-    if (!is_in_image(setup.rig, setup.scene.cups[i]))
-      sentences.push_back(
-          fmt::format("/cups/{}: is outside the camera's image; /sensor/aim_mm says where it looks", i));
+    if (!is_in_image(setup.rig, setup.scene.cups[i])) outside.push_back(fmt::format("/cups/{}", i));
+  if (!outside.empty())
+    sentences.push_back(fmt::format("{}: {} outside the camera's image; /sensor/aim_mm says where it looks",
+                                    name_list(outside), outside.size() > 1 ? "are" : "is"));
   return sentences;
 }
 

@@ -46,6 +46,14 @@ bool is_frame_folder(const std::string& name) {
          name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
 }
 
+std::vector<std::filesystem::path> frame_folders(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> frames;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_directory() && !entry.is_symlink() && is_frame_folder(entry.path().filename().string()))
+      frames.push_back(entry.path());
+  return frames;
+}
+
 /// The numbers of objects that occur in the truth: first on the pixels' rays, and finally.
 Json numbers_in_sight(const Image<TruePixel>& truth) {
   std::set<int> first, finally;
@@ -96,22 +104,25 @@ std::vector<std::string> frame_files(bool infrared, bool device_outputs) {
   return names;
 }
 
+std::vector<std::string> capture_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names = frame_files(true, true);
+  names.insert(names.begin(), {"run.json", "truth.exr", kSceneFiles});
+  for (const std::filesystem::path& frame : frame_folders(folder)) names.push_back(frame.filename().string());
+  return names;
+}
+
 void remove_capture(const std::filesystem::path& folder) {
-  const bool is_ours = std::filesystem::exists(folder / "manifest.jsonl");
-  for (const char* name : {"run.json", "manifest.jsonl", "truth.exr"}) std::filesystem::remove(folder / name);
+  for (const char* name : {"run.json", "truth.exr"}) std::filesystem::remove(folder / name);
   for (const std::string& name : frame_files(true, true)) std::filesystem::remove(folder / name);
   remove_view_page(folder);
-  if (is_ours) std::filesystem::remove_all(folder / kSceneFiles);
-  std::vector<std::filesystem::path> frames;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_directory() && !entry.is_symlink() && is_frame_folder(entry.path().filename().string()))
-      frames.push_back(entry.path());
-  for (const std::filesystem::path& frame : frames) {
+  for (const std::filesystem::path& frame : frame_folders(folder)) {
     remove_leftovers(frame);
-    remove_capture(frame);
+    for (const std::string& name : frame_files(true, true)) std::filesystem::remove(frame / name);
     std::error_code not_empty;  // somebody else's files stay
     std::filesystem::remove(frame, not_empty);
   }
+  std::filesystem::remove_all(folder / kSceneFiles);
+  std::filesystem::remove(folder / "manifest.jsonl");  // last: with it a run that is killed here can go on
 }
 
 std::filesystem::path frame_folder(const std::filesystem::path& folder, int frame, int frames) {

@@ -18,7 +18,10 @@ inline constexpr int kMostFrames = 100000;
 /// Names of a frame's files, in the order in which they are written.
 std::vector<std::string> frame_files(bool infrared, bool device_outputs);
 
-/// Removes what an earlier capture left in the folder, run.json first: while it is there the folder counts as complete.
+/// Names that captures have in a folder, and those of the folders of frames that stand there.
+std::vector<std::string> capture_names(const std::filesystem::path& folder);
+
+/// Removes what an earlier capture left in its folder, run.json first: while it is there the folder counts as complete.
 /// For the folder's owner.
 void remove_capture(const std::filesystem::path& folder);
 

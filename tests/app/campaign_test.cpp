@@ -55,6 +55,17 @@ TEST_F(CampaignCommand, WritesWhatMeasureReads) {
     EXPECT_NEAR(heights.number(row, "height_mm"), expected[row], row < 4 ? 0.3 : 0.8) << row;
 }
 
+TEST_F(CampaignCommand, TheRigHasTheFocalLengthAt640ColumnsAndACupBelowTheSensorIsInSight) {
+  Json spec = kSpec;
+  spec["sensor"] = {{"model", "xtion_pro_live"},   {"height_mm", 650},
+                    {"aim_mm", {0, 0, 0}},         {"ir_size_px", {640, 512}},
+                    {"depth_size_px", {320, 240}}, {"focal_px", 285.0}};
+  spec["distance_mm"] = {0};
+  const ProgramRun run = campaign(spec, "out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_DOUBLE_EQ(read_json(folder / "out/rig.json")["sensor"]["focal_px"].get<double>(), 570.0);
+}
+
 TEST_F(CampaignCommand, TheRigSaysHowTheSensorStandsAndHowWideTheCupIsAtOneHeight) {
   Json spec = kSpec;
   spec["sensor"] = {{"model", "xtion_pro_live"}, {"height_mm", 650}, {"pitch_deg", 58.4}, {"roll_deg", 5}};
@@ -315,6 +326,11 @@ TEST_F(CampaignCommand, MistakesNameFileAndKey) {
     return spec;
   };
   EXPECT_EQ(error_of(with("/trails", 3)).rfind("/trails: ", 0), 0u);
+  EXPECT_EQ(
+      error_of(with("/distance_mm", {30, 40})),
+      "/distance_mm: must be in mm and, with lateral_mm 0, where the sensor, 650 mm high and pitched down by 58.39 "
+      "degrees, sees the cup, got 30\n");
+  EXPECT_EQ(error_of(with("/sensor/baseline_mm", 5)).rfind("its rig.json: /sensor/baseline_mm: ", 0), 0u);
   EXPECT_EQ(error_of(with("/trials", 0)).rfind("/trials: must be ", 0), 0u);
   EXPECT_EQ(error_of(with("/fillings/1/liquid", "wtaer")),
             "/fillings/1/liquid: unknown liquid 'wtaer', choose from empty, water; did you mean 'water'?\n");

@@ -284,6 +284,16 @@ TEST_F(CaptureCommand, NothingOfAnotherCaptureStays) {
   EXPECT_EQ(read_text(out / "frame_0002/notes.txt"), "mine");
 }
 
+/// A kill while an older capture is cleared away leaves its manifest, with which the next run goes on.
+TEST_F(CaptureCommand, WhatIsHalfClearedAwayIsCleared) {
+  const std::filesystem::path out = capture("out", "--mode geometric --frames 3");
+  std::filesystem::remove(out / "run.json");
+  std::filesystem::remove(out / "frame_0000/cloud.pcd");
+  capture("out", "--mode geometric --frames 2");
+  EXPECT_TRUE(std::filesystem::exists(out / "frame_0000/cloud.pcd"));
+  EXPECT_FALSE(std::filesystem::exists(out / "frame_0002"));
+}
+
 TEST_F(CaptureCommand, AFolderOfSomebodyElseIsLeftAlone) {
   std::filesystem::create_directories(folder_ / "mine");
   write_text(folder_ / "mine/cloud.pcd", "mine");
@@ -293,9 +303,14 @@ TEST_F(CaptureCommand, AFolderOfSomebodyElseIsLeftAlone) {
             fmt::format("error: {}: is there already; choose another folder\n", (folder_ / "mine/cloud.pcd").string()));
   EXPECT_EQ(read_text(folder_ / "mine/cloud.pcd"), "mine");
   std::filesystem::remove(folder_ / "mine/cloud.pcd");
+  std::filesystem::create_directories(folder_ / "mine/frame_0007");
+  EXPECT_EQ(run_fathom(command).err, fmt::format("error: {}: is there already; choose another folder\n",
+                                                 (folder_ / "mine/frame_0007").string()));
+  std::filesystem::remove(folder_ / "mine/frame_0007");
   write_text(folder_ / "mine/manifest.jsonl", "{\"command\": \"campaign\"}\n");
-  EXPECT_EQ(run_fathom(command).err, fmt::format("error: {}: is of another command; choose another folder\n",
-                                                 (folder_ / "mine/manifest.jsonl").string()));
+  EXPECT_EQ(run_fathom(command).err,
+            fmt::format("error: {}: is of another command, or damaged; choose another folder\n",
+                        (folder_ / "mine/manifest.jsonl").string()));
   EXPECT_EQ(read_text(folder_ / "mine/manifest.jsonl"), "{\"command\": \"campaign\"}\n");
 }
 

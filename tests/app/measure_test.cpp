@@ -109,5 +109,13 @@ TEST_F(MeasureCommand, MistakesNameTheLineAndTheColumn) {
                 ": must be in metres: most of its points lie more than 50 away\n");
 }
 
+TEST_F(MeasureCommand, WithoutAnyHeightItFailsAndKeepsWhatItHad) {
+  write_text(folder / "heights.csv", "mine");
+  const ProgramRun run = measure("0,0,0,0,0,0,empty,0,250,-37.5,clouds/empty.pcd\n");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("none of its clouds has a height in the cup"), std::string::npos) << run.err;
+  EXPECT_EQ(read_text(folder / "heights.csv"), "mine");
+}
+
 }  // namespace measure_test
 }  // namespace fathom

@@ -48,8 +48,8 @@ TEST_F(Warnings, ACupThatTheCameraDoesNotSeeIsNamed) {
           {"position_mm": [0, -200], "shape": "paper_cup"}]})");
   const ProgramRun run = shot(scene);
   EXPECT_EQ(run.exit_code, 0);
-  const std::string aim = ": is outside the camera's image; /sensor/aim_mm says where it looks\n";
-  EXPECT_EQ(run.err, "warning: " + scene + ": /cups/1" + aim + "warning: " + scene + ": /cups/2" + aim);
+  EXPECT_EQ(run.err, "warning: " + scene +
+                         ": /cups/1, /cups/2: are outside the camera's image; /sensor/aim_mm says where it looks\n");
 }
 
 TEST_F(Warnings, ACloudInMillimetresIsNamed) {

@@ -1,5 +1,6 @@
 #include "core/json.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/files.h"
@@ -101,6 +102,16 @@ TEST(Json, AnErrorAboutANameWithANulSaysWhatIsWrong) {
   const Json json = Json::parse(R"({"a\u0000b": 1})");
   expect_error([&] { JsonReader(json, "scene.json").allow_only({"a"}); },
                {R"(scene.json: /a\u0000b: unknown key 'a\u0000b', choose from a)"});
+}
+
+TEST(Json, AnObjectOfTooManyKeysIsRefusedAtOnce) {
+  const TemporaryFolder folder;
+  std::string text = "{";
+  for (int key = 0; key < 30'000; ++key) text += fmt::format("\"{}\":0,", key);
+  text.back() = '}';
+  write_text(folder / "many.json", text);
+  expect_error([&] { read_json(folder / "many.json"); },
+               {"many.json: has objects of so many keys that reading them would take minutes"});
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/measurement/sensed_frame.h"
+
 namespace fathom {
 namespace sampling_test {
 
@@ -30,6 +32,22 @@ TEST(Sampling, PointsStandForTheAreaAroundThem) {
     double pixels = 0.0;
     for (const SensedPoint& sensed : points) pixels += sensed.weight;
     EXPECT_NEAR(pixels / (640.0 * 480.0), 1.0, 0.03) << inside << " " << outside;  // of the border between the two
+  }
+}
+
+/// An organised cloud need not have every column and row of the image. (Thinned in one direction alone it counts for
+/// too little.)
+TEST(Sampling, PixelsOfThinnedImagesStandForMore) {
+  for (const auto& [across, down] : {std::pair{2, 2}, {3, 3}}) {
+    Cloud cloud;
+    cloud.width = 640 / across, cloud.height = 480 / down;
+    for (int row = 0; row < cloud.height; ++row)
+      for (int column = 0; column < cloud.width; ++column)
+        cloud.points.push_back(
+            (Eigen::Vector3d(column * across - 319.5, row * down - 239.5, kFocal_px) / kFocal_px).cast<float>());
+    double pixels = 0.0;
+    for (const SensedPoint& sensed : sensed_points(cloud, LaboratoryRig{})) pixels += sensed.weight;
+    EXPECT_NEAR(pixels / (640.0 * 480.0), 1.0, 0.03) << across << " " << down;
   }
 }
 

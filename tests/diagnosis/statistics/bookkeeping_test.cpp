@@ -106,6 +106,21 @@ TEST(Hygiene, AReadingThatStandsAloneIsNamed) {
   EXPECT_TRUE(warnings(evidence).empty());
 }
 
+TEST(Hygiene, HeightsThatAreAllAlikeAreNamedWhereTheyShouldDiffer) {
+  Evidence evidence;
+  for (int i = 0; i < 4; ++i) {
+    Observation observation;
+    observation.observable = "height_mm";
+    observation.value = 20.0;
+    observation.factors.liquid = "water";
+    evidence.observations.push_back(observation);
+  }
+  evidence.predicted = Eigen::Vector4d(20.1, 20.0, 20.0, 20.1);
+  EXPECT_TRUE(warnings(evidence).empty());
+  evidence.predicted = Eigen::Vector4d(17.0, 19.0, 21.0, 22.0);
+  EXPECT_EQ(warnings(evidence), std::vector<std::string>{"all 4 heights are 20 mm: is this column another quantity?"});
+}
+
 /// Walls of four cups that stand so far beside their places.
 Evidence cups_beside(double x_mm, double y_mm) {
   Evidence evidence;
