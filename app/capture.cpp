@@ -75,7 +75,10 @@ class CaptureFolder {
   CaptureFolder(const fs::path& folder, const RunIdentity& identity, int frames, std::vector<std::string> names)
       : folder_(folder), owner_(folder), manifest_(folder, identity), frames_(frames), names_(std::move(names)) {
     manifest_.require_same_command(capture_names(folder_));
-    if (manifest_.difference()) remove_capture(folder_);
+    if (manifest_.difference()) {
+      manifest_.forget_files();
+      remove_capture(folder_);
+    }
     fs::remove(folder_ / kRecord);
     manifest_.begin();
   }

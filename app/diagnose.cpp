@@ -141,6 +141,7 @@ void remove_diagnosis(const fs::path& folder) {
 
 void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
   require_gnuplot();
+  require_own_tables(common.output);
   const Json earlier = options.model.empty() ? Json() : read_json(options.model);
   const DiagnosisInput input = read_diagnosis_input({.folders = options.folders,
                                                      .model = options.model,
@@ -149,7 +150,6 @@ void run_diagnose(const DiagnoseOptions& options, const CommonOptions& common) {
                                                      .seed = common.seed},
                                                     common.quiet);
   const FolderOwner owner(common.output);  // what cannot be written shows before the long work
-  require_own_tables(common.output);
   const WholeDiagnosis whole = diagnose(input, common.quiet);
   std::vector<std::string> names;
   for (const fs::path& folder : options.folders) names.push_back(folder.lexically_normal().string());

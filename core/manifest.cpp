@@ -119,6 +119,11 @@ void Manifest::require_same_command(std::span<const std::string> names) const {
     if (fs::exists(folder_ / name)) throw Error((folder_ / name).string(), "is there already; choose another folder");
 }
 
+void Manifest::forget_files() const {
+  const std::string text = read_text(path_);
+  write_text(path_, text.substr(0, text.find('\n')) + '\n');
+}
+
 void Manifest::begin() {
   finish();
   exists_ = true;

@@ -40,6 +40,9 @@ class Manifest {
   /// The same where another run of this command may be written over.
   void require_same_command(std::span<const std::string> names) const;
 
+  /// Notes no file any more, under the identity that stands there: the files of that run may go. A run that is killed
+  /// before begin() finds another's manifest again.
+  void forget_files() const;
   /// Writes the identity and the files that are noted so far: none, where there was a difference. Call before add().
   void begin();
   /// Whether this file was noted and stands in the folder with the same bytes.

@@ -140,7 +140,7 @@ void check_single_readings(const Evidence& evidence, std::vector<std::string>& w
   constexpr double kAlone = 10.0;  // times as far from the others as these lie apart: one normal sample of four in 500
   const Eigen::VectorXd off = measured_minus_predicted(evidence);
   const Groups fillings = group_by(evidence.observations, [](const Observation& o) {
-    const bool is_of_table = o.observable == "height_mm" && o.factors.region == "interior";
+    const bool is_of_table = is_height(o) && o.factors.region == "interior";
     return is_of_table ? fmt::format("{} {:g}", o.factors.liquid, o.factors.fill_mm) : std::string();
   });
   for (std::vector<Eigen::Index> rows : fillings.members()) {

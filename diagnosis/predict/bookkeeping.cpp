@@ -137,7 +137,8 @@ void correct(const Reading& reading, Measurement& measurement) {
   }
 }
 
-/// Walls were looked for above the fills as written: what stands higher than that has been taken for some.
+/// Walls were looked for above the fills as written and above what is seen, which of a clear liquid is not its surface:
+/// what stands higher has been taken for some.
 void leave_out_walls_below(const Reading& reading, Measurement& measurement) {
   const CupProfile& cup = measurement.rig.cup;
   const auto from = [&](const Factors& f) { return inner_wall_above(cup, cup.bottom() + metres_from_mm(f.fill_mm)); };

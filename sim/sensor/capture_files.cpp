@@ -122,7 +122,6 @@ void remove_capture(const std::filesystem::path& folder) {
     std::filesystem::remove(frame, not_empty);
   }
   std::filesystem::remove_all(folder / kSceneFiles);
-  std::filesystem::remove(folder / "manifest.jsonl");  // last: with it a run that is killed here can go on
 }
 
 std::filesystem::path frame_folder(const std::filesystem::path& folder, int frame, int frames) {

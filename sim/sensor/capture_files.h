@@ -21,8 +21,8 @@ std::vector<std::string> frame_files(bool infrared, bool device_outputs);
 /// Names that captures have in a folder, and those of the folders of frames that stand there.
 std::vector<std::string> capture_names(const std::filesystem::path& folder);
 
-/// Removes what an earlier capture left in its folder, run.json first: while it is there the folder counts as complete.
-/// For the folder's owner.
+/// Removes what an earlier capture left in its folder but for the manifest, run.json first: while it is there the
+/// folder counts as complete. For the folder's owner.
 void remove_capture(const std::filesystem::path& folder);
 
 /// Where the frame of that number lies: in the folder itself when it is the only one, else in frame_0000 …

@@ -127,6 +127,15 @@ TEST_F(KilledRun, SaysWhatPartsItFromAnotherRun) {
   expect_difference(run, "it had other options or files");
 }
 
+TEST_F(KilledRun, WhoseFilesAreClearedAwayIsStillAnother) {
+  RunIdentity run = kRun;
+  run.options["seed"] = 2;
+  again(run).forget_files();
+  EXPECT_TRUE(again(run).difference());
+  EXPECT_FALSE(again().difference());
+  EXPECT_FALSE(again().holds("a.pcd"));
+}
+
 TEST_F(KilledRun, IsTheSameWhereItsFilesWereMoved) {
   RunIdentity moved = kRun;
   moved.inputs = {{"/elsewhere/spec.json", sha256("spec")}, {"/elsewhere/cup.json", sha256("cup")}};

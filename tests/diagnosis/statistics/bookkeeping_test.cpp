@@ -65,18 +65,23 @@ TEST(Hygiene, SeesACopiedPlacement) {
                           [](const std::string& w) { return w.find("identical") != std::string::npos; }));
 }
 
-TEST(Hygiene, APourThatIsFarOffIsNamedWithItsSessionAndAgainstTheModel) {
+/// Heights of one filling of water, as measured and as predicted.
+Evidence water(double fill_mm, const Eigen::VectorXd& measured_mm, const Eigen::VectorXd& predicted_mm) {
   Evidence evidence;
-  evidence.predicted = Eigen::VectorXd::Constant(4, 12.0);
-  for (int session = 0; session < 4; ++session) {
-    Observation observation;
+  evidence.predicted = predicted_mm;
+  for (const double height_mm : measured_mm) {
+    Observation& observation = evidence.observations.emplace_back();
     observation.observable = "height_mm";
-    observation.value = session == 2 ? 33.5 : 12.0;
-    observation.factors.session = session;
+    observation.value = height_mm;
     observation.factors.liquid = "water";
-    observation.factors.fill_mm = 30.0;
-    evidence.observations.push_back(observation);
+    observation.factors.fill_mm = fill_mm;
   }
+  return evidence;
+}
+
+TEST(Hygiene, APourThatIsFarOffIsNamedWithItsSessionAndAgainstTheModel) {
+  Evidence evidence = water(30.0, Eigen::Vector4d(12.0, 12.0, 33.5, 12.0), Eigen::Vector4d::Constant(12.0));
+  for (int session = 0; session < 4; ++session) evidence.observations[session].factors.session = session;
   const auto found = warnings(evidence);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0],
@@ -85,18 +90,9 @@ TEST(Hygiene, APourThatIsFarOffIsNamedWithItsSessionAndAgainstTheModel) {
 }
 
 TEST(Hygiene, AReadingThatStandsAloneIsNamed) {
-  Evidence evidence;
-  evidence.predicted = Eigen::VectorXd::Constant(4, 12.0);
-  for (const double value : {12.2, 12.1, -12.0, 12.4}) {
-    Observation observation;
-    observation.observable = "height_mm";
-    observation.value = value;
-    observation.factors.region = "interior";
-    observation.factors.liquid = "water";
-    observation.factors.fill_mm = 20.0;
-    observation.factors.distance_mm = 250.0;
-    evidence.observations.push_back(observation);
-  }
+  Evidence evidence = water(20.0, Eigen::Vector4d(12.2, 12.1, -12.0, 12.4), Eigen::Vector4d::Constant(12.0));
+  for (Observation& observation : evidence.observations)
+    observation.factors.region = "interior", observation.factors.distance_mm = 250.0;
   const auto found = warnings(evidence);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0],
@@ -107,15 +103,7 @@ TEST(Hygiene, AReadingThatStandsAloneIsNamed) {
 }
 
 TEST(Hygiene, HeightsThatAreAllAlikeAreNamedWhereTheyShouldDiffer) {
-  Evidence evidence;
-  for (int i = 0; i < 4; ++i) {
-    Observation observation;
-    observation.observable = "height_mm";
-    observation.value = 20.0;
-    observation.factors.liquid = "water";
-    evidence.observations.push_back(observation);
-  }
-  evidence.predicted = Eigen::Vector4d(20.1, 20.0, 20.0, 20.1);
+  Evidence evidence = water(20.0, Eigen::Vector4d::Constant(20.0), Eigen::Vector4d(20.1, 20.0, 20.0, 20.1));
   EXPECT_TRUE(warnings(evidence).empty());
   evidence.predicted = Eigen::Vector4d(17.0, 19.0, 21.0, 22.0);
   EXPECT_EQ(warnings(evidence), std::vector<std::string>{"all 4 heights are 20 mm: is this column another quantity?"});
