@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <concepts>
-#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <span>
@@ -14,7 +13,6 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/json.h"
@@ -23,18 +21,106 @@
 
 namespace fathom {
 
+/// Millimetres that convert back to exactly this length; the nearest where no double does (one length in 44).
+double mm_that_read_back(double metres);
+
+namespace field_detail {
+
+KeyRow number_row(Range range, bool is_whole);
+KeyRow vector_row(Range range);
+KeyRow interval_row(Range range);
+KeyRow length_range_row();
+KeyRow choice_row(std::span<const std::string> names);
+KeyRow row_of(std::string_view schema, std::string_view allowed);
+Interval length_range_from_json(const JsonReader& json);
+
+/// A number, with what makes the program's unit of the file's, and back.
+template <class T>
+struct Number {
+  double T::*member;
+  double (*from_file)(double);
+  double (*to_file)(double);
+
+  void read(const JsonReader& json, Range range, T& object) const { object.*member = from_file(json.number(range)); }
+  Json write(const T& object) const { return to_file(object.*member); }
+  KeyRow row(Range range) const { return field_detail::number_row(range, false); }
+};
+
+/// A whole number.
+template <class T, std::integral I>
+struct Whole {
+  I T::*member;
+
+  void read(const JsonReader& json, Range range, T& object) const {
+    object.*member = static_cast<I>(json.integer(static_cast<int>(range.low), static_cast<int>(range.high)));
+  }
+  Json write(const T& object) const { return object.*member; }
+  KeyRow row(Range range) const { return field_detail::number_row(range, true); }
+};
+
+/// A pair [x, y].
+template <class T>
+struct Pair {
+  Eigen::Vector2d T::*member;
+
+  void read(const JsonReader& json, Range range, T& object) const { object.*member = json.vector2(range); }
+  Json write(const T& object) const { return {(object.*member).x(), (object.*member).y()}; }
+  KeyRow row(Range range) const { return field_detail::vector_row(range); }
+};
+
+/// A number, or a pair of such.
+template <class T>
+struct Ends {
+  Interval T::*member;
+
+  void read(const JsonReader& json, Range range, T& object) const { object.*member = json.interval(range); }
+  Json write(const T& object) const { return {(object.*member).low, (object.*member).high}; }
+  KeyRow row(Range range) const { return field_detail::interval_row(range); }
+};
+
+/// A text, left out where it is empty.
+template <class T>
+struct Text {
+  std::string T::*member;
+
+  void read(const JsonReader& json, Range, T& object) const { object.*member = json.text(); }
+  Json write(const T& object) const { return (object.*member).empty() ? Json() : Json(object.*member); }
+  KeyRow row(Range) const { return field_detail::row_of(R"({"type": "string"})", "a text"); }
+};
+
+}  // namespace field_detail
+
 /// A length that is metres in the program and millimetres in files.
 template <class T>
-struct Length {
-  double T::*metres;
+struct Length : field_detail::Number<T> {
+  explicit Length(double T::*metres) : field_detail::Number<T>{metres, metres_from_mm, mm_that_read_back} {}
 };
+
+/// A coefficient that is per metre in the program and per millimetre in files.
 template <class T>
-Length(double T::*) -> Length<T>;
+struct PerLength : field_detail::Number<T> {
+  explicit PerLength(double T::*per_metre)
+      : field_detail::Number<T>{per_metre, per_metre_from_per_mm, per_mm_from_per_metre} {}
+};
+
+/// An angle that is radians in the program and degrees in files.
+template <class T>
+struct Angle : field_detail::Number<T> {
+  explicit Angle(double T::*radians) : field_detail::Number<T>{radians, radians_from_deg, deg_from_radians} {}
+};
 
 /// A pair [x, y] of lengths, as Length.
 template <class T>
 struct Lengths {
   Eigen::Vector2d T::*metres;
+
+  void read(const JsonReader& json, Range range, T& object) const {
+    object.*metres = json.vector2(range) * kMetresPerMm;
+  }
+  Json write(const T& object) const {
+    return {mm_that_read_back((object.*metres).x()), mm_that_read_back((object.*metres).y())};
+  }
+  KeyRow row(Range range) const { return field_detail::vector_row(range); }
 };
 template <class T>
 Lengths(Eigen::Vector2d T::*) -> Lengths<T>;
@@ -44,25 +130,16 @@ template <class T>
 struct LengthRange {
   double T::*low;
   double T::*high;
+
+  void read(const JsonReader& json, Range, T& object) const {
+    const Interval range_mm = field_detail::length_range_from_json(json);
+    object.*low = metres_from_mm(range_mm.low), object.*high = metres_from_mm(range_mm.high);
+  }
+  Json write(const T& object) const { return {mm_that_read_back(object.*low), mm_that_read_back(object.*high)}; }
+  KeyRow row(Range) const { return field_detail::length_range_row(); }
 };
 template <class T>
 LengthRange(double T::*, double T::*) -> LengthRange<T>;
-
-/// A coefficient that is per metre in the program and per millimetre in files.
-template <class T>
-struct PerLength {
-  double T::*per_metre;
-};
-template <class T>
-PerLength(double T::*) -> PerLength<T>;
-
-/// An angle that is radians in the program and degrees in files.
-template <class T>
-struct Angle {
-  double T::*radians;
-};
-template <class T>
-Angle(double T::*) -> Angle<T>;
 
 /// One of some names.
 template <class T>
@@ -70,6 +147,10 @@ struct Choice {
   std::vector<std::string> names;
   std::size_t (*get)(const T&);
   void (*set)(T&, std::size_t);
+
+  void read(const JsonReader& json, Range, T& object) const { set(object, json.choice(names, json.key())); }
+  Json write(const T& object) const { return names.at(get(object)); }
+  KeyRow row(Range) const { return field_detail::choice_row(names); }
 };
 
 /// A member that is an enumeration; the names stand in the order of its values.
@@ -85,10 +166,18 @@ Choice<T> enum_choice(std::vector<std::string> names) {
 /// the key is left out.
 template <class T>
 struct Part {
-  void (*read)(const JsonReader&, T&);
-  Json (*write)(const T&);
+  void (*reader)(const JsonReader&, T&);
+  Json (*writer)(const T&);
   std::string_view schema = {};   ///< as JSON, or the place that it refers to; without one the field's range says all
   std::string_view allowed = {};  ///< for people, beside a schema
+
+  void read(const JsonReader& json, Range, T& object) const {
+    if (reader) reader(json, object);
+  }
+  Json write(const T& object) const { return writer ? writer(object) : Json(); }
+  KeyRow row(Range range) const {
+    return schema.empty() ? field_detail::number_row(range, false) : field_detail::row_of(schema, allowed);
+  }
 };
 
 /// A value that something else reads and nothing writes.
@@ -97,40 +186,80 @@ Part<T> unread(std::string_view schema, std::string_view allowed) {
   return {nullptr, nullptr, schema, allowed};
 }
 
-/// A field of a part of the object, in the way of Part: see field_of_part().
+namespace field_detail {
+
+/// The kind that a member's type stands for.
 template <class T>
-struct FieldOfPart {
-  std::function<void(const JsonReader&, T&)> read;
-  std::function<Json(const T&)> write;
-  KeyRow row;
-};
+Number<T> kind_of(double T::*member) {
+  return {member, [](double number) { return number; }, [](double number) { return number; }};
+}
+template <class T, std::integral I>
+Whole<T, I> kind_of(I T::*member) {
+  return {member};
+}
+template <class T>
+Pair<T> kind_of(Eigen::Vector2d T::*member) {
+  return {member};
+}
+template <class T>
+Ends<T> kind_of(Interval T::*member) {
+  return {member};
+}
+template <class T>
+Text<T> kind_of(std::string T::*member) {
+  return {member};
+}
+template <class Kind>
+Kind kind_of(Kind kind) {
+  return kind;
+}
+
+}  // namespace field_detail
 
 /// One key of an object T.
 template <class T>
 struct Field {
-  using Value =
-      std::variant<double T::*, Length<T>, PerLength<T>, Angle<T>, int T::*, std::uint64_t T::*, Eigen::Vector2d T::*,
-                   Lengths<T>, LengthRange<T>, Interval T::*, std::string T::*, Choice<T>, Part<T>, FieldOfPart<T>>;
-
   std::string_view key;
-  Value value;
-  Range range;               ///< of a number, in the file's unit, which the key's name ends with
-  std::string_view meaning;  ///< one line
+  std::function<void(const JsonReader&, T&)> read;
+  std::function<Json(const T&)> write;
+  std::function<KeyRow()> row;  ///< what its kind and its range say of it
+  std::string_view meaning;     ///< one line
   bool is_required;
   std::string_view schema;  ///< as JSON, where the range does not say all
 
-  Field(std::string_view named, Value of, Range allowed, std::string_view means, bool needed = false,
+  /// `value`: a member, or one of the kinds above. `range`: of a number, in the file's unit, which the key's name ends
+  /// with.
+  template <class Value>
+  Field(std::string_view named, Value value, Range range, std::string_view means, bool needed = false,
         std::string_view as = {})
-      : key(named), value(std::move(of)), range(allowed), meaning(means), is_required(needed), schema(as) {}
+      : key(named), meaning(means), is_required(needed), schema(as) {
+    const auto kind = field_detail::kind_of(std::move(value));
+    read = [kind, range](const JsonReader& json, T& object) { kind.read(json, range, object); };
+    write = [kind](const T& object) { return kind.write(object); };
+    row = [kind, range] { return kind.row(range); };
+  }
   /// Without a range. A template, so that a meaning after a range {} is not taken for `needed`.
-  template <std::same_as<bool> B = bool>
-  Field(std::string_view named, Value of, std::string_view means, B needed = false)
-      : Field(named, std::move(of), Range{}, means, needed) {}
+  template <class Value, std::same_as<bool> B = bool>
+  Field(std::string_view named, Value value, std::string_view means, B needed = false)
+      : Field(named, std::move(value), Range{}, means, needed) {}
+
+  /// Of an object that has the object of `field` for a member.
+  template <class Member>
+  Field(Member T::*part, const Field<Member>& field)
+      : key(field.key),
+        read([=, read = field.read](const JsonReader& json, T& object) { read(json, object.*part); }),
+        write([=, write = field.write](const T& object) { return write(object.*part); }),
+        row(field.row),
+        meaning(field.meaning),
+        is_required(field.is_required),
+        schema(field.schema) {}
 };
 
 /// A field of a member that is an object itself, whose key stands among those of the object that has the member.
 template <class T, class Member>
-Field<T> field_of_part(Member T::*part, const Field<Member>& field);
+Field<T> field_of_part(Member T::*part, const Field<Member>& field) {
+  return {part, field};
+}
 
 /// A table and the object that it is of. Several in a tuple stand side by side in one object of the file.
 template <class T>
@@ -167,104 +296,7 @@ Field<T> schema_field() {
   return {"$schema", unread<T>(R"({"type": "string"})", "a text"), "for editors: the file's schema"};
 }
 
-/// Millimetres that convert back to exactly this length; the nearest where no double does (one length in 44).
-double mm_that_read_back(double metres);
-
 namespace field_detail {
-
-KeyRow number_row(Range range, bool is_whole);
-KeyRow vector_row(Range range);
-KeyRow interval_row(Range range);
-KeyRow length_range_row();
-KeyRow choice_row(std::span<const std::string> names);
-KeyRow row_of(std::string_view schema, std::string_view allowed);
-Interval length_range_from_json(const JsonReader& json);
-
-template <class... Readers>
-struct Overloaded : Readers... {
-  using Readers::operator()...;
-};
-template <class... Readers>
-Overloaded(Readers...) -> Overloaded<Readers...>;
-
-template <class T>
-void read_value(const JsonReader& json, const Field<T>& field, T& object) {
-  const auto integer = [&] {
-    return json.integer(static_cast<int>(field.range.low), static_cast<int>(field.range.high));
-  };
-  std::visit(Overloaded{
-                 [&](double T::*member) { object.*member = json.number(field.range); },
-                 [&](Length<T> length) { object.*length.metres = metres_from_mm(json.number(field.range)); },
-                 [&](PerLength<T> value) { object.*value.per_metre = per_metre_from_per_mm(json.number(field.range)); },
-                 [&](Angle<T> angle) { object.*angle.radians = radians_from_deg(json.number(field.range)); },
-                 [&](int T::*member) { object.*member = integer(); },
-                 [&](std::uint64_t T::*member) { object.*member = static_cast<std::uint64_t>(integer()); },
-                 [&](Eigen::Vector2d T::*member) { object.*member = json.vector2(field.range); },
-                 [&](Lengths<T> lengths) { object.*lengths.metres = json.vector2(field.range) * kMetresPerMm; },
-                 [&](LengthRange<T> ends) {
-                   const Interval range_mm = length_range_from_json(json);
-                   object.*ends.low = metres_from_mm(range_mm.low), object.*ends.high = metres_from_mm(range_mm.high);
-                 },
-                 [&](Interval T::*member) { object.*member = json.interval(field.range); },
-                 [&](std::string T::*member) { object.*member = json.text(); },
-                 [&](const Choice<T>& choice) { choice.set(object, json.choice(choice.names, field.key)); },
-                 [&](const Part<T>& part) {
-                   if (part.read) part.read(json, object);
-                 },
-                 [&](const FieldOfPart<T>& part) { part.read(json, object); },
-             },
-             field.value);
-}
-
-template <class T>
-Json json_from_value(const Field<T>& field, const T& object) {
-  return std::visit(
-      Overloaded{
-          [&](double T::*member) -> Json { return object.*member; },
-          [&](Length<T> length) -> Json { return mm_that_read_back(object.*length.metres); },
-          [&](PerLength<T> value) -> Json { return object.*value.per_metre * kMetresPerMm; },
-          [&](Angle<T> angle) -> Json { return deg_from_radians(object.*angle.radians); },
-          [&](int T::*member) -> Json { return object.*member; },
-          [&](std::uint64_t T::*member) -> Json { return object.*member; },
-          [&](Eigen::Vector2d T::*member) -> Json {
-            return {(object.*member).x(), (object.*member).y()};
-          },
-          [&](Lengths<T> lengths) -> Json {
-            const Eigen::Vector2d& metres = object.*lengths.metres;
-            return {mm_that_read_back(metres.x()), mm_that_read_back(metres.y())};
-          },
-          [&](LengthRange<T> ends) -> Json {
-            return {mm_that_read_back(object.*ends.low), mm_that_read_back(object.*ends.high)};
-          },
-          [&](Interval T::*member) -> Json {
-            return {(object.*member).low, (object.*member).high};
-          },
-          [&](std::string T::*member) -> Json { return (object.*member).empty() ? Json() : Json(object.*member); },
-          [&](const Choice<T>& choice) -> Json { return choice.names.at(choice.get(object)); },
-          [&](const Part<T>& part) -> Json { return part.write ? part.write(object) : Json(); },
-          [&](const FieldOfPart<T>& part) -> Json { return part.write(object); },
-      },
-      field.value);
-}
-
-/// What the value's kind says.
-template <class T>
-KeyRow row_of(const Field<T>& field) {
-  return std::visit(
-      Overloaded{
-          [&](auto) { return number_row(field.range, false); }, [&](int T::*) { return number_row(field.range, true); },
-          [&](std::uint64_t T::*) { return number_row(field.range, true); },
-          [&](Eigen::Vector2d T::*) { return vector_row(field.range); },
-          [&](Lengths<T>) { return vector_row(field.range); }, [&](LengthRange<T>) { return length_range_row(); },
-          [&](Interval T::*) { return interval_row(field.range); },
-          [&](std::string T::*) { return row_of(R"({"type": "string"})", "a text"); },
-          [&](const Choice<T>& choice) { return choice_row(choice.names); },
-          [&](const Part<T>& part) {
-            return part.schema.empty() ? number_row(field.range, false) : row_of(part.schema, part.allowed);
-          },
-          [&](const FieldOfPart<T>& part) { return part.row; }},
-      field.value);
-}
 
 template <class T>
 void add_keys(std::vector<std::string_view>& keys, std::span<const Field<T>> fields) {
@@ -274,23 +306,10 @@ void add_keys(std::vector<std::string_view>& keys, std::span<const Field<T>> fie
 template <class T>
 void read_values(const JsonReader& json, std::span<const Field<T>> fields, T& object) {
   for (const Field<T>& field : fields)
-    if (field.is_required || json.has(field.key)) read_value(json.at(field.key), field, object);
+    if (field.is_required || json.has(field.key)) field.read(json.at(field.key), object);
 }
 
 }  // namespace field_detail
-
-template <class T, class Member>
-Field<T> field_of_part(Member T::*part, const Field<Member>& field) {
-  return {
-      field.key,
-      FieldOfPart<T>{[=](const JsonReader& json, T& object) { field_detail::read_value(json, field, object.*part); },
-                     [=](const T& object) { return field_detail::json_from_value(field, object.*part); },
-                     field_detail::row_of(field)},
-      field.range,
-      field.meaning,
-      field.is_required,
-      field.schema};
-}
 
 template <class T>
 void read_fields(const JsonReader& json, std::span<const Field<T>> fields, T& object,
@@ -318,8 +337,7 @@ template <class T>
 Json json_from_fields(std::span<const Field<T>> fields, const T& object) {
   Json json = Json::object();
   for (const Field<T>& field : fields)
-    if (Json value = field_detail::json_from_value(field, object); !value.is_null())
-      json[std::string(field.key)] = std::move(value);
+    if (Json value = field.write(object); !value.is_null()) json[std::string(field.key)] = std::move(value);
   return json;
 }
 
@@ -327,9 +345,9 @@ template <class T>
 std::vector<KeyRow> key_rows(std::span<const Field<T>> fields, const T& standard) {
   std::vector<KeyRow> rows;
   for (const Field<T>& field : fields) {
-    KeyRow row = field_detail::row_of(field);
+    KeyRow row = field.row();
     row.key = field.key, row.meaning = field.meaning, row.is_required = field.is_required;
-    if (!field.is_required) row.standard = field_detail::json_from_value(field, standard);
+    if (!field.is_required) row.standard = field.write(standard);
     if (!field.schema.empty()) row.schema = field_detail::row_of(field.schema, {}).schema;
     row.schema["description"] = field.meaning;
     rows.push_back(std::move(row));

@@ -26,6 +26,8 @@ class JsonReader {
   const Json& value() const { return *value_; }
   const std::string& file() const { return file_; }
   const std::string& pointer() const { return pointer_; }
+  /// The last part of the pointer: the key, or the index, that leads here.
+  std::string_view key() const { return std::string_view(pointer_).substr(pointer_.rfind('/') + 1); }
 
   [[noreturn]] void fail(std::string_view what) const;
   [[noreturn]] void fail_at(std::string_view key, std::string_view what) const;

@@ -16,5 +16,6 @@ constexpr double ml_from_cubic_metres(double volume) { return volume * 1e6; }
 
 /// Absorption and scattering coefficients: 1/m from 1/mm.
 constexpr double per_metre_from_per_mm(double per_mm) { return per_mm / kMetresPerMm; }
+constexpr double per_mm_from_per_metre(double per_metre) { return per_metre * kMetresPerMm; }
 
 }  // namespace fathom

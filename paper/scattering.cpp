@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/estimate.h"
+#include "core/json.h"
 #include "core/progress.h"
 #include "core/rng.h"
 #include "core/units.h"
@@ -68,9 +69,9 @@ Assumptions library_tea() {
   const Medium& tea = medium_in(setup);
   const double milk = medium_in(paper_setup({"whole_milk", 20.0}, 300.0)).reduced_scattering();
   return {.milk = tea.reduced_scattering() / milk,
-          .milk_per_mm = milk * kMetresPerMm,
+          .milk_per_mm = per_mm_from_per_metre(milk),
           .anisotropy = tea.anisotropy,
-          .absorption_per_mm = tea.absorption * kMetresPerMm,
+          .absorption_per_mm = per_mm_from_per_metre(tea.absorption),
           .index = tea.n(setup.rig.sensor.wavelength_nm)};
 }
 

@@ -56,7 +56,7 @@ endif()
 
 # Hostile inputs, kills and races; many more by hand (docs/testing.md).
 if(FATHOM_SIMULATOR AND NOT FATHOM_SANITIZE)
-  foreach(test "hostile --mutants 500 --quiet" "kills --kills 12" "races --races 8")
+  foreach(test "hostile --mutants 250 --quiet" "kills --kills 6" "races --races 4")
     separate_arguments(test)
     list(POP_FRONT test name)
     add_test(NAME hostile.${name} COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/hostile/${name}.py $<TARGET_FILE:fathom> ${test})

@@ -160,9 +160,10 @@ LiquidForm form_from_json(const JsonReader& json) {
   for (const auto& field : wetting_fields()) of_wetting.push_back(field.key);
   LiquidForm form;
   read_fields(json, surface_fields(), form, of_wetting);
-  if (json.has("contact_angle_deg") || json.has("capillary_length_mm"))
-    form.wetting = Wetting{radians_from_deg(json.number("contact_angle_deg", wetting_fields()[0].range)),
-                           metres_from_mm(json.number("capillary_length_mm", wetting_fields()[1].range))};
+  if (std::ranges::any_of(of_wetting, [&](std::string_view key) { return json.has(key); })) {
+    form.wetting.emplace();
+    for (const auto& field : wetting_fields()) field.read(json.at(field.key), *form.wetting);
+  }
   return form;
 }
 

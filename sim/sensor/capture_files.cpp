@@ -190,11 +190,12 @@ Json run_record(const Camera& camera, const ResolvedScene& resolved) {
         {"cavity_ml", ml_from_cubic_metres(cup_capacity(cup))},
         {"fill_mm", mm_from_metres(cup.filling->depth)},
         {"fill_ml", ml_from_cubic_metres(cup_volume(cup, cup.filling->depth))}};
-    media["cup " + std::to_string(i) + " " + medium.name] = {{"index", medium.n(wavelength_nm)},
-                                                             {"absorption_per_mm", medium.absorption * kMetresPerMm},
-                                                             {"scattering_per_mm", medium.scattering * kMetresPerMm},
-                                                             {"anisotropy", medium.anisotropy},
-                                                             {"source", medium.source}};
+    media["cup " + std::to_string(i) + " " + medium.name] = {
+        {"index", medium.n(wavelength_nm)},
+        {"absorption_per_mm", per_mm_from_per_metre(medium.absorption)},
+        {"scattering_per_mm", per_mm_from_per_metre(medium.scattering)},
+        {"anisotropy", medium.anisotropy},
+        {"source", medium.source}};
   }
   Json objects = Json::object(), poses = Json::object();
   for (std::size_t i = 0; i < geometry.objects.size(); ++i) {
