@@ -30,6 +30,24 @@ void set_intensity(const Image<float>& infrared, const std::filesystem::path& fi
     }
 }
 
+Cloud cloud_of(const FrameRecord& frame, const std::filesystem::path& folder) {
+  constexpr float kFarthestPoint = 50.0f;  // [m] no sensor of this kind sees farther than 10
+  const std::filesystem::path file = path_named_in((folder / "frames.csv").string(), "column 'cloud'", frame.cloud);
+  Cloud cloud = read_cloud(file);
+  std::size_t measured = 0, far = 0;
+  for (const Eigen::Vector3f& point : cloud.points) measured += point.allFinite(), far += point.z() > kFarthestPoint;
+  if (2 * far > measured)
+    throw Error(file.string(),
+                fmt::format("must be in metres: most of its points lie more than {:g} away", kFarthestPoint));
+  return cloud;
+}
+
+void add_infrared(const FrameRecord& frame, const std::filesystem::path& folder, Cloud& cloud) {
+  if (frame.infrared.empty()) return;
+  const std::filesystem::path file = path_named_in((folder / "frames.csv").string(), "column 'ir'", frame.infrared);
+  set_intensity(read_infrared(file), file, cloud);
+}
+
 }  // namespace
 
 Image<float> read_infrared(const std::filesystem::path& file) {
@@ -46,25 +64,21 @@ Image<float> read_infrared(const std::filesystem::path& file) {
 }
 
 Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder) {
-  constexpr float kFarthest = 50.0f;  // [m] no sensor of this kind sees farther than 10
-  const std::filesystem::path file = path_named_in((folder / "frames.csv").string(), "column 'cloud'", frame.cloud);
-  Cloud cloud = read_cloud(file);
-  std::size_t measured = 0, far = 0;
-  for (const Eigen::Vector3f& point : cloud.points) measured += point.allFinite(), far += point.z() > kFarthest;
-  if (2 * far > measured)
-    throw Error(file.string(), fmt::format("must be in metres: most of its points lie more than {:g} away", kFarthest));
-  if (frame.infrared.empty()) return cloud;
-  const std::filesystem::path infrared = path_named_in((folder / "frames.csv").string(), "column 'ir'", frame.infrared);
-  set_intensity(read_infrared(infrared), infrared, cloud);
+  Cloud cloud = cloud_of(frame, folder);
+  add_infrared(frame, folder, cloud);
   return cloud;
 }
 
 Cloud read_frame_cloud(const FrameRecord& frame, const std::filesystem::path& folder, const Table& table,
                        std::size_t row) {
+  std::string_view column = "cloud";
   try {
-    return read_frame_cloud(frame, folder);
+    Cloud cloud = cloud_of(frame, folder);
+    column = "ir";
+    add_infrared(frame, folder, cloud);
+    return cloud;
   } catch (const Error& problem) {
-    table.fail(row, "cloud", problem.what());
+    table.fail(row, column, problem.what());
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
+#include <string>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -31,15 +33,17 @@ struct FrameReading {
 };
 
 /// With `bias` taken off; without one the desk's cells are read.
-FrameReading read_frame(const FrameRecord& frame, const LaboratoryRig& rig, const std::filesystem::path& folder,
-                        const BiasField* bias) {
+FrameReading read_frame(const Measurement& measurement, std::size_t row, const std::filesystem::path& folder,
+                        const Table& table, const BiasField* bias) {
+  const FrameRecord& frame = measurement.frames[row];
+  const LaboratoryRig& rig = measurement.rig;
   FrameReading reading;
   if (frame.cloud.empty()) {
     if (frame.height_mm)
       reading.values.push_back({"height_mm", kWholeInterior, *frame.height_mm, frame.points.value_or(0.0)});
     return reading;
   }
-  const Cloud cloud = read_frame_cloud(frame, folder);
+  const Cloud cloud = read_frame_cloud(frame, folder, table, row);
   std::vector<SensedPoint> points = sensed_points(cloud, rig);
   if (!bias) reading.print = print_of(points, rig.focal_px);
   FrameView view = view_of(frame);
@@ -63,14 +67,14 @@ std::vector<FrameReading> read_frames_of(const Measurement& measurement, const s
   Progress progress("frame", readings.size(), quiet);
   parallel_items(static_cast<int>(readings.size()), [&](int i) {
     try {
-      readings[i] = read_frame(measurement.frames[i], measurement.rig, folder, bias);
+      readings[i] = read_frame(measurement, i, folder, table, bias);
     } catch (const Error& problem) {
       problems[i] = problem.what();
     }
     progress.step();
   });
-  for (std::size_t row = 0; row < problems.size(); ++row)
-    if (!problems[row].empty()) table.fail(row, "cloud", problems[row]);
+  for (const std::string& problem : problems)
+    if (!problem.empty()) throw Error(problem);
   return readings;
 }
 
@@ -274,6 +278,31 @@ void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder,
       differs(fmt::format("/liquids/{}", name));
 }
 
+/// What no two measurements have in common: a cloud to the bit, or all that a row without a cloud says.
+std::set<std::string> fingerprints(const Survey& survey) {
+  std::set<std::string> all;
+  for (std::size_t row = 0; row < survey.readings.size(); ++row) {
+    const FrameRecord& f = survey.measurement.frames[row];
+    if (f.cloud.empty())
+      all.insert(fmt::format("{} {} {} {} {} {} {} {} {} {}", f.session, f.frame, f.time_s, f.liquid, f.fill_m,
+                             f.distance_m, f.lateral_m, f.height_mm.value_or(0.0), f.height_sd_mm.value_or(0.0),
+                             f.points.value_or(0.0)));
+    else
+      all.insert(fmt::format("{:x}", survey.readings[row].print.whole));
+  }
+  return all;
+}
+
+/// A copy would count as another session.
+void require_another(const Survey& survey, const Survey& earlier) {
+  const std::set<std::string> own = fingerprints(survey), others = fingerprints(earlier);
+  const auto same = std::ranges::count_if(own, [&](const std::string& print) { return others.contains(print); });
+  if (2 * static_cast<std::size_t>(same) > own.size())
+    throw Error(survey.folder.string(),
+                fmt::format("repeats {}, must be another measurement: {} of {} frames are the same",
+                            earlier.folder.string(), same, own.size()));
+}
+
 /// The sessions of `more`, the folder of that number, follow those of `all`.
 void append(Measurement more, std::size_t folder, Measurement& all) {
   const int sessions = sessions_of(all.frames);
@@ -312,6 +341,7 @@ Measurement read_measurements(std::span<const std::filesystem::path> folders, bo
         throw Error(folder.string(), "is given twice, must be another measurement");
     surveys.push_back(survey_of(folder, quiet));
     require_same(surveys.back().measurement.rig, folder, surveys.front().measurement.rig, folders.front());
+    for (std::size_t i = 0; i + 1 < surveys.size(); ++i) require_another(surveys.back(), surveys[i]);
     desks.merge(desks_of(surveys.back(), sessions));
     sessions += sessions_of(surveys.back().measurement.frames);
   }

@@ -34,7 +34,8 @@ Measurement read_measurement(const std::filesystem::path& folder, bool quiet = t
 
 /// Reads all folders of one laboratory as one measurement: the unit's bias is learned from the desks of all, and the
 /// sessions of each folder follow those of the one before. The rig is the first folder's, with the liquids of all.
-/// Throws Error when another folder has another sensor, pose or cup, or another liquid by the same name.
+/// Throws Error when another folder has another sensor, pose or cup, or another liquid by the same name, or repeats an
+/// earlier one.
 Measurement read_measurements(std::span<const std::filesystem::path> folders, bool quiet = true);
 
 }  // namespace fathom

@@ -17,7 +17,7 @@ namespace fathom {
 namespace {
 
 constexpr std::size_t kFewestPlacements = 3;
-constexpr std::size_t kFewestCells = 4;  // of a placement: a shape is their difference
+constexpr std::size_t kFewestCells = 2;  // of a placement: a shape is their difference
 
 /// By how much a cell is higher than the mean of some.
 double above_mean(const CellHeights& heights, const CupCells& cells, int cell) {
@@ -66,10 +66,11 @@ std::vector<SeenPart> parts_of_shape(const std::vector<std::shared_ptr<const Con
 }
 
 ContentShape shape_of(std::vector<std::shared_ptr<const ContentSight>> sights, int cell, double radius_m) {
-  Mean measured, errors;
+  Mean measured, errors, cells;
   for (const auto& sight : sights) {
     const double own = above_mean(sight->measured, sight->cells, cell);
     measured.add(own);
+    cells.add(static_cast<double>(sight->cells.count()));
     errors.add(own - above_mean(sight->predicted, sight->cells, cell));
   }
   ContentShape shape;
@@ -82,7 +83,11 @@ ContentShape shape_of(std::vector<std::shared_ptr<const ContentSight>> sights, i
   observation.factors.within_mm = at;
   observation.value = measured.estimate().value;
   observation.repeats = static_cast<int>(sights.size());
-  observation.repeat_sd = errors.estimate().standard_error * std::sqrt(static_cast<double>(sights.size()));
+  // Differences from the mean of n cells add up to 0, and scatter by less than cells do. Independent errors as large as
+  // those of cells themselves say as much of any shape.
+  const double n = cells.estimate().value;
+  observation.repeat_sd =
+      errors.estimate().standard_error * std::sqrt(static_cast<double>(sights.size()) * n / (n - 1.0));
   observation.has_all_errors = true;
   shape.cell = cell;
   shape.sights = std::move(sights);

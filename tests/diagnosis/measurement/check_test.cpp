@@ -202,6 +202,9 @@ TEST_F(CheckedFolder, WhatStopsADiagnosisIsOneLineThatCountsTheRest) {
   add("0,0,0,1", "water,20,300,0", "clouds/a.pcd,none.png");
   expect_refused("line 2, column 'ir': there is no file " + (folder / "none.png").string() + ", and 1 more of 2 files",
                  "cloud,ir");
+  write_text(folder / "none.png", "no image");
+  add("0,0,0,0", "water,20,300,0", "clouds/a.pcd,none.png");
+  expect_refused("line 2, column 'ir': " + (folder / "none.png").string() + ": ", "cloud,ir");
   add("0,0,0,0", "water,20,0.3,0");
   expect_refused("line 2, column 'distance_mm': must be in mm");
   add("0,0,0,0", "water,20,300,150");
