@@ -36,14 +36,14 @@ endif()
 
 # Most files read the same headers of libraries for a second or two: targets that use fmt read them compiled.
 # GCC takes a compiled header only with the very options and macros that it was made with, so modules, the program and the tests have one each.
-# Clang's presets of all targets read the headers themselves, and so find a file that forgets one.
+# The presets sanitize, tsan and fuzz read the headers themselves, and so find a file that forgets one.
 option(FATHOM_PRECOMPILE "Compile the headers of libraries once, not in every file" ON)
 set(FATHOM_PRECOMPILED <Eigen/Geometry> <filesystem> <fmt/format.h> <functional> <map> <nlohmann/json.hpp>)
 
 # What takes most of a file's time is not its own: templates of Eigen, nlohmann and GoogleTest that every file instantiates
 # again, even where a precompiled header has them. So sixteen files are compiled as one: two units of eight, made one, take an
 # eighth less.
-# Clang's presets of all targets compile each alone, and so find a file that forgets a header; who works on a file may do so as well.
+# Those presets compile each file alone as well; who works on a file may do so, too.
 option(FATHOM_UNITY "Compile several files as one" ON)
 set(CMAKE_UNITY_BUILD ${FATHOM_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)

@@ -34,7 +34,7 @@ KeyRow choice_row(std::span<const std::string> names);
 KeyRow row_of(std::string_view schema, std::string_view allowed);
 Interval length_range_from_json(const JsonReader& json);
 
-/// A number, with what makes the program's unit of the file's, and back.
+/// A number, and how it is converted from the file's unit and back.
 template <class T>
 struct Number {
   double T::*member;
@@ -48,7 +48,7 @@ struct Number {
 
 /// A whole number.
 template <class T, std::integral I>
-struct Whole {
+requires(!std::same_as<I, bool>) struct Whole {
   I T::*member;
 
   void read(const JsonReader& json, Range range, T& object) const {
@@ -194,9 +194,7 @@ Number<T> kind_of(double T::*member) {
   return {member, [](double number) { return number; }, [](double number) { return number; }};
 }
 template <class T, std::integral I>
-Whole<T, I> kind_of(I T::*member) {
-  return {member};
-}
+requires(!std::same_as<I, bool>) Whole<T, I> kind_of(I T::*member) { return {member}; }
 template <class T>
 Pair<T> kind_of(Eigen::Vector2d T::*member) {
   return {member};
@@ -243,7 +241,7 @@ struct Field {
   Field(std::string_view named, Value value, std::string_view means, B needed = false)
       : Field(named, std::move(value), Range{}, means, needed) {}
 
-  /// Of an object that has the object of `field` for a member.
+  /// A field of a member that is an object itself: its key stands among those of the object that has the member.
   template <class Member>
   Field(Member T::*part, const Field<Member>& field)
       : key(field.key),
@@ -254,12 +252,6 @@ struct Field {
         is_required(field.is_required),
         schema(field.schema) {}
 };
-
-/// A field of a member that is an object itself, whose key stands among those of the object that has the member.
-template <class T, class Member>
-Field<T> field_of_part(Member T::*part, const Field<Member>& field) {
-  return {part, field};
-}
 
 /// A table and the object that it is of. Several in a tuple stand side by side in one object of the file.
 template <class T>

@@ -34,12 +34,13 @@ std::vector<Pair> equal_clouds(std::span<const CloudPrint> prints) {
 
 using PlacementRows = std::map<PlacementKey, std::vector<std::size_t>>;
 
+bool has_numbers(const FrameRecord& f) { return f.cloud.empty() && f.height_mm && f.height_sd_mm && f.points; }
+
 /// The rows of a placement that stand in the table alone, without clouds.
 std::vector<std::size_t> with_numbers(const std::vector<FrameRecord>& frames, const std::vector<std::size_t>& rows) {
   std::vector<std::size_t> with;
   for (const std::size_t row : rows)
-    if (const FrameRecord& f = frames[row]; f.cloud.empty() && f.height_mm && f.height_sd_mm && f.points)
-      with.push_back(row);
+    if (has_numbers(frames[row])) with.push_back(row);
   return with;
 }
 
@@ -123,6 +124,12 @@ bool does_desk_scatter(const std::vector<FrameRecord>& frames, std::span<const C
   return compared >= kFewest && alike < kByCupsAlone * compared;
 }
 
+/// All that a row without a cloud says of a measurement but when it was made.
+auto numbers_of(const FrameRecord& f) {
+  return std::tuple(f.pour, f.placement, f.trial, f.liquid, f.fill_m, f.distance_m, f.lateral_m, *f.height_mm,
+                    *f.height_sd_mm, *f.points);
+}
+
 }  // namespace
 
 CloudPrint print_of(std::span<const SensedPoint> points, double focal_px) {
@@ -179,6 +186,21 @@ Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const Cloud
                      contradictions.front(),
                      contradictions.size() > 1 ? fmt::format(", and {} more pairs,", contradictions.size() - 1) : "")});
   return copies;
+}
+
+std::size_t rows_repeated(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints,
+                          const std::vector<FrameRecord>& earlier, std::span<const CloudPrint> earlier_prints) {
+  std::set<std::uint64_t> clouds;
+  for (const CloudPrint& print : earlier_prints) clouds.insert(print.whole);
+  std::set<decltype(numbers_of(frames.front()))> numbers;
+  for (const FrameRecord& f : earlier)
+    if (has_numbers(f)) numbers.insert(numbers_of(f));
+  const auto same_clouds = static_cast<std::size_t>(
+      std::ranges::count_if(prints, [&](const CloudPrint& p) { return p.whole != 0 && clouds.contains(p.whole); }));
+  const auto same_rows = static_cast<std::size_t>(std::ranges::count_if(frames, [&](const FrameRecord& f) {
+    return has_numbers(f) && *f.height_sd_mm > 0.0 && numbers.contains(numbers_of(f));
+  }));
+  return (does_desk_scatter(frames, prints) ? same_clouds : 0) + (same_rows >= kFewestRows ? same_rows : 0);
 }
 
 }  // namespace fathom

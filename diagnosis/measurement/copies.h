@@ -31,4 +31,9 @@ struct Copies {
 /// placement, where many more are alike than have all of another but the height or the points.
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints);
 
+/// How many rows of a measurement repeat rows of an earlier one: clouds that are the same to the bit, unless nothing
+/// scatters, and rows without clouds that agree in all but their session, frame and time, if three or more do.
+std::size_t rows_repeated(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints,
+                          const std::vector<FrameRecord>& earlier, std::span<const CloudPrint> earlier_prints);
+
 }  // namespace fathom

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -31,6 +31,12 @@ struct FrameReading {
   std::optional<DeskBands> bands;
   DeskCells cells;
 };
+
+std::vector<CloudPrint> prints_of(std::span<const FrameReading> readings) {
+  std::vector<CloudPrint> prints;
+  for (const FrameReading& reading : readings) prints.push_back(reading.print);
+  return prints;
+}
 
 /// With `bias` taken off; without one the desk's cells are read.
 FrameReading read_frame(const Measurement& measurement, std::size_t row, const std::filesystem::path& folder,
@@ -244,8 +250,7 @@ Measurement measured(Survey survey, std::shared_ptr<const UnitBias> unit) {
   std::vector<FrameReading> readings = std::move(survey.readings);
   for (std::size_t i = 0; i < readings.size(); ++i)
     measurement.desk_sights.add(measurement.frames[i], readings[i].cells);
-  std::vector<CloudPrint> prints;
-  for (const FrameReading& reading : readings) prints.push_back(reading.print);
+  const std::vector<CloudPrint> prints = prints_of(readings);
   if (unit) readings = read_frames_of(measurement, survey.folder, survey.table, &unit->field(), survey.quiet);
   measurement.unit = std::move(unit);
   leave_out_misplaced(survey.table, readings, measurement);
@@ -278,29 +283,14 @@ void require_same(const LaboratoryRig& rig, const std::filesystem::path& folder,
       differs(fmt::format("/liquids/{}", name));
 }
 
-/// What no two measurements have in common: a cloud to the bit, or all that a row without a cloud says.
-std::set<std::string> fingerprints(const Survey& survey) {
-  std::set<std::string> all;
-  for (std::size_t row = 0; row < survey.readings.size(); ++row) {
-    const FrameRecord& f = survey.measurement.frames[row];
-    if (f.cloud.empty())
-      all.insert(fmt::format("{} {} {} {} {} {} {} {} {} {}", f.session, f.frame, f.time_s, f.liquid, f.fill_m,
-                             f.distance_m, f.lateral_m, f.height_mm.value_or(0.0), f.height_sd_mm.value_or(0.0),
-                             f.points.value_or(0.0)));
-    else
-      all.insert(fmt::format("{:x}", survey.readings[row].print.whole));
-  }
-  return all;
-}
-
-/// A copy would count as another session.
+/// A copy would count as further sessions.
 void require_another(const Survey& survey, const Survey& earlier) {
-  const std::set<std::string> own = fingerprints(survey), others = fingerprints(earlier);
-  const auto same = std::ranges::count_if(own, [&](const std::string& print) { return others.contains(print); });
-  if (2 * static_cast<std::size_t>(same) > own.size())
+  const std::size_t same = rows_repeated(survey.measurement.frames, prints_of(survey.readings),
+                                         earlier.measurement.frames, prints_of(earlier.readings));
+  if (2 * same > std::min(survey.readings.size(), earlier.readings.size()))
     throw Error(survey.folder.string(),
-                fmt::format("repeats {}, must be another measurement: {} of {} frames are the same",
-                            earlier.folder.string(), same, own.size()));
+                fmt::format("must be another measurement than {}: {} of its {} frames are the same",
+                            earlier.folder.string(), same, survey.readings.size()));
 }
 
 /// The sessions of `more`, the folder of that number, follow those of `all`.

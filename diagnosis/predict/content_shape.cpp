@@ -66,11 +66,11 @@ std::vector<SeenPart> parts_of_shape(const std::vector<std::shared_ptr<const Con
 }
 
 ContentShape shape_of(std::vector<std::shared_ptr<const ContentSight>> sights, int cell, double radius_m) {
-  Mean measured, errors, cells;
+  Mean measured, errors, shares;
   for (const auto& sight : sights) {
     const double own = above_mean(sight->measured, sight->cells, cell);
     measured.add(own);
-    cells.add(static_cast<double>(sight->cells.count()));
+    shares.add(1.0 / static_cast<double>(sight->cells.count()));
     errors.add(own - above_mean(sight->predicted, sight->cells, cell));
   }
   ContentShape shape;
@@ -83,11 +83,10 @@ ContentShape shape_of(std::vector<std::shared_ptr<const ContentSight>> sights, i
   observation.factors.within_mm = at;
   observation.value = measured.estimate().value;
   observation.repeats = static_cast<int>(sights.size());
-  // Differences from the mean of n cells add up to 0, and scatter by less than cells do. Independent errors as large as
-  // those of cells themselves say as much of any shape.
-  const double n = cells.estimate().value;
-  observation.repeat_sd =
-      errors.estimate().standard_error * std::sqrt(static_cast<double>(sights.size()) * n / (n - 1.0));
+  // Differences from the mean of n cells add up to 0, so they scatter less than cells do: their variance has n − 1 of n
+  // parts. They are treated as independent, and have the error of a cell.
+  observation.repeat_sd = errors.estimate().standard_error *
+                          std::sqrt(static_cast<double>(sights.size()) / (1.0 - shares.estimate().value));
   observation.has_all_errors = true;
   shape.cell = cell;
   shape.sights = std::move(sights);

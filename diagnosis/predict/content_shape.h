@@ -43,8 +43,8 @@ struct ContentShape {
 /// The cells of a region of the cup that a placement shows; all of its cells where it shows none of them clearly.
 std::vector<SeenPart> parts_of_region(std::string_view region, const CupCells& seen, double radius_m);
 
-/// Of every liquid and cell that at least three placements show; how they scatter about the model is the error.
-/// `radius_m`: of the disc that the raster covers.
+/// Of every liquid and cell that at least three placements show; the error of a cell is how they scatter about the
+/// model. `radius_m`: of the disc that the raster covers.
 std::vector<ContentShape> content_shapes(std::vector<ContentSight> sights, double radius_m);
 
 }  // namespace fathom

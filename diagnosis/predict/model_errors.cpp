@@ -34,8 +34,8 @@ enum SharedBy : unsigned {
 /// are root mean squares of the standard deviations that bench/model_errors.py finds for two matchers, as nobody knows
 /// how a laboratory's device matches: for Fathom's, over photometric campaigns of twelve simulated devices (geometric
 /// ones have less), and for OpenCV's on the infrared images of twelve others. Patterns, blocks, cups and fills are each
-/// campaign's own; those of shapes are of twelve devices in all. Where a reason stands beside a size, it is the reason
-/// that counts.
+/// campaign's own; those of shapes are of twelve devices in all, and of placements that show four squares or more.
+/// Where a reason stands beside a size, it is the reason that counts.
 struct ModelError {
   std::string_view observable;
   double sigma;

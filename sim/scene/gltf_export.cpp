@@ -178,8 +178,8 @@ class GltfModel {
     use(material, "KHR_materials_transmission", {{"transmissionFactor", Value(1.0)}});
     use(material, "KHR_materials_ior", {{"ior", Value(medium.n(wavelength_nm_))}});
     use(material, "KHR_materials_volume", volume_of(medium));
-    material.extras = Value(Value::Object{{"absorption_per_mm", Value(medium.absorption * kMetresPerMm)},
-                                          {"scattering_per_mm", Value(medium.scattering * kMetresPerMm)},
+    material.extras = Value(Value::Object{{"absorption_per_mm", Value(per_mm_from_per_metre(medium.absorption))},
+                                          {"scattering_per_mm", Value(per_mm_from_per_metre(medium.scattering))},
                                           {"anisotropy", Value(medium.anisotropy)}});
   }
 

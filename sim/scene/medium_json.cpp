@@ -109,8 +109,8 @@ void check_ranges(const JsonReader& json, const Medium& medium) {
   read_fields(json, range_fields(), described);
   if (const auto* like_water = std::get_if<WaterIndex>(&medium.index))
     check("index", water_index(830.0, kRoomC) + like_water->above_water);
-  check("absorption_per_mm", medium.absorption * kMetresPerMm);
-  check("reduced_scattering_per_mm", medium.reduced_scattering() * kMetresPerMm);
+  check("absorption_per_mm", per_mm_from_per_metre(medium.absorption));
+  check("reduced_scattering_per_mm", per_mm_from_per_metre(medium.reduced_scattering()));
 }
 
 std::span<const Field<Medium>> medium_fields() {

@@ -159,7 +159,7 @@ std::string_view noise_schema() {
 
 std::span<const Field<SensorModel>> sensor_fields() {
   using Sensor = SensorModel;
-  constexpr auto in_law = [](const Field<DepthLaw>& field) { return field_of_part(&Sensor::law, field); };
+  constexpr auto in_law = [](const Field<DepthLaw>& field) { return Field<Sensor>(&Sensor::law, field); };
   static const Field<Sensor> fields[] = {
       {"baseline_mm", Length{&Sensor::baseline}, kLengthMm, "from the camera to the projector"},
       {"wavelength_nm", &Sensor::wavelength_nm, {100.0, 5000.0}, "of the projector's light"},

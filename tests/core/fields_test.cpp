@@ -47,7 +47,7 @@ std::span<const Field<Lamp>> lamp_fields() {
                   [](const Lamp& lamp) { return lamp.colour == "white" ? Json() : Json(lamp.colour); },
                   R"({"type": "string"})", "a text"},
        "of the light"},
-      field_of_part(&Lamp::arm, {"arm_mm", Length{&Arm::length}, {0.0, 2000.0}, "of the arm"})};
+      {&Lamp::arm, {"arm_mm", Length{&Arm::length}, {0.0, 2000.0}, "of the arm"}}};
   return fields;
 }
 

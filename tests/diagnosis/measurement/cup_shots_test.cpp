@@ -4,7 +4,6 @@
 #include <array>
 
 #include "diagnosis/measurement/read_measurement.h"
-#include "tests/core/expect_error.h"
 #include "tests/diagnosis/measurement/written_measurement.h"
 
 namespace fathom {
@@ -53,17 +52,6 @@ TEST_F(CupShots, OfSeveralFoldersComeFromTheirOwn) {
   ASSERT_EQ(shots.size(), 2u);
   EXPECT_EQ(shots[1].frame->frame, "9");
   EXPECT_EQ(shots[1].frame->session, 1);
-}
-
-/// A copied folder would count as another session.
-TEST_F(CupShots, OfACopiedFolderAreRefused) {
-  write_text(folder / "frames.csv", table("1,0,1,1,0,1,water,20,300,0,clouds/a.pcd\n"));
-  make_directory(folder / "copy/clouds");
-  for (const char* file : {"rig.json", "clouds/a.pcd", "frames.csv"})
-    std::filesystem::copy(folder / file, folder / "copy" / file);
-  const std::array<std::filesystem::path, 2> folders{folder / "", folder / "copy"};
-  expect_error([&] { read_measurements(folders); },
-               {(folder / "copy").string() + ": repeats ", "1 of 1 frames are the same"});
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "core/rng.h"
 #include "core/units.h"
 #include "detector/read_cloud.h"
+#include "diagnosis/measurement/copies.h"
 #include "tests/core/expect_error.h"
 #include "tests/diagnosis/measurement/written_measurement.h"
 
@@ -243,6 +244,47 @@ TEST_F(MeasurementFolder, CopiedRowsOfATableAreFoundWhereChanceWouldNotMakeThem)
   ASSERT_EQ(twice.mistakes.size(), 1u);
   EXPECT_EQ(twice.mistakes[0].sentence, "3 of 6 frames are copies of others.");
   EXPECT_EQ(twice.observations.back().repeats, 3);
+}
+
+TEST_F(MeasurementFolder, ACopiedFolderIsRefusedAndAnotherOfTheSamePlanIsNot) {
+  const std::string header = kHeader + ",height_mm,height_sd_mm,points\n";
+  const auto rows = [&](std::uint64_t seed) {
+    std::string text = header;
+    for (int i = 0; i < 40; ++i) {
+      Rng rng(seed, i);
+      text += fmt::format("{0},0,0,0,{0},{0},water,20,300,0,,{1:.0f},{2:.1f},{3}\n", i, 15.0 + 0.2 * rng.normal(),
+                          0.7 + 0.1 * rng.normal(), 900 + static_cast<int>(5.0 * rng.normal()));
+    }
+    return text;
+  };
+  write_text(folder / "frames.csv", rows(1));
+  make_directory(folder / "more");
+  fs::copy(folder / "rig.json", folder / "more/rig.json");
+  const std::array<fs::path, 2> folders{folder / "", folder / "more"}, other_way{folder / "more", folder / ""};
+  write_text(folder / "more/frames.csv", rows(2));
+  EXPECT_NO_THROW(read_measurements(folders));
+  // A copy that the laboratory went on with is one in either order.
+  write_text(folder / "more/frames.csv", rows(1) + "40,1,1,1,0,0,water,20,300,0,,15,0.7,900\n");
+  expect_error([&] { read_measurements(folders); },
+               {"more: must be another measurement than ", "40 of its 41 frames are the same"});
+  expect_error([&] { read_measurements(other_way); }, {"40 of its 40 frames are the same"});
+}
+
+/// Clouds of a sensor without noise are the same in every campaign of one plan.
+TEST(Copies, OfCloudsAreToldFromASensorWithoutNoise) {
+  std::vector<FrameRecord> frames(12);
+  const auto prints = [&](std::uint64_t seed, bool has_noise) {
+    std::vector<CloudPrint> all(frames.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].whole = mix_bits(seed) + i;
+      for (std::size_t part = 0; part < all[i].parts.size(); ++part)
+        all[i].parts[part] = has_noise ? mix_bits(100 * i + part) : part + 1;
+    }
+    return all;
+  };
+  EXPECT_EQ(rows_repeated(frames, prints(1, true), frames, prints(1, true)), 12u);
+  EXPECT_EQ(rows_repeated(frames, prints(2, true), frames, prints(1, true)), 0u);
+  EXPECT_EQ(rows_repeated(frames, prints(1, false), frames, prints(1, false)), 0u);
 }
 
 TEST_F(MeasurementFolder, RowsOfFewPointsOnTheStepsOfDepthAreNoCopies) {
