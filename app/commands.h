@@ -28,10 +28,11 @@ inline constexpr std::array kCommands{
             define_theory},
     Command{"detect",
             "Finds cups on a desk and the liquids in them, in measured or simulated clouds or before a depth camera",
-            "  fathom detect cloud.pcd\n  fathom detect cloud.pcd --height-mm 650 --pitch-deg 58.4 --json\n"
+            "  fathom detect out/water/cloud.pcd\n"
+            "  fathom detect out/water/cloud.pcd --height-mm 650 --pitch-deg 58.4 --json\n"
             "  fathom detect shot1.pcd shot2.ply --config detector.json -o out/detected\n"
             "  fathom detect left.pcd right.pcd --poses poses.json\n"
-            "  fathom detect --live --frames 10",
+            "  fathom detect --live scenes/paper_water.json --frames 3\n  fathom detect --live --frames 10",
             define_detect},
     Command{"evaluate",
             "Detection rates over random desks, a data set, or a folder of clouds whose containers are labelled",
