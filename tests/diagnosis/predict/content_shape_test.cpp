@@ -21,7 +21,7 @@ std::vector<ContentSight> sights(int count, double noise_mm, double bump_mm = 2.
                                  std::uint64_t draw = 0) {
   std::vector<ContentSight> result;
   for (int i = 0; i < count; ++i) {
-    Rng rng(7, static_cast<std::uint64_t>(i), draw);
+    Rng rng(7 + draw, static_cast<std::uint64_t>(i));
     ContentSight sight;
     sight.condition = static_cast<std::size_t>(i);
     sight.factors.liquid = "water";
@@ -44,7 +44,7 @@ TEST(ContentShape, ShowsABumpThatPoursAndPlacesHide) {
   for (const ContentShape& shape : shapes) {
     const Observation& o = shape.observation;
     EXPECT_EQ(o.repeats, 12);
-    EXPECT_NEAR(o.repeat_sd, 0.20, 0.13);  // 3 σ of a scatter of twelve
+    EXPECT_NEAR(o.repeat_sd, 0.20, 0.1);  // 3 σ of a scatter of twelve
     EXPECT_NEAR(o.value, shape.cell == kBumpAt ? 1.8 : -0.2, 4.0 * 0.2 / std::sqrt(12.0));
   }
   EXPECT_EQ(shapes[8].observation.factors.region, "12 mm right of and 12 mm beyond the middle");
