@@ -2,12 +2,28 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 
 namespace fathom {
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
   return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::MatrixXd pivoted_cholesky(Eigen::VectorXd variances, const std::function<Eigen::VectorXd(Eigen::Index)>& column,
+                                 const Eigen::VectorXd& enough, Eigen::Index most) {
+  Eigen::MatrixXd factor(variances.size(), std::min(variances.size(), most));
+  Eigen::Index rank = 0;
+  for (; rank < factor.cols(); ++rank) {
+    Eigen::Index pivot = 0;
+    if ((variances.array() / enough.array()).maxCoeff(&pivot) < 1.0 || variances[pivot] <= 0.0) break;
+    factor.col(rank) = column(pivot) - factor.leftCols(rank) * factor.row(pivot).head(rank).transpose();
+    factor.col(rank) /= std::sqrt(variances[pivot]);
+    variances -= factor.col(rank).cwiseAbs2();
+  }
+  return factor.leftCols(rank);
 }
 
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {

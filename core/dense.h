@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 namespace fathom {
 
@@ -10,6 +11,11 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;  ///< columns
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+
+/// F (n × r) with F Fᵀ a covariance, as long as some variance is larger than what is enough there, and of at most so
+/// many columns: pivoted Cholesky (Harbrecht, Peters & Schneider 2012). `column(i)` is the covariance's i-th.
+Eigen::MatrixXd pivoted_cholesky(Eigen::VectorXd variances, const std::function<Eigen::VectorXd(Eigen::Index)>& column,
+                                 const Eigen::VectorXd& enough, Eigen::Index most);
 
 /// Orthonormal columns that span these; what adds less than 1e-8 of the largest is rounding.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/input_policy.h"
+#include "core/parallel.h"
 #include "diagnosis/decision/decide.h"
 #include "diagnosis/decision/diagnosis_json.h"
 #include "diagnosis/measurement/cup_in_sight.h"
@@ -106,9 +107,10 @@ WholeDiagnosis diagnose(const DiagnosisInput& input, bool quiet) {
   const Physics& physics = input.physics;
   const std::vector<MeasurementPlan> plans = possible_plans(input.measurement);
   const Designs designs = [&](const std::vector<std::string>& effects) {
-    std::vector<Design> result;
-    for (const MeasurementPlan& plan : plans)
-      result.push_back(design_of(plan, input.measurement, effects, input.model_effects, input.rig_file()));
+    std::vector<Design> result(plans.size());
+    parallel_items(static_cast<int>(plans.size()), [&](int i) {
+      result[i] = design_of(plans[i], input.measurement, effects, input.model_effects, input.rig_file());
+    });
     return result;
   };
   DecisionSettings settings;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/shared_errors.h"
 
@@ -30,10 +31,26 @@ Eigen::VectorXd numerical_variance(const Evidence& evidence) {
   return variance;
 }
 
+/// Replaces the columns by their solution, on all threads. How they are divided does not depend on the number of these,
+/// so rounding does not.
+template <class SolveInPlace>
+Eigen::MatrixXd solved(Eigen::MatrixXd columns, const SolveInPlace& solve) {
+  constexpr Eigen::Index kTogether = 64;
+  parallel_items(static_cast<int>((columns.cols() + kTogether - 1) / kTogether), [&](int block) {
+    const Eigen::Index first = block * kTogether;
+    solve(columns.middleCols(first, std::min(kTogether, columns.cols() - first)));
+  });
+  return columns;
+}
+
 /// Most nuisances are of one pour or placement, and move few observations.
 Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& nuisances) { return nuisances.sparseView(); }
 
 }  // namespace
+
+Eigen::MatrixXd Covariance::whiten(const Eigen::MatrixXd& x) const {
+  return solved(x, [&](auto columns) { factor.matrixL().solveInPlace(columns); });
+}
 
 Covariance estimate_covariance(const Evidence& evidence, const Eigen::VectorXd& residual) {
   const auto n = static_cast<Eigen::Index>(evidence.observations.size());
@@ -69,7 +86,7 @@ Eigen::MatrixXd part(const Covariance& covariance, const std::vector<Eigen::Inde
 Eigen::VectorXd degrees_of_freedom(const Covariance& covariance, const Eigen::MatrixXd& columns) {
   constexpr double kMost = 1e4;
   if (columns.cols() == 0) return {};  // a matrix without columns has no rows that could be pointed to
-  const Eigen::MatrixXd weights = covariance.factor.matrixU().solve(columns);
+  const Eigen::MatrixXd weights = solved(columns, [&](auto some) { covariance.factor.matrixU().solveInPlace(some); });
   const Eigen::VectorXd total = columns.colwise().squaredNorm().transpose().array().max(1e-300);
   const Eigen::VectorXd from_priors = (sparse(covariance.nuisance).transpose() * weights).colwise().squaredNorm();
   // Variance of the variance, relative to its square.

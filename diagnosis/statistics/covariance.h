@@ -17,9 +17,7 @@ struct Covariance {
   Eigen::LLT<Eigen::MatrixXd> factor;
 
   /// L⁻¹ x with total = L Lᵀ: columns of data or sensitivities in units of their error.
-  Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const {
-    return x.cols() == 0 ? x : Eigen::MatrixXd(factor.matrixL().solve(x));
-  }
+  Eigen::MatrixXd whiten(const Eigen::MatrixXd& x) const;
 };
 
 /// Of measured minus predicted: repeats, prior nuisances, numerical error, and the variance components that the

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/dense.h"
+#include "core/parallel.h"
 #include "diagnosis/statistics/box_least_squares.h"
 #include "diagnosis/statistics/groups.h"
 #include "diagnosis/statistics/problem.h"
@@ -68,23 +69,12 @@ double kernel(const Place& a, const Place& b, double shared) {
 
 Eigen::MatrixXd smooth_factor(const std::vector<Place>& at, double shared) {
   const auto n = static_cast<Eigen::Index>(at.size());
-  Eigen::VectorXd left(n), relative(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    left[i] = kernel(at[i], at[i], shared);
-    relative[i] = 1.0 / left[i];
-  }
-  Eigen::MatrixXd factor(n, std::min(n, kRank));
-  Eigen::Index rank = 0;
-  while (rank < factor.cols()) {
-    Eigen::Index pivot = 0;
-    if (left.cwiseProduct(relative).maxCoeff(&pivot) < kEnoughVariance) break;
-    for (Eigen::Index i = 0; i < n; ++i) factor(i, rank) = kernel(at[i], at[pivot], shared);
-    factor.col(rank) -= factor.leftCols(rank) * factor.row(pivot).head(rank).transpose();
-    factor.col(rank) /= std::sqrt(left[pivot]);
-    left -= factor.col(rank).cwiseAbs2();
-    ++rank;
-  }
-  return factor.leftCols(rank);
+  const auto column = [&](Eigen::Index other) {
+    return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index i) { return kernel(at[i], at[other], shared); }).eval();
+  };
+  const Eigen::VectorXd variances =
+      Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index i) { return kernel(at[i], at[i], shared); });
+  return pivoted_cholesky(variances, column, kEnoughVariance * variances, kRank);
 }
 
 /// A smooth shape of what is seen in cups, half of it in all liquids: what it does to every observation that is of
@@ -115,14 +105,15 @@ Eigen::MatrixXd shape_factor(const std::vector<Observation>& observations, const
   return factor;
 }
 
-/// A process of some columns at one size beside effects.
-Beside beside(const Spectrum& columns, double size, const VarianceProfile& variances, const LinearEffects& effects) {
+/// A process of some columns at one size beside effects, with the variances taken to be what they are said to be; and
+/// what both leave.
+Beside beside(const Spectrum& columns, double size, const LinearEffects& effects, Eigen::Ref<Eigen::VectorXd> rest) {
   const Eigen::VectorXd y = columns.whiten(size, effects.response);
   const Eigen::MatrixXd J = columns.whiten(size, effects.jacobian);
   Beside result;
   result.gram = J.transpose() * J;
   result.parameters = effects.parameters;
-  Eigen::VectorXd rest = y;
+  rest = y;
   if (J.cols() > 0) {
     Eigen::MatrixXd with_prior = result.gram;
     with_prior.diagonal() += prior_precisions(effects.parameters);
@@ -130,8 +121,7 @@ Beside beside(const Spectrum& columns, double size, const VarianceProfile& varia
     rest -= J * result.parameters;
   }
   result.gain = y.squaredNorm() - rest.squaredNorm();
-  result.log_likelihood = 0.5 * (effects.response.squaredNorm() - y.squaredNorm()) - columns.half_log_det(size) +
-                          variances.log_factor(rest);
+  result.log_likelihood = 0.5 * (effects.response.squaredNorm() - y.squaredNorm()) - columns.half_log_det(size);
   return result;
 }
 
@@ -205,19 +195,27 @@ Discrepancy discrepancy_of(const Evidence& evidence, const std::vector<Stratum>&
   Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(errors.size(), static_cast<Eigen::Index>(main.size()));
   for (std::size_t k = 0; k < main.size(); ++k)
     for (const Eigen::Index row : main[k]->rows) shifts(row, static_cast<Eigen::Index>(k)) = errors[row];
-  const Spectrum of_smooth(smooth), of_apart(covariance.whiten(smooth_factor(at, 0.0))),
-      of_shape(covariance.whiten(shape_factor(evidence.observations, errors)));
-  return {std::move(smooth_factor_of_all), std::move(smooth), of_smooth, of_apart, of_shape, covariance.whiten(shifts)};
+  std::array<Spectrum, 3> spectra;
+  parallel_items(static_cast<int>(spectra.size()), [&](int i) {
+    if (i == 0) spectra[i] = Spectrum(smooth);
+    if (i == 1) spectra[i] = Spectrum(covariance.whiten(smooth_factor(at, 0.0)));
+    if (i == 2) spectra[i] = Spectrum(covariance.whiten(shape_factor(evidence.observations, errors)));
+  });
+  return {std::move(smooth_factor_of_all), std::move(smooth),     std::move(spectra[0]),
+          std::move(spectra[1]),           std::move(spectra[2]), covariance.whiten(shifts)};
 }
 
 std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, const VarianceProfile& variances,
                                               const LinearEffects& effects) {
   constexpr std::size_t kLikeliest = 6;  // strata: these stand for all
   std::vector<std::pair<double, Beside>> result;
+  Eigen::MatrixXd rests(effects.response.size(), static_cast<Eigen::Index>((3 + kLikeliest) * kSizes.size()));
   const auto add = [&](const Spectrum& spectrum, double weight) {
-    for (const double size : kSizes)
+    for (const double size : kSizes) {
+      const auto next = static_cast<Eigen::Index>(result.size());
       result.emplace_back(std::log(weight / static_cast<double>(kSizes.size())),
-                          beside(spectrum, size, variances, effects));
+                          beside(spectrum, size, effects, rests.col(next)));
+    }
   };
   const bool has_shapes = !discrepancy.of_shape.is_empty();
   const double each = 0.5 / (has_shapes ? 3.0 : 2.0);
@@ -233,6 +231,9 @@ std::vector<std::pair<double, Beside>> beside(const Discrepancy& discrepancy, co
   std::partial_sort(order.begin(), few, order.end(), [&](auto a, auto b) { return z2[a] > z2[b]; });
   for (auto k = order.begin(); k != few; ++k)
     add(Spectrum(discrepancy.strata.col(*k)), 0.5 / static_cast<double>(order.size()));
+  const Eigen::VectorXd log_factors = variances.log_factors(rests.leftCols(static_cast<Eigen::Index>(result.size())));
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i].second.log_likelihood += log_factors[static_cast<Eigen::Index>(i)];
   return result;
 }
 

@@ -15,6 +15,7 @@ namespace fathom {
 /// A process by the directions of its whitened columns, orthonormal, and its variance along each at size 1.
 class Spectrum {
  public:
+  Spectrum() = default;  ///< empty
   explicit Spectrum(const Eigen::MatrixXd& columns);
 
   bool is_empty() const { return values_.size() == 0; }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "core/dense.h"
+#include "core/parallel.h"
 #include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/screen.h"
 
@@ -48,14 +50,19 @@ std::vector<int> vanished(const Problem& problem, const std::vector<Refit>& fits
   return result;
 }
 
-/// With the variances' uncertainty, which belongs to what a set leaves.
-Refit with_variances(const Case& c, Refit fit) {
-  fit.hypothesis.log_evidence += c.variances.log_factor(fit.rest);
-  return fit;
+/// Adds the variances' uncertainty, which belongs to what a set leaves.
+void add_variances(const Case& c, std::vector<Refit>& sets) {
+  Eigen::MatrixXd rests(c.problem.residual.size(), static_cast<Eigen::Index>(sets.size()));
+  for (std::size_t i = 0; i < sets.size(); ++i) rests.col(static_cast<Eigen::Index>(i)) = sets[i].rest;
+  const Eigen::VectorXd log_factors = c.variances.log_factors(rests);
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    sets[i].hypothesis.log_evidence += log_factors[static_cast<Eigen::Index>(i)];
 }
 
 Refit fitted(const Case& c, const Hypothesis& hypothesis) {
-  return with_variances(c, refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis));
+  Refit fit = refit(c.evidence, c.predict, c.covariance, c.problem, hypothesis);
+  fit.hypothesis.log_evidence += c.variances.log_factor(fit.rest);
+  return fit;
 }
 
 Hypothesis without_effect(const Problem& problem, const Hypothesis& whole, std::size_t left_out) {
@@ -199,7 +206,7 @@ void keep_unfitted(const Problem& problem, const std::vector<Refit>& fits, std::
 /// With the errors' uncertainty a set that was not worth a refit may be likelier than all that were. It is fitted as
 /// well: where sensitivities bend it may not be.
 void fit_likelier(const Case& c, std::vector<Refit>& sets, std::vector<Refit>& fits) {
-  for (Refit& set : sets) set = with_variances(c, std::move(set));
+  add_variances(c, sets);
   sort_by_evidence(sets);
   for (std::size_t more = 0; more < kRefitted && !sets.empty(); ++more) {
     if (sets.front().hypothesis.log_evidence <= fits.front().hypothesis.log_evidence) return;
@@ -251,9 +258,14 @@ Posterior posterior_of(const Case& c) {
   }
   sort_by_evidence(posterior.fits);
   keep_unfitted(c.problem, posterior.fits, sets);
-  for (const Refit& fit : posterior.fits) {
-    posterior.options.push_back(option_of(fit));
-    if (beside.contains(fit.hypothesis.effects)) posterior.options.push_back(beside_unknown(c, fit));
+  std::vector<std::optional<Option>> with_unknown(posterior.fits.size());
+  parallel_items(static_cast<int>(posterior.fits.size()), [&](int i) {
+    if (const Refit& fit = posterior.fits[i]; beside.contains(fit.hypothesis.effects))
+      with_unknown[i] = beside_unknown(c, fit);
+  });
+  for (std::size_t i = 0; i < posterior.fits.size(); ++i) {
+    posterior.options.push_back(option_of(posterior.fits[i]));
+    if (with_unknown[i]) posterior.options.push_back(*std::move(with_unknown[i]));
   }
   add_unfitted(c, sets, posterior.fits, posterior.options);
   return posterior;

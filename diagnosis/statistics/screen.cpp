@@ -1,7 +1,10 @@
 #include "diagnosis/statistics/screen.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "core/parallel.h"
 #include "diagnosis/statistics/box_least_squares.h"
 
 namespace fathom {
@@ -26,9 +29,10 @@ struct Products {
   }
 };
 
+/// What all sets are weighed by.
 class Screening {
  public:
-  Screening(const Problem& problem, int keep, std::size_t largest) : problem_(problem), keep_(keep), best_(largest) {
+  explicit Screening(const Problem& problem) : problem_(problem) {
     products_.emplace_back(problem, Leeway{});
     for (std::size_t effect = 0; effect < problem.columns.size(); ++effect) {
       is_seen_.push_back(!problem.sensitivities(Eigen::all, problem.columns[effect]).isZero(0.0));
@@ -38,26 +42,13 @@ class Screening {
     }
   }
 
-  void extend(std::vector<int>& effects) {
-    const int next = effects.empty() ? 0 : effects.back() + 1;
-    for (int effect = next; effect < static_cast<int>(problem_.columns.size()); ++effect) {
-      if (!is_seen_[effect]) continue;  // its best value is none in every set
-      if (is_said(problem_, effects, effect)) continue;
-      effects.push_back(effect);
-      consider(effects);
-      if (effects.size() < best_.size()) extend(effects);
-      effects.pop_back();
-    }
+  /// Nothing of it can be told here, or a set says it already.
+  bool adds_nothing(const std::vector<int>& effects, int effect) const {
+    return !is_seen_[effect] || is_said(problem_, effects, effect);
   }
 
-  std::vector<Hypothesis> result() const {
-    std::vector<Hypothesis> all;
-    for (const auto& of_size : best_) all.insert(all.end(), of_size.begin(), of_size.end());
-    return all;
-  }
-
- private:
-  void consider(const std::vector<int>& effects) {
+  /// Nothing where an effect's best value is none.
+  std::optional<Hypothesis> weighed(const std::vector<int>& effects) const {
     const std::vector<Eigen::Index> columns = columns_of(problem_, effects);
     const Products& products = products_[products_of_[widest_leeway(problem_, effects)]];
     const Eigen::MatrixXd G = products.gram(columns, columns);
@@ -73,35 +64,72 @@ class Screening {
     Eigen::Index first = 0;
     for (const int effect : effects) {
       const auto count = static_cast<Eigen::Index>(problem_.columns[effect].size());
-      if (x.segment(first, count).isZero(0.0)) return;
+      if (x.segment(first, count).isZero(0.0)) return std::nullopt;
       first += count;
     }
     found.gain = products.gain + x.dot(2.0 * b - G * x);
     found.log_evidence = log_evidence(problem_, found.gain, effects, x, G);
-    const auto better = [](const Hypothesis& a, const Hypothesis& other) {
-      return a.log_evidence > other.log_evidence;
-    };
-    auto& best = best_[effects.size() - 1];
-    if (static_cast<int>(best.size()) == keep_ && !better(found, best.back())) return;
-    best.insert(std::upper_bound(best.begin(), best.end(), found, better), std::move(found));
-    if (static_cast<int>(best.size()) > keep_) best.pop_back();
+    return found;
   }
 
+ private:
   const Problem& problem_;
-  int keep_;
   std::vector<Products> products_;        // the first without leeway
   std::vector<std::size_t> products_of_;  // of each candidate
   std::vector<bool> is_seen_;
-  std::vector<std::vector<Hypothesis>> best_;
 };
+
+/// The likeliest sets of one size, likeliest first; of equals those that came first.
+class BestSets {
+ public:
+  explicit BestSets(int keep) : keep_(static_cast<std::size_t>(keep)) {}
+
+  void offer(Hypothesis set) {
+    const auto likelier = [](const Hypothesis& a, const Hypothesis& b) { return a.log_evidence > b.log_evidence; };
+    if (sets_.size() == keep_ && !likelier(set, sets_.back())) return;
+    sets_.insert(std::upper_bound(sets_.begin(), sets_.end(), set, likelier), std::move(set));
+    if (sets_.size() > keep_) sets_.pop_back();
+  }
+
+  const std::vector<Hypothesis>& sets() const { return sets_; }
+
+ private:
+  std::size_t keep_;
+  std::vector<Hypothesis> sets_;
+};
+
+/// A set, and all larger ones that begin with it.
+void extend(const Screening& screening, int candidates, std::vector<int>& effects, std::vector<BestSets>& of_size) {
+  if (std::optional<Hypothesis> found = screening.weighed(effects))
+    of_size[effects.size() - 1].offer(*std::move(found));
+  if (effects.size() == of_size.size()) return;
+  for (int effect = effects.back() + 1; effect < candidates; ++effect) {
+    if (screening.adds_nothing(effects, effect)) continue;
+    effects.push_back(effect);
+    extend(screening, candidates, effects, of_size);
+    effects.pop_back();
+  }
+}
 
 }  // namespace
 
 std::vector<Hypothesis> screen(const Problem& problem, int keep, std::size_t largest) {
-  Screening screening(problem, keep, largest);
-  std::vector<int> effects;
-  screening.extend(effects);
-  return screening.result();
+  const Screening screening(problem);
+  const auto candidates = static_cast<int>(problem.columns.size());
+  const std::vector<BestSets> none(largest, BestSets(keep));
+  std::vector<std::vector<BestSets>> by_first(problem.columns.size(), none);
+  parallel_items(candidates, [&](int first) {
+    std::vector<int> effects{first};
+    if (!screening.adds_nothing({}, first)) extend(screening, candidates, effects, by_first[first]);
+  });
+  std::vector<Hypothesis> result;
+  for (std::size_t size = 0; size < largest; ++size) {
+    BestSets best(keep);
+    for (std::vector<BestSets>& of_size : by_first)
+      for (const Hypothesis& set : of_size[size].sets()) best.offer(set);
+    result.insert(result.end(), best.sets().begin(), best.sets().end());
+  }
+  return result;
 }
 
 }  // namespace fathom

@@ -1,8 +1,10 @@
 #include "diagnosis/statistics/variance_profile.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/dense.h"
+#include "core/parallel.h"
 #include "diagnosis/statistics/distributions.h"
 #include "diagnosis/statistics/shared_errors.h"
 
@@ -26,36 +28,58 @@ double dof_of(const VarianceComponent& component, double variance, double of_var
   return of_variance > 0.0 ? std::min(2.0 * variance * variance / of_variance, kModelDof) : 0.0;
 }
 
+/// The log likelihood of a projection z whose share of the variance is a times as large, less that of a = 1:
+/// of_squares · z² + constants.
+Eigen::ArrayXd of_squares(double a, const Eigen::ArrayXd& shares) { return 0.5 - 0.5 / (1.0 + (a - 1.0) * shares); }
+Eigen::ArrayXd constants(double a, const Eigen::ArrayXd& shares) { return -0.5 * (1.0 + (a - 1.0) * shares).log(); }
+
 }  // namespace
 
-void VarianceProfile::add(const Eigen::MatrixXd& columns, double prior_dof, double most) {
+std::optional<VarianceProfile::Part> VarianceProfile::part_of(const Eigen::MatrixXd& columns, double prior_dof,
+                                                              double most) {
   const SymmetricEigen eigen = symmetric_eigen(columns.transpose() * columns);
   const Eigen::Index count = (eigen.values.array() > kLeastShare).count();
-  if (count == 0 || most < std::exp(0.5 * kFirst)) return;
-  const Eigen::VectorXd shares = eigen.values.tail(count);
-  parts_.push_back({columns * eigen.vectors.rightCols(count) * shares.cwiseSqrt().cwiseInverse().asDiagonal(),
-                    shares.array().min(1.0), prior_dof, most});
+  std::vector<double> times;
+  for (int k = kFirst; k <= kLast && std::exp(0.5 * k) <= most; ++k) times.push_back(std::exp(0.5 * k));
+  if (count == 0 || times.empty()) return std::nullopt;
+  const Eigen::VectorXd values = eigen.values.tail(count);
+  const Eigen::ArrayXd shares = values.array().min(1.0);
+  Part part{columns * eigen.vectors.rightCols(count) * values.cwiseSqrt().cwiseInverse().asDiagonal(),
+            Eigen::MatrixXd(times.size(), count), Eigen::VectorXd(times.size())};
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double a = times[k];
+    const auto row = static_cast<Eigen::Index>(k);
+    part.of_squares.row(row) = of_squares(a, shares).matrix();
+    part.constants[row] = constants(a, shares).sum() - 0.5 * prior_dof * (std::log(a) + 1.0 / a - 1.0);
+  }
+  return part;
 }
 
 VarianceProfile::VarianceProfile(const Covariance& covariance) {
-  std::vector<Eigen::MatrixXd> singles;
-  Eigen::Index count = 0;
+  std::vector<std::pair<const ObservableErrors*, Eigen::Index>> components;
   for (const ObservableErrors& errors : covariance.errors.observables)
-    for (std::size_t k = 0; k < errors.components.size(); ++k) {
-      const VarianceComponent& component = errors.components[k];
-      const auto row = static_cast<Eigen::Index>(k);
-      const double of_variance = errors.covariance(row, row);
-      const double variance = possible_variance(component, of_variance);
-      const Eigen::MatrixXd columns = covariance.whiten(std::sqrt(variance) * columns_of(component));
-      // An outlier that makes single observations' errors look large is weighed for itself.
-      if (component.level != ErrorLevel::observation)
-        add(columns, dof_of(component, variance, of_variance),
-            (component.level == ErrorLevel::model ? 1.0 : kMostOfKnown) * component.most / variance);
-      if (component.level == ErrorLevel::model || component.level == ErrorLevel::session) continue;
-      singles.push_back(columns);
-      count += columns.cols();
-    }
-  if (covariance.nuisance.cols() > 0) add(covariance.whiten(covariance.nuisance), kStatedDof, kMostOfKnown);
+    for (std::size_t k = 0; k < errors.components.size(); ++k)
+      components.emplace_back(&errors, static_cast<Eigen::Index>(k));
+  std::vector<std::optional<Part>> parts(components.size());
+  std::vector<Eigen::MatrixXd> singles(components.size());
+  parallel_items(static_cast<int>(components.size()), [&](int i) {
+    const auto [errors, k] = components[i];
+    const VarianceComponent& component = errors->components[k];
+    const double of_variance = errors->covariance(k, k);
+    const double variance = possible_variance(component, of_variance);
+    Eigen::MatrixXd columns = covariance.whiten(std::sqrt(variance) * columns_of(component));
+    // An outlier that makes single observations' errors look large is weighed for itself.
+    if (component.level != ErrorLevel::observation)
+      parts[i] = part_of(columns, dof_of(component, variance, of_variance),
+                         (component.level == ErrorLevel::model ? 1.0 : kMostOfKnown) * component.most / variance);
+    if (component.level != ErrorLevel::model && component.level != ErrorLevel::session) singles[i] = std::move(columns);
+  });
+  if (covariance.nuisance.cols() > 0)
+    parts.push_back(part_of(covariance.whiten(covariance.nuisance), kStatedDof, kMostOfKnown));
+  for (std::optional<Part>& part : parts)
+    if (part) parts_.push_back(*std::move(part));
+  Eigen::Index count = 0;
+  for (const Eigen::MatrixXd& columns : singles) count += columns.cols();
   single_directions_.resize(covariance.total.rows(), count);
   Eigen::Index next = 0;
   for (const Eigen::MatrixXd& columns : singles) {
@@ -63,34 +87,38 @@ VarianceProfile::VarianceProfile(const Covariance& covariance) {
     next += columns.cols();
   }
   const Eigen::ArrayXd squares = single_directions_.colwise().squaredNorm().transpose().array();
-  single_shares_ = squares.min(1.0);
   single_directions_ *= squares.max(1e-300).rsqrt().matrix().asDiagonal();
+  const Eigen::ArrayXd shares = squares.min(1.0);
+  single_of_squares_.resize(count, kLast);
+  single_constants_.resize(count, kLast);
+  for (int k = 1; k <= kLast; ++k) {
+    single_of_squares_.col(k - 1) = of_squares(std::exp(0.5 * k), shares);
+    single_constants_.col(k - 1) = constants(std::exp(0.5 * k), shares);
+  }
 }
 
-double VarianceProfile::log_factor(const Eigen::VectorXd& residual) const {
-  std::vector<double> all{0.0};  // nothing is wrong
+Eigen::VectorXd VarianceProfile::log_factors(const Eigen::MatrixXd& residuals) const {
+  const bool has_singles = single_directions_.cols() > 0;
+  // Of each residual the cases: nothing is wrong, one of the parts, a single group.
+  std::vector<std::vector<double>> cases(static_cast<std::size_t>(residuals.cols()), {0.0});
   for (const Part& part : parts_) {
-    const Eigen::ArrayXd squares = (part.directions.transpose() * residual).array().square();
-    std::vector<double> logs;
-    for (int k = kFirst; k <= kLast && std::exp(0.5 * k) <= part.most; ++k) {
-      const double a = std::exp(0.5 * k);
-      const Eigen::ArrayXd wider = 1.0 + (a - 1.0) * part.shares;
-      logs.push_back(-0.5 * (wider.log() + squares / wider - squares).sum() -
-                     0.5 * part.prior_dof * (std::log(a) + 1.0 / a - 1.0));
-    }
-    all.push_back(log_sum(logs) - std::log(static_cast<double>(logs.size() * parts_.size())));
+    const Eigen::MatrixXd squares = (part.directions.transpose() * residuals).cwiseAbs2();
+    const Eigen::MatrixXd logs = (part.of_squares * squares).colwise() + part.constants;
+    const double count = static_cast<double>(logs.rows()) * static_cast<double>(parts_.size());
+    for (Eigen::Index i = 0; i < logs.cols(); ++i)
+      cases[i].push_back(log_sum({logs.col(i).begin(), logs.col(i).end()}) - std::log(count));
   }
-  if (single_shares_.size() > 0) {
-    const Eigen::ArrayXd squares = (single_directions_.transpose() * residual).array().square();
-    Eigen::ArrayXXd logs(single_shares_.size(), kLast);
-    for (int k = 1; k <= kLast; ++k) {
-      const Eigen::ArrayXd wider = 1.0 + (std::exp(0.5 * k) - 1.0) * single_shares_;
-      logs.col(k - 1) = -0.5 * (wider.log() + squares / wider - squares);
+  if (has_singles) {
+    const Eigen::ArrayXXd squares = (single_directions_.transpose() * residuals).cwiseAbs2();
+    for (Eigen::Index i = 0; i < squares.cols(); ++i) {
+      const Eigen::ArrayXXd logs = (single_of_squares_.colwise() * squares.col(i)) + single_constants_;
+      const double most = logs.maxCoeff();
+      cases[i].push_back(most + std::log((logs - most).exp().mean()));
     }
-    const double most = logs.maxCoeff();
-    all.push_back(most + std::log((logs - most).exp().mean()));
   }
-  return log_sum(all) - std::log(single_shares_.size() > 0 ? 3.0 : 2.0);
+  Eigen::VectorXd result(residuals.cols());
+  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = log_sum(cases[i]) - std::log(has_singles ? 3.0 : 2.0);
+  return result;
 }
 
 }  // namespace fathom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/statistics/covariance.h"
@@ -18,20 +19,23 @@ class VarianceProfile {
  public:
   explicit VarianceProfile(const Covariance& covariance);
 
-  /// Log of the mean factor, beside −|residual|² / 2.
-  double log_factor(const Eigen::VectorXd& residual) const;
+  /// Log of the mean factor, beside −|residual|² / 2, of each column of the residuals (n × m). Many at once take a
+  /// fraction of the time that they take one by one.
+  Eigen::VectorXd log_factors(const Eigen::MatrixXd& residuals) const;
+  double log_factor(const Eigen::VectorXd& residual) const { return log_factors(residual)[0]; }
 
  private:
   struct Part {
     Eigen::MatrixXd directions;  ///< n × r, orthonormal
-    Eigen::ArrayXd shares;
-    double prior_dof, most;
+    Eigen::MatrixXd of_squares;  ///< a × r, what each squared projection adds to the log likelihood
+    Eigen::VectorXd constants;   ///< a, the rest of it
   };
-  void add(const Eigen::MatrixXd& columns, double prior_dof, double most);
+  /// Of whitened columns, a component's standard deviations; nothing where they hold no variance.
+  static std::optional<Part> part_of(const Eigen::MatrixXd& columns, double prior_dof, double most);
 
   std::vector<Part> parts_;
-  Eigen::MatrixXd single_directions_;  ///< n × singles, unit
-  Eigen::ArrayXd single_shares_;
+  Eigen::MatrixXd single_directions_;                     ///< n × singles, unit
+  Eigen::ArrayXXd single_of_squares_, single_constants_;  ///< singles × a
 };
 
 }  // namespace fathom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 
 #include "core/dense.h"
 #include "core/error.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kNone = 1e-14;           ///< [px²] variance of a factor that is not there; keeps precisions finite
 constexpr double kNoPlane = 1e-3;         ///< [px] the field's own plane over what was seen is zero within this
 constexpr std::size_t kMostPoints = 600;  ///< among which patterns of error are looked for
+constexpr double kEnoughVariance = 1e-6;  ///< of the largest among them
 
 bool any(const BiasAmplitudes& amplitudes) {
   return std::ranges::any_of(amplitudes, [](double amplitude) { return amplitude > 0.0; });
@@ -169,45 +171,55 @@ Eigen::VectorXd BiasLearner::shared_at(const BiasPoint& point) const {
   return values;
 }
 
-Eigen::VectorXd BiasLearner::whitened(const BiasPoint& point) const {
+Eigen::MatrixXd BiasLearner::whitened(std::span<const BiasPoint> points) const {
   const int half = cosines_.size();
   const Eigen::Index shared = shared_variance_.size();
-  const bool seen = has_state(point.state);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(shared + (has_states_ ? half * states() : 0));
-  Eigen::VectorXd of_shared = shared_at(point);
-  if (seen) {
-    const StateBlock& block = of_state_[point.state];
-    const Eigen::VectorXd own = cosines_.at(point.pixel_px.x(), point.pixel_px.y());
-    const Eigen::VectorXd white = block.precision.matrixL().solve(own);
-    values.segment(shared + half * point.state, half) = white;
-    of_shared -= block.cross * block.precision.matrixU().solve(white);
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Zero(shared + (has_states_ ? half * states() : 0), static_cast<Eigen::Index>(points.size()));
+  std::map<int, std::vector<Eigen::Index>> of_states;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    values.col(static_cast<Eigen::Index>(i)).head(shared) = shared_at(points[i]);
+    if (has_state(points[i].state)) of_states[points[i].state].push_back(static_cast<Eigen::Index>(i));
   }
-  values.head(shared) = precision_.matrixL().solve(of_shared);
+  for (const auto& [state, columns] : of_states) {
+    const StateBlock& block = of_state_[state];
+    Eigen::MatrixXd own(half, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const Eigen::Vector2d& pixel_px = points[columns[i]].pixel_px;
+      own.col(static_cast<Eigen::Index>(i)) = cosines_.at(pixel_px.x(), pixel_px.y());
+    }
+    block.precision.matrixL().solveInPlace(own);
+    values(Eigen::seqN(shared + half * state, half), columns) = own;
+    values(Eigen::seqN(0, shared), columns) -= block.cross * block.precision.matrixU().solve(own);
+  }
+  values.topRows(shared) = precision_.matrixL().solve(values.topRows(shared));
   return values;
 }
 
 double BiasLearner::sigma(const BiasPoint& point) const {
-  double variance = whitened(point).squaredNorm();
+  double variance = whitened({&point, 1}).squaredNorm();
   if (has_states_ && !has_state(point.state))
     for (const double amplitude : prior_.state_px) variance += amplitude * amplitude;
   return std::sqrt(variance);
 }
 
 std::vector<BiasField> BiasLearner::error_modes(int count, std::span<const BiasPoint> where) const {
-  std::vector<Eigen::VectorXd> rows;
+  std::vector<BiasPoint> some;
   const std::size_t every = std::max<std::size_t>(1, (where.size() + kMostPoints - 1) / kMostPoints);
-  for (std::size_t i = 0; i < where.size(); i += every) rows.push_back(whitened(where[i]));
-  if (rows.empty()) return {};
-  Eigen::MatrixXd points(rows.front().size(), static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = rows[i];
-  const SymmetricEigen eigen = symmetric_eigen(points.transpose() * points);
+  for (std::size_t i = 0; i < where.size(); i += every) some.push_back(where[i]);
+  if (some.empty()) return {};
+  const Eigen::MatrixXd points = whitened(some);
+  const Eigen::VectorXd variances = points.colwise().squaredNorm();
+  const Eigen::MatrixXd factor = pivoted_cholesky(
+      variances, [&](Eigen::Index i) -> Eigen::VectorXd { return points.transpose() * points.col(i); },
+      Eigen::VectorXd::Constant(variances.size(), kEnoughVariance * variances.maxCoeff()), variances.size());
+  const SymmetricEigen eigen = symmetric_eigen(factor.transpose() * factor);
   const int half = cosines_.size();
   const Eigen::Index shared = shared_variance_.size();
   std::vector<BiasField> modes;
-  for (Eigen::Index i = points.cols() - 1; i >= 0 && static_cast<int>(modes.size()) < count; --i) {
-    const double squared = eigen.values[i];
-    if (squared <= 1e-12 * eigen.values[points.cols() - 1] || squared <= 0.0) break;
-    const Eigen::VectorXd white = points * eigen.vectors.col(i) / std::sqrt(squared);
+  for (Eigen::Index i = factor.cols() - 1; i >= 0 && static_cast<int>(modes.size()) < count; --i) {
+    // Of the points' covariance the pattern is factor · vector / √value, of their white numbers as much again.
+    const Eigen::VectorXd white = points * (factor * eigen.vectors.col(i)) / eigen.values[i];
     Solution mode;
     mode.shared = precision_.matrixU().solve(white.head(shared));
     if (has_states_)

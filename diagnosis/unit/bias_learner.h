@@ -56,8 +56,8 @@ class BiasLearner {
   bool has_state(int state) const { return has_states_ && state >= 0 && state < states(); }
   /// Of independent factors of these variances, when the field has none of these planes.
   static Eigen::VectorXd without_planes(const Eigen::VectorXd& variance, const Eigen::MatrixXd& planes);
-  /// A point's error in terms of independent numbers of variance 1.
-  Eigen::VectorXd whitened(const BiasPoint& point) const;
+  /// Each point's error in terms of independent numbers of variance 1, a column each.
+  Eigen::MatrixXd whitened(std::span<const BiasPoint> points) const;
 
   Cosines cosines_;
   BiasPrior prior_;
