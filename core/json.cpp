@@ -26,6 +26,17 @@ std::pair<std::size_t, std::size_t> line_and_column(std::string_view text, std::
   return {line, 1 + before.size() - (start == std::string_view::npos ? 0 : start + 1)};
 }
 
+/// Of the parser's message what a person needs: "unexpected string literal; expected ',' or '}'".
+std::string what_is_wrong(std::string_view message) {
+  constexpr std::string_view kBefore = " - ";
+  if (const std::size_t at = message.find(kBefore); at != std::string_view::npos)
+    message.remove_prefix(at + kBefore.size());
+  std::string text(message.substr(0, message.find("; last read: ")));
+  for (const std::string_view closing : {"expected '}'", "expected ']'"})
+    if (text.ends_with(closing)) text.insert(text.size() - 3, "',' or ");
+  return text;
+}
+
 }  // namespace
 
 SharedJson::SharedJson() : SharedJson(Json()) {}
@@ -142,7 +153,8 @@ Json read_json(const std::filesystem::path& path) {
     return Json::parse(text, check_event);
   } catch (const Json::parse_error& problem) {
     const auto [line, column] = line_and_column(text, problem.byte);
-    throw Error(path.string(), fmt::format("line {}, column {}", line, column), "is not valid JSON");
+    throw Error(path.string(), fmt::format("line {}, column {}", line, column),
+                "is not valid JSON: " + what_is_wrong(problem.what()));
   } catch (const Json::out_of_range&) {
     throw Error(path.string(), "holds a number too large for double precision");
   }

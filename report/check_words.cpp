@@ -61,8 +61,7 @@ constexpr std::array kTexts{
         "Put these cups nearer to the middle of the image."},
     LackText{Lack::inside_in_sight, "inside_in_sight",
              "In {count} conditions next to nothing is seen of the cup's inside, {size:.0f} pixels at worst: {names}.",
-             "No height is compared there: a region counts from {fewest_pixels:g} pixels on, and 10 mm along the inner "
-             "wall are left out.",
+             "No height is compared there. What lies within 10 mm of the inner wall does not count as seen.",
              "Put the cup nearer to the sensor's foot, or fill it higher."},
     LackText{Lack::whole_clouds, "whole_clouds",
              "{count} clouds are less than half as large as the others: frames {names}.",
@@ -134,7 +133,7 @@ LackWords lack_words(const Shortfall& s, const MeasurementCheck& check) {
         fmt::arg("count", s.names.size()), fmt::arg("names", name_list(s.names)),
         fmt::arg("defaults", fmt::join(defaults, ", ")), fmt::arg("looked_at", check.clouds_read),
         fmt::arg("frames", check.frames), fmt::arg("no_desk", kNoDesk.finding), fmt::arg("no_cup", kNoCup.finding),
-        fmt::arg("fewest_conditions", kFewestConditions), fmt::arg("fewest_pixels", kFewestInRegion),
+        fmt::arg("fewest_conditions", kFewestConditions),
         fmt::arg("placement_mm", mm_from_metres(check.rig.placement_sigma_m)),
         fmt::arg("fill_mm", mm_from_metres(check.rig.fill_sigma_m)),
         fmt::arg("bias", check.rig.unit.map ? "What calibration left of the unit's own bias" : "The unit's own bias"),

@@ -246,17 +246,27 @@ bool is_beyond_bounds(const UpperLimit& limit, double departure) {
 }
 
 std::string departure_words(const UpperLimit& limit, double departure) {
-  return is_beyond_bounds(limit, departure) ? "not visible here"
+  return is_beyond_bounds(limit, departure) ? "any amount"
                                             : fmt::format("{:.3g}{}", departure, parameter_unit(limit.parameter));
 }
 
 std::string limits_html(const std::vector<UpperLimit>& limits) {
   Rows rows;
+  std::vector<std::string> hidden;
   for (const UpperLimit& limit : limits)
-    rows.push_back({effect_words(limit.effect), parameter_name(limit.parameter), departure_words(limit, limit.limit95),
-                    departure_words(limit, limit.smallest_seen)});
-  return html_table(
-      {"effect", "its", "could differ from the model by up to (95 %)", "raises an alarm half the time from"}, rows);
+    if (is_beyond_bounds(limit, limit.limit95) && is_beyond_bounds(limit, limit.smallest_seen))
+      hidden.push_back(fmt::format("{} ({})", effect_words(limit.effect), parameter_name(limit.parameter)));
+    else
+      rows.push_back({effect_words(limit.effect), parameter_name(limit.parameter),
+                      departure_words(limit, limit.limit95), departure_words(limit, limit.smallest_seen)});
+  std::string html;
+  if (!rows.empty())
+    html += html_table(
+        {"effect", "its", "could differ from the model by up to (95 %)", "raises an alarm half the time from"}, rows);
+  if (!hidden.empty())
+    html += paragraph(
+        fmt::format("However large, these would not show in these measurements: {}.", fmt::join(hidden, ", ")));
+  return html;
 }
 
 /// The effects' ids, each once: in which liquid they are makes no other effect of them.
@@ -420,7 +430,7 @@ void write_diagnosis_report(const std::filesystem::path& folder, const Diagnosed
   html += heading("Possible explanations") + rivals_html(diagnosis) + confusable_html(diagnosis);
   if (!diagnosis.next.empty()) html += heading("What to measure next") + next_html(diagnosis);
   html += heading("How large other effects could still be") +
-          html_folded("Each effect that was neither found nor is invisible here", limits_html(diagnosis.limits.upper));
+          html_folded("Effects that were not found", limits_html(diagnosis.limits.upper));
   html += heading("Uncertainty budget") + budget_html(diagnosis);
   write_residuals(folder, campaign);
   html +=

@@ -21,6 +21,15 @@ std::string without_last_blank(std::string text) {
   return text;
 }
 
+constexpr double kLikely = 0.5;  // that nothing is missing
+
+/// Whether values that were written down are far from what fits best, though within their errors.
+bool is_moved(const Gap& gap) {
+  constexpr double kFar = 2.0;  // errors
+  return gap.train.before_rms_mm > kFar * std::max(gap.train.noise_floor_mm, gap.train.after_rms_mm) &&
+         !gap.taken_up.empty();
+}
+
 bool compares(const Diagnosis& diagnosis, std::string_view observable) {
   return std::any_of(diagnosis.budget.begin(), diagnosis.budget.end(),
                      [&](const ConditionBudget& line) { return line.observable == observable; });
@@ -206,8 +215,20 @@ std::string what_may_be_besides(const Diagnosis& diagnosis) {
                      percent_words(diagnosis.probability_of_unknown, true));
 }
 
+/// Which stated values had to be moved for the rest to be errors; nothing where they hardly matter.
+std::string what_was_moved(const Gap& gap) {
+  constexpr std::size_t kMost = 3;
+  if (!is_moved(gap)) return {};
+  std::vector<std::string> inputs;
+  for (std::size_t i = 0; i < std::min(kMost, gap.taken_up.size()); ++i)
+    inputs.push_back(fmt::format("{} ({:.2f} mm)", gap.taken_up[i].input, gap.taken_up[i].rms_mm));
+  return fmt::format(
+      " With all values as they are written down it would be {:.2f} mm: what is not known exactly was moved within its "
+      "standard deviation, most of all {}.",
+      gap.train.before_rms_mm, joined(inputs, "and"));
+}
+
 std::string agreement(const Diagnosis& diagnosis) {
-  constexpr double kLikely = 0.5;
   const std::string sure = percent_words(diagnosis.probability_of_none);
   const std::string agree =
       diagnosis.probability_of_none < kLikely
@@ -217,9 +238,10 @@ std::string agreement(const Diagnosis& diagnosis) {
                 what_may_be_besides(diagnosis)
           : fmt::format("Model and measurement agree within their errors (probability that nothing is missing: {}). ",
                         sure);
-  return agree + fmt::format("The {} differ by {:.2f} mm (rms), where errors alone make {:.2f} mm.",
-                             heights_words(diagnosis), diagnosis.gap.train.after_rms_mm,
-                             diagnosis.gap.train.noise_floor_mm);
+  return agree +
+         fmt::format("The {} differ by {:.2f} mm (rms), where errors alone make {:.2f} mm.", heights_words(diagnosis),
+                     diagnosis.gap.train.after_rms_mm, diagnosis.gap.train.noise_floor_mm) +
+         what_was_moved(diagnosis.gap);
 }
 
 /// Where cups are seen, but nothing in them.
@@ -321,8 +343,13 @@ std::vector<std::string> advice(const Diagnosis& diagnosis) {
                                       [](const NextMeasurement& next) { return next.settles(); });
     if (has_plan) add("next_1.json holds the plan of the first of these measurements.");
   }
-  if (diagnosis.verdict == Verdict::none && diagnosis.data.mistakes.empty())
-    add("Nothing: no further measurement is needed.");
+  if (diagnosis.verdict == Verdict::none && diagnosis.data.mistakes.empty()) {
+    if (is_moved(diagnosis.gap))
+      add(fmt::format("To be surer, find out more exactly what was moved most: {}.",
+                      diagnosis.gap.taken_up.front().input));
+    if (diagnosis.probability_of_none < kLikely) add(next_sentences(diagnosis.next));
+    if (steps.empty()) add("Nothing: no further measurement is needed.");
+  }
   return steps;
 }
 

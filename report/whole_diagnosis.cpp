@@ -1,8 +1,11 @@
 #include "report/whole_diagnosis.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "core/input_policy.h"
 #include "core/parallel.h"
@@ -53,17 +56,43 @@ bool has_heights(const std::vector<Observation>& observations) {
                      [](const Observation& o) { return o.observable == "height_mm"; });
 }
 
-/// Why no height in a cup was compared, and what would help; nothing where some were, or where there are no cups.
+/// Which heights in cups were not compared, why, and what would help; nothing where all were, or where there are no
+/// cups.
 std::string on_missing_heights(const Measurement& measurement, const std::vector<Observation>& compared) {
-  const bool has_cups = std::any_of(measurement.frames.begin(), measurement.frames.end(),
-                                    [](const FrameRecord& f) { return !f.bare_desk(); });
-  if (!has_cups || has_heights(compared)) return {};
+  constexpr std::string_view kRemedy =
+      "Cups that stand nearer to the sensor's foot, more in the middle, or are fuller show more of their inside.";
+  constexpr std::size_t kNamed = 4;
+  const auto placement_of = [](const Factors& f) {
+    return PlacementKey(f.session, f.pour, f.placement, f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm);
+  };
+  std::set<PlacementKey> placements, compared_placements;
+  for (const Observation& o : compared)
+    if (o.observable == "height_mm") compared_placements.insert(placement_of(o.factors));
+  std::vector<std::string> missing;  // conditions
+  std::size_t count = 0;
+  for (const Observation& o : measurement.observations) {
+    const Factors& f = o.factors;
+    if (!has_cup(f) || f.within_mm || !placements.insert(placement_of(f)).second) continue;
+    if (compared_placements.contains(placement_of(f))) continue;
+    ++count;
+    if (std::string name =
+            fmt::format("{} at {}", filling_name(f.liquid, f.fill_mm), place_name(f.distance_mm, f.lateral_mm));
+        std::find(missing.begin(), missing.end(), name) == missing.end())
+      missing.push_back(std::move(name));
+  }
+  if (missing.empty()) return {};
+  if (compared_placements.empty())
+    return fmt::format("No height in a cup could be compared: {}. {}",
+                       has_heights(measurement.observations)
+                           ? "all that is seen in cups lies in the shadows of their walls or near these, as the model "
+                             "has them"
+                           : "too few pixels show the inside of a cup",
+                       kRemedy);
+  const std::size_t more = missing.size() - std::min(missing.size(), kNamed);
+  missing.resize(missing.size() - more);
   return fmt::format(
-      "No height in a cup could be compared: {}. Cups that stand nearer to the sensor's foot, more in the middle, or "
-      "are fuller show more of their inside.",
-      has_heights(measurement.observations)
-          ? "all that is seen in cups lies in the shadows of their walls or near these, as the model has them"
-          : "too few pixels show the inside of a cup");
+      "{} of {} placements are left out: {}{}. By the model too little of the cup's inside is seen there. {}", count,
+      placements.size(), fmt::join(missing, "; "), more > 0 ? fmt::format("; and {} more", more) : "", kRemedy);
 }
 
 /// What it costs that the bare desk was not seen where cups stand.

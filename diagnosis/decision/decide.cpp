@@ -29,8 +29,9 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   diagnosis.data.warnings = hygiene_warnings(c.evidence);
   if (!c.covariance.errors.from_replicates)
     diagnosis.data.warnings.emplace_back(
-        "Hardly any condition was poured or placed anew, so errors are taken from what a smooth curve through the "
-        "conditions leaves. Repeat some conditions with new pours and placements.");
+        "Fewer than eight heights repeat a condition with a new pour or placement, so errors are taken from what a "
+        "smooth "
+        "curve through the conditions leaves. Repeat more of them.");
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
   diagnosis.limits.confusable = confusable_pairs(c.evidence, c.problem);
   diagnosis.limits.near_null = near_null_directions(c.evidence, c.problem);

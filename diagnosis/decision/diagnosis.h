@@ -85,10 +85,17 @@ struct StratumGap {
   GapSize train, held_out;
 };
 
+/// What of the heights' residuals an uncertain input takes up, at its likeliest value.
+struct TakenUp {
+  std::string input;
+  double rms_mm = 0.0;
+};
+
 /// How large the gap is, and what the effects leave of it.
 struct Gap {
   GapSize train, held_out;
   std::vector<StratumGap> strata;
+  std::vector<TakenUp> taken_up;  ///< largest first, those above a tenth of the residuals
 };
 
 struct UpperLimit {

@@ -81,6 +81,8 @@ Json json_from(const Excess& excess) {
           {"p", excess.p}};
 }
 
+Json json_from(const TakenUp& one) { return {{"input", one.input}, {"rms_mm", one.rms_mm}}; }
+
 Json json_from(const StratumGap& stratum) {
   return {{"stratum", stratum.stratum}, {"train", json_from(stratum.train)}, {"held_out", json_from(stratum.held_out)}};
 }
@@ -151,7 +153,10 @@ Json array_of(const std::vector<T>& items) {
 }
 
 Json json_from(const Gap& gap) {
-  return {{"train", json_from(gap.train)}, {"held_out", json_from(gap.held_out)}, {"strata", array_of(gap.strata)}};
+  return {{"train", json_from(gap.train)},
+          {"held_out", json_from(gap.held_out)},
+          {"strata", array_of(gap.strata)},
+          {"taken_up", array_of(gap.taken_up)}};
 }
 
 }  // namespace

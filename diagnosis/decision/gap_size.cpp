@@ -38,6 +38,26 @@ bool tell_all(const LinearFit& fit, const std::vector<Eigen::Index>& rows) {
   return true;
 }
 
+/// `moved`: of each nuisance, in its σ.
+std::vector<TakenUp> taken_up(const Case& c, const Eigen::VectorXd& moved, const std::vector<Eigen::Index>& rows,
+                              double residual_rms) {
+  constexpr double kWorthARow = 0.1;
+  std::map<std::string, Eigen::VectorXd> changes;
+  for (std::size_t k = 0; k < c.evidence.nuisances.size(); ++k) {
+    const Nuisance& nuisance = c.evidence.nuisances[k];
+    const auto column = static_cast<Eigen::Index>(k);
+    const auto [change, is_new] = changes.try_emplace(nuisance.kind.empty() ? nuisance.name : nuisance.kind);
+    if (is_new) change->second.setZero(static_cast<Eigen::Index>(rows.size()));
+    change->second += moved[column] * c.covariance.nuisance.col(column)(rows);
+  }
+  std::vector<TakenUp> result;
+  for (const auto& [input, change] : changes)
+    if (const double size = rms(change); size > kWorthARow * residual_rms) result.push_back({input, size});
+  std::stable_sort(result.begin(), result.end(),
+                   [](const TakenUp& a, const TakenUp& b) { return a.rms_mm > b.rms_mm; });
+  return result;
+}
+
 }  // namespace
 
 void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
@@ -45,7 +65,8 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
   const Eigen::VectorXd left_w = c.problem.residual - fit.prediction;
   const Eigen::VectorXd left = c.covariance.factor.matrixL() * left_w;
   const Eigen::VectorXd solved = c.covariance.factor.matrixU().solve(left_w);
-  const Eigen::VectorXd after = left - c.covariance.nuisance * (c.covariance.nuisance.transpose() * solved);
+  const Eigen::VectorXd moved = c.covariance.nuisance.transpose() * solved;
+  const Eigen::VectorXd after = left - c.covariance.nuisance * moved;
   const Eigen::VectorXd errors = c.covariance.total.diagonal() - c.covariance.nuisance.rowwise().squaredNorm();
   diagnosis.residuals.before.assign(before.begin(), before.end());
   diagnosis.residuals.after.assign(after.begin(), after.end());
@@ -62,6 +83,7 @@ void measure_gaps(const Case& c, const Refit& fit, Diagnosis& diagnosis) {
     return gap_size(before, other.residual, other.variance, rows);
   };
   diagnosis.gap.train = train(heights);
+  diagnosis.gap.taken_up = taken_up(c, moved, heights, diagnosis.gap.train.before_rms_mm);
   diagnosis.gap.held_out = held(heights);
   for (const std::string factor : {"liquid", "fill_mm", "distance_mm", "lateral_mm"}) {
     std::map<std::string, std::vector<Eigen::Index>> levels;

@@ -29,12 +29,10 @@ using Condition = std::tuple<std::string, double, double, double>;
 Condition condition_of(const FrameRecord& f) { return {f.liquid, f.fill_m, f.distance_m, f.lateral_m}; }
 
 std::string place_name(const FrameRecord& f) {
-  return fmt::format("distance {:g} mm, lateral {:g} mm", mm_from_metres(f.distance_m), mm_from_metres(f.lateral_m));
+  return fathom::place_name(mm_from_metres(f.distance_m), mm_from_metres(f.lateral_m));
 }
 
-std::string filling_name(const FrameRecord& f) {
-  return f.liquid == "empty" ? f.liquid : fmt::format("{:g} mm of {}", mm_from_metres(f.fill_m), f.liquid);
-}
+std::string filling_name(const FrameRecord& f) { return fathom::filling_name(f.liquid, mm_from_metres(f.fill_m)); }
 
 Eigen::Vector2d place_of(const FrameRecord& f) { return {f.lateral_m, f.distance_m}; }
 
@@ -187,7 +185,7 @@ class Checker {
       check_.fills_mm[f.liquid].insert(mm_from_metres(f.fill_m));
       check_.distances_mm.insert(mm_from_metres(f.distance_m));
       check_.laterals_mm.insert(mm_from_metres(f.lateral_m));
-      pours.emplace(f.session, f.pour, f.liquid, f.fill_m);
+      if (f.liquid != "empty") pours.emplace(f.session, f.pour, f.liquid, f.fill_m);
       ++placements[placement_of(f)];
     }
     check_.frames = frames_.size(), check_.sessions = sessions.size(), check_.pours = pours.size();
@@ -233,15 +231,19 @@ class Checker {
     if (!cut.names.empty()) add(std::move(cut));
   }
 
-  /// Once for each condition that has clouds.
+  /// Once for each condition. How high clouds show something is not known yet: at least as high as a clear liquid lifts
+  /// the bottom, by a third of its depth.
   void look_into_cups() {
+    constexpr double kLift = 1.0 / 3.0;
     std::map<Condition, const FrameRecord*> conditions;
     for (const FrameRecord& f : frames_)
-      if (!f.bare_desk() && !f.cloud.empty()) conditions.emplace(condition_of(f), &f);
+      if (!f.bare_desk()) conditions.emplace(condition_of(f), &f);
     Shortfall hidden{Lack::inside_in_sight, kFewestInRegion};
     for (const auto& [condition, frame] : conditions) {
-      const double pixels = pixels_in_sight(place_of(*frame), frame->fill_m, check_.rig);
-      if (pixels >= kFewestInRegion) continue;
+      const double height =
+          frame->height_mm ? metres_from_mm(*frame->height_mm) : check_.rig.cup.bottom() + kLift * frame->fill_m;
+      const double pixels = pixels_in_sight(place_of(*frame), height, check_.rig);
+      if (pixels >= (frame->cloud.empty() ? kFewestInInterior : kFewestInRegion)) continue;
       hidden.size = std::min(hidden.size, pixels);
       hidden.names.push_back(fmt::format("{} at {}", filling_name(*frame), place_name(*frame)));
     }

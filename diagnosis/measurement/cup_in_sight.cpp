@@ -51,10 +51,9 @@ double share_in_image(const Eigen::Vector2d& cup, const LaboratoryRig& rig) {
   return static_cast<double>(seen) / static_cast<double>(points.size());
 }
 
-double pixels_in_sight(const Eigen::Vector2d& cup, double fill, const LaboratoryRig& rig) {
-  constexpr double kLift = 1.0 / 3.0;
+double pixels_in_sight(const Eigen::Vector2d& cup, double height, const LaboratoryRig& rig) {
   constexpr int kAcross = 30;
-  const double height = rig.cup.bottom() + kLift * fill, radius = interior_radius(rig.cup);
+  const double radius = interior_radius(rig.cup);
   const double opening = rig.cup.inner.back().x(), to_rim = (rig.cup.height() - height) / (rig.height_m - height);
   const Eigen::Isometry3d camera_from_desk =
       desk_from_camera(plane_from({rig.height_m, rig.pitch_rad, rig.roll_rad})).inverse();

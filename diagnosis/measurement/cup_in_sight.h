@@ -22,9 +22,9 @@ bool is_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
 /// What a distance_mm must be for that, in words that follow "must be".
 std::string words_in_sight(const Eigen::Vector2d& cup, const LaboratoryRig& rig);
 
-/// Pixels in which camera and projector see what is looked at in the cup. A clear liquid lifts the bottom by a third of
-/// its depth; what is turbid is seen from farther still.
-double pixels_in_sight(const Eigen::Vector2d& cup, double fill, const LaboratoryRig& rig);
+/// Pixels in which camera and projector see what seems to lie so high above the desk in the cup, and farther than
+/// windows reach from its wall.
+double pixels_in_sight(const Eigen::Vector2d& cup, double height, const LaboratoryRig& rig);
 
 /// Rms of an uncalibrated unit's bias of disparity: 0.097 px on measured desks, a plane taken off and noise smoothed
 /// over 8 px (docs/calibrate.md).

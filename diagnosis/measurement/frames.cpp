@@ -196,6 +196,14 @@ PlacementKey placement_of(const FrameRecord& f) {
   return {f.session, f.pour, f.placement, f.liquid, f.fill_m, f.distance_m, f.lateral_m};
 }
 
+std::string place_name(double distance_mm, double lateral_mm) {
+  return fmt::format("distance {:g} mm, lateral {:g} mm", distance_mm, lateral_mm);
+}
+
+std::string filling_name(const std::string& liquid, double fill_mm) {
+  return liquid == "empty" ? liquid : fmt::format("{:g} mm of {}", fill_mm, liquid);
+}
+
 std::vector<FrameRecord> read_frames(const Table& frames, const LaboratoryRig& rig,
                                      const std::filesystem::path& folder) {
   for (const char* column : kColumns) frames.need(column);

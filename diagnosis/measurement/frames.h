@@ -28,6 +28,11 @@ struct FrameRecord {
 using PlacementKey = std::tuple<int, int, int, std::string, double, double, double>;
 PlacementKey placement_of(const FrameRecord& frame);
 
+/// "distance 300 mm, lateral 0 mm"
+std::string place_name(double distance_mm, double lateral_mm);
+/// "20 mm of water", "empty"
+std::string filling_name(const std::string& liquid, double fill_mm);
+
 /// In the table's order; `cloud` may be missing as a column where there is `height_mm`. Throws Error naming line and
 /// column: a missing column, an unknown liquid, what is no number,
 /// a frame that a session has twice, time that runs backwards over a placement's trials, lengths that cannot be in mm

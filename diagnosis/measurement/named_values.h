@@ -17,6 +17,8 @@ struct NamedValue {
 
 /// Pixels that a region of the cup needs.
 inline constexpr double kFewestInRegion = 60.0;
+/// … that the mean over all of its inside does, as tables without clouds have it, …
+inline constexpr double kFewestInInterior = 10.0;
 /// … and that a cell of its raster does.
 inline constexpr double kFewestInCell = 15.0;
 

@@ -14,6 +14,8 @@
 namespace fathom {
 namespace {
 
+const std::string kUnitBias = "the sensor's own bias";
+
 /// Only those conditions' part of a sensitivity.
 Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& sensitivity,
                         const std::function<bool(const Factors&)>& is) {
@@ -34,7 +36,8 @@ void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<
   for (const int session : sessions)
     nuisances.push_back(
         {fmt::format("{} of session {}", pose.name, session), kPart * pose.sigma,
-         part_of(predictor, pose.sensitivity, [&](const Factors& factors) { return factors.session == session; })});
+         part_of(predictor, pose.sensitivity, [&](const Factors& factors) { return factors.session == session; }),
+         pose.name + " of sessions"});
 }
 
 void add_rig(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
@@ -60,7 +63,7 @@ void add_fills(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
     if (has_liquid(condition.factors)) pours.insert(pour_of(condition.factors));
   for (const std::string& pour : pours)
     nuisances.push_back({"fill of pour " + pour, sigma_mm,
-                         part_of(predictor, all, [&](const Factors& f) { return pour_of(f) == pour; })});
+                         part_of(predictor, all, [&](const Factors& f) { return pour_of(f) == pour; }), "fills"});
 }
 
 void add_places(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
@@ -79,7 +82,7 @@ void add_places(const Predictor& predictor, std::vector<Nuisance>& nuisances) {
         own[static_cast<Eigen::Index>(row)] = all[static_cast<Eigen::Index>(row)];
       nuisances.push_back({fmt::format("{} of placement {}/{}", axis == 0 ? "x" : "y", condition.factors.session,
                                        condition.factors.placement),
-                           sigma_mm, std::move(own)});
+                           sigma_mm, std::move(own), "places of cups"});
     }
   }
 }
@@ -97,7 +100,7 @@ std::vector<Nuisance> nuisances_of(const Predictor& predictor) {
 std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vector<Observation>& observations) {
   std::vector<Nuisance> nuisances;
   for (Eigen::VectorXd& error : predictor.unit_errors())
-    nuisances.push_back({fmt::format("{} {}", kUnitPattern, nuisances.size() + 1), 1.0, std::move(error)});
+    nuisances.push_back({fmt::format("{} {}", kUnitPattern, nuisances.size() + 1), 1.0, std::move(error), kUnitBias});
   std::map<std::pair<double, double>, Nuisance> places;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Factors& f = observations[i].factors;
@@ -107,7 +110,7 @@ std::vector<Nuisance> unit_nuisances(const Predictor& predictor, const std::vect
       place = {fmt::format("bias of the unit at ({:g}, {:g}) mm", f.lateral_mm, f.distance_mm),
                kBias_px * height_per_px_mm({metres_from_mm(f.lateral_mm), metres_from_mm(f.distance_mm)},
                                            predictor.model().laboratory),
-               Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size()))};
+               Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observations.size())), kUnitBias};
     place.sensitivity[static_cast<Eigen::Index>(i)] = 1.0;
   }
   for (auto& [where, place] : places) nuisances.push_back(std::move(place));

@@ -62,9 +62,8 @@ bool goes_by_time(const Json& model_effects) {
 
 /// A whole interior's mean height, as tables without clouds have it.
 double interior_height_mm(const FrameEstimates& estimates) {
-  constexpr double kFewest = 10.0;
-  return estimates.interior.weight >= kFewest ? mm_from_metres(estimates.interior.mean)
-                                              : std::numeric_limits<double>::quiet_NaN();
+  return estimates.interior.weight >= kFewestInInterior ? mm_from_metres(estimates.interior.mean)
+                                                        : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// 1 σ of the desk's height when all disparities of a frame share an error: 1/z changes by it over f b, everywhere.

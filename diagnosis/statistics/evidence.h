@@ -49,6 +49,7 @@ struct Nuisance {
   std::string name;
   double sigma = 0.0;           ///< of its prior, about 0
   Eigen::VectorXd sensitivity;  ///< change of every observation per unit
+  std::string kind{};           ///< what a reader knows many of them by, such as "fills"; empty: the name
 };
 
 /// An error of the model that observations of one group have in common; how large it is, the data may say better.

@@ -90,6 +90,18 @@ TEST(Json, ComesBackFromItsFileInTheSameOrder) {
   EXPECT_EQ(read_json(folder / "scene.json").dump(), kScene.dump());
 }
 
+TEST(Json, AWrongFileIsToldWhereAndWhatWasExpected) {
+  const TemporaryFolder folder;
+  const auto expect = [&](const char* text, const char* words) {
+    write_text(folder / "scene.json", text);
+    expect_error([&] { read_json(folder / "scene.json"); }, {words});
+  };
+  expect("{\"a\": 1\n \"b\": 2}",
+         "line 2, column 4: is not valid JSON: unexpected string literal; expected ',' or '}'");
+  expect("{\"a\": 1,}", "line 1, column 9: is not valid JSON: unexpected '}'; expected string literal");
+  expect("{\"a\": tru}", "line 1, column 10: is not valid JSON: invalid literal");
+}
+
 TEST(Json, ANulDoesNotEndAFile) {
   const TemporaryFolder folder;
   for (const std::string& text : {std::string("{}\0", 3), std::string("{}\0]", 4), std::string("{\"a\0\": 1}", 9)}) {

@@ -39,14 +39,15 @@ TEST_F(CheckedFolder, CountsWhatIsThere) {
   add("0,0,0,1", "water,20,300,0");
   add("0,0,1,0", "water,20,300,0");
   add("1,1,2,0", "water,30,300,0");
+  add("1,2,3,0", "empty,0,300,0");
   const MeasurementCheck found = check();
-  EXPECT_EQ(found.frames, 5u);
-  EXPECT_EQ(found.clouds, 5u);
+  EXPECT_EQ(found.frames, 6u);
+  EXPECT_EQ(found.clouds, 6u);
   EXPECT_EQ(found.heights, 0u);
   EXPECT_EQ(found.bare_desk_views, 1u);
   EXPECT_EQ(found.sessions, 2u);
-  EXPECT_EQ(found.pours, 2u);
-  EXPECT_EQ(found.placements, 3u);
+  EXPECT_EQ(found.pours, 2u);  // an empty cup is none
+  EXPECT_EQ(found.placements, 4u);
   EXPECT_EQ(found.fewest_trials, 1u);
   EXPECT_EQ(found.most_trials, 2u);
   EXPECT_EQ(found.fills_mm.at("water"), (std::set<double>{20.0, 30.0}));
@@ -166,10 +167,18 @@ TEST_F(CheckedFolder, ACupThatHidesItsInsideIsNamed) {
   add("0,0,1,0", "empty,0,450,0");
   add("0,1,2,0", "water,80,450,0");
   add("0,1,3,0", "water,60,300,0");
-  const MeasurementCheck found = check();
+  MeasurementCheck found = check();
   ASSERT_TRUE(find(found, Lack::inside_in_sight));
   EXPECT_EQ(find(found, Lack::inside_in_sight)->names,
             std::vector<std::string>{"empty at distance 450 mm, lateral 0 mm"});
+  // So it is where only heights were written down.
+  rows.clear();
+  add("0,0,0,0", "empty,0,300,0", "8");
+  add("0,0,1,0", "empty,0,500,0", "8");
+  found = check("height_mm");
+  ASSERT_TRUE(find(found, Lack::inside_in_sight));
+  EXPECT_EQ(find(found, Lack::inside_in_sight)->names,
+            std::vector<std::string>{"empty at distance 500 mm, lateral 0 mm"});
 }
 
 TEST_F(CheckedFolder, ACopyThatBrokeOffIsNamed) {
