@@ -221,10 +221,10 @@ std::string what_was_moved(const Gap& gap) {
   if (!is_moved(gap)) return {};
   std::vector<std::string> inputs;
   for (std::size_t i = 0; i < std::min(kMost, gap.taken_up.size()); ++i)
-    inputs.push_back(fmt::format("{} ({:.2f} mm)", gap.taken_up[i].input, gap.taken_up[i].rms_mm));
+    inputs.push_back(fmt::format("{} (which makes {:.2f} mm)", gap.taken_up[i].input, gap.taken_up[i].rms_mm));
   return fmt::format(
-      " With all values as they are written down it would be {:.2f} mm: what is not known exactly was moved within its "
-      "standard deviation, most of all {}.",
+      " With all values as they were written down they would differ by {:.2f} mm. Uncertain values were moved to where "
+      "they are likeliest, most of all {}.",
       gap.train.before_rms_mm, joined(inputs, "and"));
 }
 
