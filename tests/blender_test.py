@@ -50,6 +50,7 @@ if __name__ == "__main__":
         sys.exit(77)
     with tempfile.TemporaryDirectory() as name:
         (Path(name) / "out").mkdir()
+        (Path(name) / "scenes").symlink_to(ROOT / "scenes")
         fathom = str(Path(sys.argv[1]).resolve())
         check(fathom, Path(name))
         if len(sys.argv) == 3:
