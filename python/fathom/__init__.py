@@ -125,9 +125,13 @@ class Camera:
 
 def capture(scene: Scene, *, mode: str = "photometric", light: str = "auto", spp: int = 4, seed: int = 1,
             model: PathLike | None = None, progress: Progress | None = None) -> Capture:
-    """One shot of a scene. Camera says what the arguments mean; it also has the truth, and shoots again at once."""
+    """One shot of a scene. A Camera also has the truth, and shoots again at once.
+    """
     camera = Camera(scene, mode=mode, light=light, spp=spp, seed=seed, model=model, progress=progress)
     return camera.shoot(progress=progress)
+
+
+capture.__doc__ = f"{capture.__doc__}\n    " + (Camera.__doc__ or "").split("\n\n", 1)[1].lstrip()
 
 
 def sensor(model: str = "xtion_pro_live", **keys: Any) -> Sensor:

@@ -85,7 +85,7 @@ class Docstrings(unittest.TestCase):
             if name == "__version__" or thing is fathom.Error:
                 continue
             self.assertTrue(inspect.getdoc(thing), name)
-            if inspect.isfunction(thing) and name not in ("capture", "names", "scene"):
+            if inspect.isfunction(thing) and name not in ("names", "scene"):
                 for argument in inspect.signature(thing).parameters:
                     if argument not in ("seed", "progress"):
                         self.assertIn(argument, thing.__doc__, f"{name}: {argument}")
