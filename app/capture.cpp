@@ -202,8 +202,9 @@ std::function<void()> define_capture(CLI::App& app, const CommonOptions& common)
   app.add_option(
          "--light", options->light,
          "Direct: from the projector to what the camera sees, liquids that scatter are opaque; full: interreflected, "
-         "mirrored and scattered as well; auto: full where a cup or anything else stands, but for liquids that "
-         "scatter like paint. To direct light geometric captures add only what liquids scatter")
+         "mirrored and scattered as well; auto: full where a cup or anything else stands, unless a liquid scatters as "
+         "paint does (reduced scattering from 20 per mm). To direct light geometric captures add only what liquids "
+         "scatter")
       ->check(one_of("light", light_names()))
       ->capture_default_str();
   app.add_option("--frames", options->frames, "Shots; more than one go to DIR/frame_0000 …")

@@ -106,8 +106,8 @@ std::span<const Field<DatasetSpec>> spec_fields() {
                     [](Spec& spec, std::size_t choice) { spec.light = light_named(light_names()[choice]); }},
        {},
        "direct: liquids that scatter are opaque; full: also what is scattered in liquids, mirrored and interreflected, "
-       "of photometric frames; auto: full, but for liquids that scatter like paint; geometric frames add only what is "
-       "scattered"}};
+       "of photometric frames; auto: full, unless a liquid scatters as paint does (reduced scattering from 20 per mm); "
+       "geometric frames add only what is scattered"}};
   return fields;
 }
 

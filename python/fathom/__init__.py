@@ -76,7 +76,7 @@ class Camera:
     mode: "photometric": infrared image and matching; "geometric": every pixel's exact triangulation, images only of liquids that
         scatter
     light: "direct", where liquids that scatter are opaque, "full", or "auto": full where a cup or anything else stands,
-        but for liquids that scatter like paint; "geometric" adds to direct light only what liquids scatter
+        unless a liquid scatters as paint does (reduced scattering from 20 per mm); "geometric" adds to direct light only what liquids scatter
     spp: samples per infrared pixel, on a square grid
     seed: of everything random
     model: model.json of a diagnosis, whose effects are there as well

@@ -601,7 +601,7 @@ TEST(Decide, TakesATableOfHeightsWithOnePourOfEachFilling) {
   EXPECT_EQ(decide(world.measure({}, {}, 2), world.predict()).verdict, Verdict::none);
   const EffectValue truth = world.at_strength("subsurface_scattering", 12.0, 1.0);
   const Diagnosis diagnosis = decide(world.measure({truth}, {}, 2), world.predict());
-  EXPECT_TRUE(has(diagnosis.data.warnings, "poured or placed anew"));
+  EXPECT_TRUE(has(diagnosis.data.warnings, "repeat a condition"));
   EXPECT_NE(diagnosis.verdict, Verdict::insufficient);
 }
 
