@@ -61,7 +61,7 @@ VarianceProfile::VarianceProfile(const Covariance& covariance) {
     for (std::size_t k = 0; k < errors.components.size(); ++k)
       components.emplace_back(&errors, static_cast<Eigen::Index>(k));
   std::vector<std::optional<Part>> parts(components.size());
-  std::vector<Eigen::MatrixXd> singles(components.size());
+  std::vector<Eigen::MatrixXd> singles(components.size(), Eigen::MatrixXd(covariance.total.rows(), 0));
   parallel_items(static_cast<int>(components.size()), [&](int i) {
     const auto [errors, k] = components[i];
     const VarianceComponent& component = errors->components[k];
