@@ -1,5 +1,6 @@
 #include "diagnosis/unit/bias_learner.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
