@@ -91,8 +91,9 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
   const std::size_t more = missing.size() - std::min(missing.size(), kNamed);
   missing.resize(missing.size() - more);
   return fmt::format(
-      "{} of {} placements are left out: {}{}. By the model too little of the cup's inside is seen there. {}", count,
-      placements.size(), fmt::join(missing, "; "), more > 0 ? fmt::format("; and {} more", more) : "", kRemedy);
+      "In {} of {} placements no height in the cup is compared: {}{}. By the model too little of the cup's inside is "
+      "seen there. {}",
+      count, placements.size(), fmt::join(missing, "; "), more > 0 ? fmt::format("; and {} more", more) : "", kRemedy);
 }
 
 /// What it costs that the bare desk was not seen where cups stand.
