@@ -30,8 +30,7 @@ void describe_evidence(const Case& c, Diagnosis& diagnosis) {
   if (!c.covariance.errors.from_replicates)
     diagnosis.data.warnings.emplace_back(
         "Fewer than eight heights repeat a condition with a new pour or placement, so errors are taken from what a "
-        "smooth "
-        "curve through the conditions leaves. Repeat more of them.");
+        "smooth curve through the conditions leaves. Repeat more of them.");
   diagnosis.budget = uncertainty_budget(c.evidence, c.covariance);
   diagnosis.limits.confusable = confusable_pairs(c.evidence, c.problem);
   diagnosis.limits.near_null = near_null_directions(c.evidence, c.problem);
