@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <string_view>
 
 #include "core/input_policy.h"
@@ -15,6 +16,7 @@
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/predictable.h"
+#include "diagnosis/statistics/groups.h"
 #include "report/diagnosis_words.h"
 #include "report/ray_traced_report.h"
 #include "sim/effects/effects_json.h"
@@ -62,18 +64,15 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
   constexpr std::string_view kRemedy =
       "Cups that stand nearer to the sensor's foot, more in the middle, or are fuller show more of their inside.";
   constexpr std::size_t kNamed = 4;
-  const auto placement_of = [](const Factors& f) {
-    return PlacementKey(f.session, f.pour, f.placement, f.liquid, f.fill_mm, f.distance_mm, f.lateral_mm);
-  };
-  std::set<PlacementKey> placements, compared_placements;
+  std::set<std::string> placements, compared_placements;
   for (const Observation& o : compared)
-    if (o.observable == "height_mm") compared_placements.insert(placement_of(o.factors));
+    if (o.observable == "height_mm") compared_placements.insert(placement_key(o));
   std::vector<std::string> missing;  // conditions
   std::size_t count = 0;
   for (const Observation& o : measurement.observations) {
     const Factors& f = o.factors;
-    if (!has_cup(f) || f.within_mm || !placements.insert(placement_of(f)).second) continue;
-    if (compared_placements.contains(placement_of(f))) continue;
+    if (!has_cup(f) || f.within_mm || !placements.insert(placement_key(o)).second) continue;
+    if (compared_placements.contains(placement_key(o))) continue;
     ++count;
     if (std::string name =
             fmt::format("{} at {}", filling_name(f.liquid, f.fill_mm), place_name(f.distance_mm, f.lateral_mm));
