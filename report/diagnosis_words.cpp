@@ -52,6 +52,9 @@ std::string where_sentence(const Diagnosis& diagnosis) {
   // Of a shape that nothing explains, unknown_sentence() says where it is.
   if (where.observable == "content_shape_mm" && !diagnosis.unknown.part.empty()) return {};
   if (says_effect(where, diagnosis)) return {};
+  // A surface that leans is higher in one place and lower in another.
+  constexpr double kHasMean = 2.0;  // σ
+  if (std::abs(where.mean) < kHasMean * where.sigma && std::abs(where.departure) < kHasMean * where.sigma) return {};
   const std::vector<Excess>& excess = diagnosis.departures.excess;  // excess_sentences() says those
   if (!excess.empty() && excess.front().level == "session" && excess.front().observable == where.observable &&
       where.stratum == fmt::format("session={}", excess.front().group))
@@ -77,6 +80,16 @@ std::string named_sentence(const Diagnosis& diagnosis) {
       "make {:.2f} mm. ",
       joined(clauses, "and"), is_one ? "that" : "these", heights_words(diagnosis), gap.after_rms_mm, gap.before_rms_mm,
       gap.noise_floor_mm);
+}
+
+/// What is named may be in other liquids.
+std::string liquids_left_open(const Diagnosis& diagnosis) {
+  constexpr std::size_t kMost = 3;
+  if (diagnosis.ambiguity_set.empty() || !diagnosis.ambiguity_set.front().is_liquid_open) return {};
+  std::vector<std::string> others;
+  for (const std::vector<std::string>& other : diagnosis.ambiguity_set.front().alternatives)
+    if (others.size() < kMost) others.push_back(effects_words(other));
+  return fmt::format("In which liquids is not sure: it may also be {}. ", joined(others, "or"));
 }
 
 /// "foam from surface tilt"
@@ -276,7 +289,8 @@ std::string finding_of_physics(const Diagnosis& diagnosis) {
       return fmt::format("No answer can be given from these measurements: {}.", joined(diagnosis.data.missing, "and"));
     case Verdict::named:
       if (diagnosis.effects.empty()) return agreement(diagnosis);
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + what_may_be_besides(diagnosis);
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + liquids_left_open(diagnosis) +
+             what_may_be_besides(diagnosis);
     case Verdict::ambiguous:
       return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
     case Verdict::unknown:

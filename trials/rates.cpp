@@ -85,7 +85,9 @@ void add_levels(const std::vector<const TrialCup*>& cups, std::vector<Row>& rows
     int count = 0;
     for (const TrialCup* cup : cups)
       if (told(*cup) && cup->kind == name_of(kind)) sum += error(*cup), ++count;
-    if (count > 0) rows.push_back({fmt::format("fill_mean_absolute_error_{}", name_of(kind)), sum / count, "mm"});
+    if (count == 0) continue;
+    rows.push_back({fmt::format("fill_mean_absolute_error_{}", name_of(kind)), sum / count, "mm"});
+    rows.push_back({fmt::format("fill_mean_absolute_error_{}_cups", name_of(kind)), static_cast<double>(count)});
   }
   constexpr double k95 = 1.96;
   add_share_of(

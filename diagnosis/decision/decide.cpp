@@ -97,7 +97,7 @@ Verdict verdict_of(const Case& c, const AmbiguitySet& set, const std::vector<int
   if (kAlarmOdds * shares.nothing > 1.0) return Verdict::ambiguous;
   if (is_unknown) return with_unknown;
   const AmbiguityClass& first = set.classes.front();
-  const bool is_one = first.probability > kSure && is_one_explanation(first, kinds, kSure);
+  const bool is_one = first.probability > kSure && is_one_explanation(first, kinds);
   return names_all && is_one ? Verdict::named : Verdict::ambiguous;
 }
 

@@ -71,6 +71,7 @@ struct Explanation {
   double probability = 0.0;                            ///< of all of these together
   double alone = 0.0;                                  ///< without the supersets
   bool is_too_small = false;                           ///< for these measurements to show
+  bool is_liquid_open = false;                         ///< all are the same effects, but in which liquids is not sure
   std::vector<std::vector<NamedParameter>> sizes{};    ///< of each effect, fitted together; none where not fitted
 };
 

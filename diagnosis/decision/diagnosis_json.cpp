@@ -63,6 +63,7 @@ Json json_from(const Explanation& explanation) {
   for (std::size_t i = 0; i < explanation.sizes.size(); ++i)
     json["sizes"].push_back(sized(explanation.effects[i], explanation.sizes[i]));
   if (explanation.is_too_small) json["too_small_to_show"] = true;
+  if (explanation.is_liquid_open) json["liquid_open"] = true;
   std::set<std::set<std::string>> known;
   const auto is_new = [&](const std::vector<std::string>& ids) { return known.emplace(ids.begin(), ids.end()).second; };
   is_new(ids_of(explanation.effects));

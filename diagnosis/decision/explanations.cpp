@@ -23,6 +23,7 @@ std::vector<std::string> words(const Evidence& evidence, const Option& option) {
 
 std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set) {
   const Evidence& evidence = c.evidence;
+  const std::vector<int> kinds = kinds_of_candidates(evidence);
   std::vector<Explanation> result;
   for (const AmbiguityClass& one : set.classes) {
     const Option& first = one.options.front();
@@ -31,6 +32,7 @@ std::vector<Explanation> explanations(const Case& c, const Posterior& posterior,
     explanation.probability = one.probability;
     explanation.alone = one.alone;
     explanation.is_too_small = std::all_of(one.options.begin(), one.options.end(), std::mem_fn(&Option::is_too_small));
+    explanation.is_liquid_open = is_one_explanation(one, kinds) && share_of_first(one) <= kSure;
     const Refit* fit = first.has_unknown || first.effects.empty() ? nullptr : find_fit(posterior.fits, first.effects);
     if (fit)
       explanation.sizes = fitted_parameters(c, with_differences(evidence, c.predict, c.covariance, c.problem, *fit));

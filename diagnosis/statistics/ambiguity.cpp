@@ -35,14 +35,16 @@ void AmbiguitySet::put_unknown_first() {
                         [](const AmbiguityClass& one) { return one.options.front().has_unknown; });
 }
 
-bool is_one_explanation(const AmbiguityClass& one, const std::vector<int>& kinds, double sure) {
-  const Option& first = one.options.front();
+bool is_one_explanation(const AmbiguityClass& one, const std::vector<int>& kinds) {
+  return std::ranges::all_of(one.options, [&](const Option& option) {
+    return kinds_of(option, kinds) == kinds_of(one.options.front(), kinds);
+  });
+}
+
+double share_of_first(const AmbiguityClass& one) {
   double all = 0.0;
-  for (const Option& option : one.options) {
-    if (kinds_of(option, kinds) != kinds_of(first, kinds)) return false;
-    all += std::exp(option.log_posterior - first.log_posterior);
-  }
-  return 1.0 > sure * all;
+  for (const Option& option : one.options) all += std::exp(option.log_posterior - one.options.front().log_posterior);
+  return 1.0 / all;
 }
 
 AmbiguitySet ambiguity_set(std::vector<Option> options, const std::vector<int>& kinds, double delta,

@@ -31,9 +31,11 @@ struct AmbiguityClass {
   double alone = 0.0;                  ///< of the options
 };
 
-/// Whether no other effects are among the options, and the first has more than `sure` of their probability: in which
-/// liquids its effects are is known, too.
-bool is_one_explanation(const AmbiguityClass& one, const std::vector<int>& kinds, double sure);
+/// Whether all options have the same effects, in whichever liquids.
+bool is_one_explanation(const AmbiguityClass& one, const std::vector<int>& kinds);
+
+/// The first option's share of the options' probability.
+double share_of_first(const AmbiguityClass& one);
 
 struct AmbiguitySet {
   std::vector<AmbiguityClass> classes;  ///< likeliest first

@@ -62,6 +62,24 @@ TEST(DiagnosisWords, WhereIsSaidByThePlainMeanOfWhatDeparts) {
                    "In milk, compared with the rest, the height in the cup is 2.5 mm higher than the model has it."));
 }
 
+TEST(DiagnosisWords, AMeanOfNothingIsNotSaid) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::named;
+  diagnosis.effects = {{"fill_scale", {{"scale", 0.1, 0.08, 0.12}}}};
+  diagnosis.departures.where = {{"height_mm", "liquid=milk", -0.03, 0.16, 1.0, 1e-5, 0.15}};
+  EXPECT_TRUE(answer(diagnosis).starts_with("Best explanation"));
+}
+
+TEST(DiagnosisWords, WhereAnEffectIsNamedButNotItsLiquidsTheOthersAreSaid) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::named;
+  diagnosis.effects = {{"fill_scale", {{"scale", 0.1, 0.08, 0.12}}}};
+  diagnosis.ambiguity_set = {{{"fill_scale"}, {{"fill_scale@milk"}}, {}, 1.0}};
+  EXPECT_FALSE(says(diagnosis, "In which liquids is not sure"));
+  diagnosis.ambiguity_set.front().is_liquid_open = true;
+  EXPECT_TRUE(says(diagnosis, "In which liquids is not sure: it may also be fill scale of milk."));
+}
+
 TEST(DiagnosisWords, WhatAnEffectSaysIsNotSaidOfItsDepartureAsWell) {
   Diagnosis diagnosis;
   diagnosis.verdict = Verdict::named;

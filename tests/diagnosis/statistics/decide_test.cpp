@@ -463,19 +463,23 @@ TEST(AmbiguitySet, WhatAddsToAnExplanationIsNoTwinOfIt) {
   EXPECT_EQ(set.classes[0].supersets.size(), 1U);
 }
 
-/// The same effect in other liquids leaves one explanation where these are much less likely, another effect never does.
-TEST(AmbiguitySet, IsOfOneExplanationWhereTheLiquidIsClear) {
+/// The same effect in other liquids is one explanation, another effect never is.
+TEST(AmbiguitySet, IsOfOneExplanationInWhicheverLiquid) {
   const auto option = [](int effect, double log_posterior) {
     return Option{{effect}, Eigen::VectorXd::Zero(1), false, log_posterior, Eigen::VectorXd::Constant(1, 9.0)};
   };
   const std::vector<int> kinds{0, 0, 1};
-  const auto is_one = [&](std::vector<Option> options) {
-    return is_one_explanation(ambiguity_set(std::move(options), kinds, 7.0).classes.front(), kinds, 0.95);
+  const auto first_class = [&](std::vector<Option> options) {
+    return ambiguity_set(std::move(options), kinds, 7.0).classes.front();
   };
-  EXPECT_TRUE(is_one({option(0, 0.0)}));
-  EXPECT_TRUE(is_one({option(0, 0.0), option(1, -4.0)}));
-  EXPECT_FALSE(is_one({option(0, 0.0), option(1, -1.0)}));
-  EXPECT_FALSE(is_one({option(0, 0.0), option(2, -4.0)}));
+  const AmbiguityClass alone = first_class({option(0, 0.0)}),
+                       in_others = first_class({option(0, 0.0), option(1, -1.0)}),
+                       of_two = first_class({option(0, 0.0), option(2, -4.0)});
+  EXPECT_TRUE(is_one_explanation(alone, kinds));
+  EXPECT_EQ(share_of_first(alone), 1.0);
+  EXPECT_TRUE(is_one_explanation(in_others, kinds));
+  EXPECT_NEAR(share_of_first(in_others), 1.0 / (1.0 + std::exp(-1.0)), 1e-12);
+  EXPECT_FALSE(is_one_explanation(of_two, kinds));
 }
 
 TEST(AmbiguitySet, WhatOnlyAddsToAnExplanationGoesWithIt) {
