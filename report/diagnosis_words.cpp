@@ -30,6 +30,12 @@ bool is_moved(const Gap& gap) {
          !gap.taken_up.empty();
 }
 
+/// Whether what is left is larger than errors usually make it, though too few of these are independent to be sure.
+bool is_wide(const GapSize& gap) {
+  constexpr double kWide = 1.5;  // times the errors
+  return gap.after_rms_mm > kWide * gap.noise_floor_mm;
+}
+
 bool compares(const Diagnosis& diagnosis, std::string_view observable) {
   return std::any_of(diagnosis.budget.begin(), diagnosis.budget.end(),
                      [&](const ConditionBudget& line) { return line.observable == observable; });
@@ -141,7 +147,7 @@ std::string rival_words(const Explanation& explanation, bool are_others_left) {
                      percent_words(explanation.probability, are_others_left));
 }
 
-std::string ambiguous_sentence(const Diagnosis& diagnosis) {
+std::string ambiguous_sentence(const Diagnosis& diagnosis, bool says_where) {
   constexpr double kWorthNaming = 0.02;
   constexpr std::size_t kMost = 4;
   const std::vector<Explanation>& set = diagnosis.ambiguity_set;
@@ -158,7 +164,9 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis) {
     others += 1 + explanation.alternatives.size();
     probability_of_others += explanation.probability;
   }
-  std::string text = fmt::format("These would explain it, likeliest first: {}. ", fmt::join(rivals, "; "));
+  std::string text =
+      fmt::format("{}, likeliest first: {}. ", says_where ? "These would explain it" : "These explanations are left",
+                  fmt::join(rivals, "; "));
   if (others > 0)
     text += fmt::format("{} {:.{}f} %. ", others == 1 ? "One more has" : fmt::format("{} more together have", others),
                         100 * probability_of_others, probability_of_others < 0.01 ? 1 : 0);
@@ -241,6 +249,13 @@ std::string what_was_moved(const Gap& gap) {
       gap.train.before_rms_mm, joined(inputs, "and"));
 }
 
+/// The likeliest explanation that has effects.
+std::string likeliest_words(const std::vector<Explanation>& set) {
+  const auto has_effects = [](const Explanation& one) { return !one.effects.empty() && !one.is_too_small; };
+  const auto first = std::ranges::find_if(set, has_effects);
+  return first == set.end() ? "" : fmt::format("The likeliest is {}. ", rival_words(*first, true));
+}
+
 std::string agreement(const Diagnosis& diagnosis) {
   const std::string sure = percent_words(diagnosis.probability_of_none);
   const std::string agree =
@@ -248,12 +263,16 @@ std::string agreement(const Diagnosis& diagnosis) {
           ? fmt::format(
                 "No effect is sure enough to be named, but the probability that nothing is missing is only {}. ",
                 sure) +
-                what_may_be_besides(diagnosis)
+                likeliest_words(diagnosis.ambiguity_set) + what_may_be_besides(diagnosis)
           : fmt::format("Model and measurement agree within their errors (probability that nothing is missing: {}). ",
                         sure);
+  const GapSize& gap = diagnosis.gap.train;
   return agree +
-         fmt::format("The {} differ by {:.2f} mm (rms), where errors alone make {:.2f} mm.", heights_words(diagnosis),
-                     diagnosis.gap.train.after_rms_mm, diagnosis.gap.train.noise_floor_mm) +
+         fmt::format("The {} differ by {:.2f} mm (rms), where errors alone make {:.2f} mm.{}", heights_words(diagnosis),
+                     gap.after_rms_mm, gap.noise_floor_mm,
+                     is_wide(gap) ? " Those of a session, a pour or a placement share one error: a few such errors "
+                                    "happen to be large, or something differs there."
+                                  : "") +
          what_was_moved(diagnosis.gap);
 }
 
@@ -292,7 +311,7 @@ std::string finding_of_physics(const Diagnosis& diagnosis) {
       return where_sentence(diagnosis) + named_sentence(diagnosis) + liquids_left_open(diagnosis) +
              what_may_be_besides(diagnosis);
     case Verdict::ambiguous:
-      return where_sentence(diagnosis) + ambiguous_sentence(diagnosis);
+      return where_sentence(diagnosis) + ambiguous_sentence(diagnosis, !where_sentence(diagnosis).empty());
     case Verdict::unknown:
       return where_sentence(diagnosis) + excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
     case Verdict::named_and_unknown:
@@ -361,6 +380,8 @@ std::vector<std::string> advice(const Diagnosis& diagnosis) {
     if (is_moved(diagnosis.gap))
       add(fmt::format("To be surer, find out more exactly what was moved most: {}.",
                       diagnosis.gap.taken_up.front().input));
+    if (is_wide(diagnosis.gap.train))
+      add("Look in heights.png which heights differ together, and measure these again.");
     if (diagnosis.probability_of_none < kLikely) add(next_sentences(diagnosis.next));
     if (steps.empty()) add("Nothing: no further measurement is needed.");
   }

@@ -203,9 +203,13 @@ bool includes(const Option& option, const Option& part) {
   });
 }
 
-/// σ by which the data would speak against `rival` if `truth` held.
+/// σ by which the new data would speak against `rival` if `truth` held, beside what the old ones say already.
 double against(const Together& as_of_rival, const Rival& truth, const Rival& rival) {
-  return left(as_of_rival.changes(truth) * truth.option.parameters, as_of_rival.changes(rival));
+  const Eigen::VectorXd difference = as_of_rival.changes(truth) * truth.option.parameters;
+  const Eigen::MatrixXd hiding = as_of_rival.changes(rival);
+  const Eigen::Index old = rival.old_sensitivities.rows();
+  const double by_all = left(difference, hiding), by_old = left(difference.head(old), hiding.topRows(old));
+  return std::sqrt(std::max(by_all * by_all - by_old * by_old, 0.0));
 }
 
 double t_criterion(const Together& as_of_first, const Together& as_of_second, const Rival& first, const Rival& second) {

@@ -24,10 +24,11 @@ struct Design {
 /// What could be measured next, with these effects as candidates.
 using Designs = std::function<std::vector<Design>(const std::vector<std::string>& effects)>;
 
-/// σ by which old and new observations together would tell two explanations apart (Atkinson & Fedorov's T-criterion
-/// 1975): what is left of the difference when the rival's parameters and all nuisances have done their best to hide it;
-/// the smaller one of either being true. Where one has all effects of the other and more, that one is taken for true:
-/// with its further effects at 0 it is the other. The new observations err as the old ones of their kind do.
+/// σ by which new observations would tell two explanations apart, beside what the old ones say already (Atkinson &
+/// Fedorov's T-criterion 1975; of old and new together the squares add up): what is left of the difference when the
+/// rival's parameters and all nuisances have done their best to hide it; the smaller one of either being true. Where
+/// one has all effects of the other and more, that one is taken for true: with its further effects at 0 it is the
+/// other. The new observations err as the old ones of their kind do.
 double t_criterion(const Evidence& evidence, const Covariance& covariance, const Design& design, const Option& first,
                    const Option& second);
 

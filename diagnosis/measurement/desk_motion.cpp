@@ -64,9 +64,19 @@ std::optional<BandScatter> scatter_of(std::span<const DeskBands> trials) {
   return BandScatter{std::sqrt(*rows), std::sqrt(*columns)};
 }
 
+/// 1/z = q · (x/z, y/z, 1) on a desk.
+Eigen::Vector3d inverse_depth(const Plane& desk) { return -desk.normal / desk.offset; }
+
+/// The slope of disparities over the rows, as the pitch [°] of a camera about as high and as steep that makes it. An
+/// error that all disparities share leaves it alone.
+double turn_deg(const Eigen::Vector3d& q, const Plane& about) {
+  constexpr double kLevel = 0.1;  // a camera that looks along the desk sees none of it
+  return deg_from_radians(q.y() * about.offset / std::max(std::abs(about.normal.z()), kLevel));
+}
+
 /// By how much the fitted desk should scatter between trials for the noise of its parts, 1 σ of one trial.
 struct PlaneNoise {
-  double height_mm = 0.0, pitch_deg = 0.0, roll_deg = 0.0;
+  double height_mm = 0.0, turn_deg = 0.0, roll_deg = 0.0;
 };
 
 /// Nothing of fewer than two trials or five thirds.
@@ -79,11 +89,11 @@ std::optional<PlaneNoise> plane_noise_of(std::span<const DeskBands> trials, cons
   const double of_pixel_px2 = thirds.sum_px2 / (thirds.seen - kOfDesk);  // as if each pixel had an error of its own
   Eigen::Matrix3d sights = Eigen::Matrix3d::Zero();
   for (const DeskBands& trial : trials) sights += trial.sights / n;
-  // 1/z = q · s: errors of q, and of what follows from it by derivatives.
+  // Errors of q, and of what follows from it by derivatives.
   const double per_px = 1.0 / (rig.focal_px * rig.baseline_m);
   const Eigen::Matrix3d of_q = of_pixel_px2 * per_px * per_px * sights.inverse();
   const Plane& desk = trials.front().desk;
-  const Eigen::Vector3d q = -desk.normal / desk.offset;
+  const Eigen::Vector3d q = inverse_depth(desk);
   const auto error = [&](const auto& value) {
     Eigen::Vector3d gradient;
     for (int axis = 0; axis < 3; ++axis) {
@@ -93,7 +103,7 @@ std::optional<PlaneNoise> plane_noise_of(std::span<const DeskBands> trials, cons
     return std::sqrt(gradient.dot(of_q * gradient));
   };
   return PlaneNoise{error([](const Eigen::Vector3d& p) { return mm_from_metres(1.0 / p.norm()); }),
-                    error([](const Eigen::Vector3d& p) { return deg_from_radians(std::asin(p.z() / p.norm())); }),
+                    error([&](const Eigen::Vector3d& p) { return turn_deg(p, desk); }),
                     error([](const Eigen::Vector3d& p) { return deg_from_radians(std::atan2(p.x(), p.y())); })};
 }
 
@@ -101,28 +111,42 @@ constexpr std::size_t kParts = 3;      // of a campaign: one session is cut into
 constexpr std::size_t kFewest = 4;     // … but for what leaves fewer placements in each
 constexpr double kUnexplained = 0.25;  // of the variance that local noise makes: noise reaches across borders
 
-/// Variances of the desk's height and pitch over the variance [px²] of bands of rows with independent errors.
+/// Between trials of one placement, 1 σ.
+double turn_scatter_deg(std::span<const DeskBands> trials) {
+  const auto n = static_cast<double>(trials.size());
+  const Plane& about = trials.front().desk;
+  double mean = 0.0, squares = 0.0;
+  for (const DeskBands& trial : trials) mean += turn_deg(inverse_depth(trial.desk), about) / n;
+  for (const DeskBands& trial : trials) squares += std::pow(turn_deg(inverse_depth(trial.desk), about) - mean, 2);
+  return std::sqrt(squares / (n - 1.0));
+}
+
+/// Variances of the desk's height and turn over the variance [px²] of bands of rows with independent errors.
 struct PlaneOverRows {
-  double height_mm2 = 0.0, pitch_deg2 = 0.0;
+  double height_mm2 = 0.0, turn_deg2 = 0.0;
 };
 
-/// 1/z = q · (x/z, y/z, 1), of whose last two terms bands tell. The height is 1/|q|; q's change along itself alters
-/// it, and q's change across turns the plane.
+/// Bands tell of the last two parts of q. The height is 1/|q|.
 PlaneOverRows plane_over_rows(const LaboratoryRig& rig) {
   constexpr double kRows = std::tuple_size_v<decltype(DeskBands::rows)>;
   const Plane desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
   const double mean_square = kImageHeight_px * kImageHeight_px / 12.0 / (rig.focal_px * rig.focal_px);
   const double y2 = desk.normal.y() * desk.normal.y(), z2 = desk.normal.z() * desk.normal.z();
   const double per_px = desk.offset / (rig.focal_px * rig.baseline_m);
-  const double height_mm = mm_from_metres(desk.offset * per_px), pitch_deg = deg_from_radians(per_px);
-  return {height_mm * height_mm * (y2 / mean_square + z2) / kRows,
-          pitch_deg * pitch_deg * (z2 / mean_square + y2) / kRows};
+  const double height_mm = mm_from_metres(desk.offset * per_px), slope_deg = deg_from_radians(per_px);
+  return {height_mm * height_mm * (y2 / mean_square + z2) / kRows, slope_deg * slope_deg / (z2 * mean_square) / kRows};
+}
+
+/// The square of the height by which 1° of turn about the middle row lifts the desk.
+double height_mm2_of_turn(const LaboratoryRig& rig) {
+  const Plane desk = plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad});
+  return std::pow(mm_from_metres(desk.offset) * desk.normal.y() * desk.normal.z() * radians_from_deg(1.0), 2);
 }
 
 /// Variances between the trials of one placement.
 struct Scatter {
   double time_s = 0.0;
-  double height_mm2 = 0.0, pitch_deg2 = 0.0, roll_deg2 = 0.0;
+  double height_mm2 = 0.0, turn_deg2 = 0.0, roll_deg2 = 0.0;
   PlaneNoise noise;                  ///< what they should be, its squares
   double rows = 0.0, columns = 0.0;  ///< [px²]
 };
@@ -134,12 +158,12 @@ std::map<int, Placements> scatter_by_session(const std::vector<Observation>& obs
     Scatter& scatter = sessions[o.factors.session][{placement_key(o), o.factors.time_s}];
     scatter.time_s = o.factors.time_s;
     if (o.observable == "desk_height_mm") scatter.height_mm2 = o.repeat_sd * o.repeat_sd;
-    if (o.observable == "desk_pitch_deg") scatter.pitch_deg2 = o.repeat_sd * o.repeat_sd;
+    if (o.observable == "desk_turn_deg") scatter.turn_deg2 = o.value * o.value;
     if (o.observable == "desk_roll_deg") scatter.roll_deg2 = o.repeat_sd * o.repeat_sd;
     if (o.observable == "desk_rows_px") scatter.rows = o.value * o.value;
     if (o.observable == "desk_columns_px") scatter.columns = o.value * o.value;
     if (o.observable == "desk_height_noise_mm") scatter.noise.height_mm = o.value;
-    if (o.observable == "desk_pitch_noise_deg") scatter.noise.pitch_deg = o.value;
+    if (o.observable == "desk_turn_noise_deg") scatter.noise.turn_deg = o.value;
     if (o.observable == "desk_roll_noise_deg") scatter.noise.roll_deg = o.value;
   }
   std::map<int, Placements> in_time;
@@ -152,36 +176,44 @@ std::map<int, Placements> scatter_by_session(const std::vector<Observation>& obs
   return in_time;
 }
 
-/// Of the mean over placements.
 template <class Of>
-VarianceExcess mean_excess(std::span<const Scatter> placements, const Of& of) {
-  const auto n = static_cast<double>(placements.size());
-  double sum = 0.0, squares = 0.0;
+double mean_of(std::span<const Scatter> placements, const Of& of) {
+  double sum = 0.0;
   for (const Scatter& scatter : placements) sum += of(scatter);
-  for (const Scatter& scatter : placements) squares += std::pow(of(scatter) - sum / n, 2);
-  return {sum / n, std::sqrt(squares / (n * (n - 1.0)))};
+  return sum / static_cast<double>(placements.size());
+}
+
+/// Of the mean over placements. `noise`: the variance that is known, of one degree of freedom a placement at least.
+template <class Of>
+VarianceExcess mean_excess(std::span<const Scatter> placements, double noise, const Of& of) {
+  const auto n = static_cast<double>(placements.size());
+  const double mean = mean_of(placements, of);
+  const double error =
+      std::sqrt(mean_of(placements, [&](const Scatter& s) { return std::pow(of(s) - mean, 2); }) / (n - 1.0));
+  const double by_chance = std::min(error, noise * std::sqrt(2.0 / n));
+  return {mean, std::hypot(by_chance, kUnexplained * noise), std::sqrt(error * error - by_chance * by_chance)};
 }
 
 void add_motion(int session, std::span<const Scatter> placements, const LaboratoryRig& rig,
                 std::vector<Observation>& result) {
   constexpr double kSteps_px = 0.005;  // a row of a level desk lies in one step of 1/8 px, and some rows make a band
   constexpr double kTogether = 4.0;    // bands of one crest
-  VarianceExcess waves = mean_excess(placements, [](const Scatter& s) { return s.rows - s.columns; });
-  const VarianceExcess noise = mean_excess(placements, [](const Scatter& s) { return s.columns; });
-  waves.error = std::hypot(waves.error, kUnexplained * noise.value, kSteps_px * kSteps_px);
+  VarianceExcess waves = mean_excess(placements, mean_of(placements, [](const Scatter& s) { return s.columns; }),
+                                     [](const Scatter& s) { return s.rows - s.columns; });
+  waves.error = std::hypot(waves.error, kSteps_px * kSteps_px);
   const auto motion = [&](double Scatter::*variance, double PlaneNoise::*of_parts) {
     const auto local = [&](const Scatter& s) { return std::pow(s.noise.*of_parts, 2); };
-    VarianceExcess excess = mean_excess(placements, [&](const Scatter& s) { return s.*variance - local(s); });
-    excess.error = std::hypot(excess.error, kUnexplained * mean_excess(placements, local).value);
-    return excess;
+    return mean_excess(placements, mean_of(placements, local),
+                       [&](const Scatter& s) { return s.*variance - local(s); });
   };
-  // Waves along the rows lift and turn the plane that is fitted.
+  // Waves along the rows lift and turn the plane that is fitted, and what turns it lifts it as well.
   VarianceExcess wander = motion(&Scatter::height_mm2, &PlaneNoise::height_mm);
-  VarianceExcess pitch = motion(&Scatter::pitch_deg2, &PlaneNoise::pitch_deg);
+  VarianceExcess pitch = motion(&Scatter::turn_deg2, &PlaneNoise::turn_deg);
   const PlaneOverRows over_rows = plane_over_rows(rig);
   const double of_rows = kTogether * std::max(waves.value, 0.0);
-  wander.error = std::hypot(wander.error, of_rows * over_rows.height_mm2);
-  pitch.error = std::hypot(pitch.error, of_rows * over_rows.pitch_deg2);
+  wander.error =
+      std::hypot(wander.error, of_rows * over_rows.height_mm2, std::max(pitch.value, 0.0) * height_mm2_of_turn(rig));
+  pitch.error = std::hypot(pitch.error, of_rows * over_rows.turn_deg2);
   const Factors factors{.session = session, .liquid = "none", .region = "desk"};
   const auto count = static_cast<int>(placements.size());
   result.push_back(root_of(wander, "desk_wander_mm", factors, count));
@@ -198,8 +230,10 @@ Observation root_of(const VarianceExcess& excess, std::string observable, Factor
   root.factors = std::move(factors);
   root.value = std::copysign(std::sqrt(std::abs(excess.value)), excess.value);
   root.repeats = estimates;
-  const double error = std::min(std::sqrt(excess.error), excess.error / std::max(std::abs(root.value), 1e-12));
-  root.repeat_sd = error * std::sqrt(static_cast<double>(estimates));
+  const double size = std::max(std::abs(root.value), 1e-12);
+  const double chance = std::min(std::sqrt(excess.error), excess.error / size);
+  const double sampling = std::min(std::sqrt(excess.sampling), excess.sampling / (2.0 * size));
+  root.repeat_sd = std::hypot(chance, sampling) * std::sqrt(static_cast<double>(estimates));
   return root;
 }
 
@@ -208,11 +242,9 @@ std::vector<NamedValue> scatter_values(std::span<const DeskBands> trials, const 
   const auto plane = plane_noise_of(trials, rig);
   if (!bands || !plane) return {};
   constexpr std::string_view kDesk = "desk";
-  return {{"desk_rows_px", kDesk, bands->rows_px},
-          {"desk_columns_px", kDesk, bands->columns_px},
-          {"desk_height_noise_mm", kDesk, plane->height_mm},
-          {"desk_pitch_noise_deg", kDesk, plane->pitch_deg},
-          {"desk_roll_noise_deg", kDesk, plane->roll_deg}};
+  return {{"desk_rows_px", kDesk, bands->rows_px},           {"desk_columns_px", kDesk, bands->columns_px},
+          {"desk_height_noise_mm", kDesk, plane->height_mm}, {"desk_turn_deg", kDesk, turn_scatter_deg(trials)},
+          {"desk_turn_noise_deg", kDesk, plane->turn_deg},   {"desk_roll_noise_deg", kDesk, plane->roll_deg}};
 }
 
 std::vector<Observation> desk_motion(const std::vector<Observation>& observations, const LaboratoryRig& rig) {

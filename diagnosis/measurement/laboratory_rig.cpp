@@ -141,8 +141,8 @@ std::span<const Field<LaboratoryRig>> rig_fields() {
        "by how much fills are off, one standard deviation"},
       {"placement_sigma_mm", Length{&Rig::placement_sigma_m}, kLengthOrNoneMm, "the same of places"},
       {"session_mm", Length{&Rig::session_m}, kLengthOrNoneMm,
-       "by how much lengths of sessions differ beyond what setting the sensor up anew does to its pose, one standard "
-       "deviation"},
+       "by how much lengths of sessions, such as heights in cups, differ beside the sensor's pose, one standard "
+       "deviation; the pose of each session may be off by `sensor.sigma`"},
       {"session_deg", Angle{&Rig::session_rad}, {0.0, 90.0}, "the same of angles"}};
   return fields;
 }

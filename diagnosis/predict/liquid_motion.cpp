@@ -24,7 +24,8 @@ struct Squares {
   double sum = 0.0, dof = 0.0;
   double rounding = 0.0;  ///< 1 σ: what scatters by less than this is seen to scatter more, or not at all
   double variance() const { return sum / dof; }
-  double error() const { return std::hypot(variance() * std::sqrt(2.0 / dof), rounding * rounding); }
+  /// If the true variance is that.
+  double error_of(double variance) const { return std::hypot(variance * std::sqrt(2.0 / dof), rounding * rounding); }
 };
 
 using Observations = std::vector<Observation>;
@@ -81,9 +82,12 @@ Squares between_placements(const Observations& heights) {
 
 void add(const Squares& clear, const Squares& other, double share, VarianceExcess& excess) {
   if (std::min(clear.dof, other.dof) < kFewestDof) return;
+  const double by_chance = clear.error_of(other.variance()), error = clear.error_of(clear.variance());
   excess.value += share * (clear.variance() - other.variance());
-  excess.error =
-      std::hypot(excess.error, share * clear.error(), share * std::hypot(other.error(), kUnlike * other.variance()));
+  excess.error = std::hypot(excess.error, share * by_chance,
+                            share * std::hypot(other.error_of(other.variance()), kUnlike * other.variance()));
+  excess.sampling =
+      std::hypot(excess.sampling, share * std::sqrt(std::max(error * error - by_chance * by_chance, 0.0)));
 }
 
 /// Of one shot: what placements differ by holds a part of what trials do.
@@ -91,7 +95,7 @@ std::optional<VarianceExcess> excess_of(const Observations& clear, const Observa
   if (clear.empty() || others.empty()) return std::nullopt;
   double mean_of_trials = 0.0;
   for (const Observation& o : clear) mean_of_trials += 1.0 / o.repeats / static_cast<double>(clear.size());
-  VarianceExcess excess{0.0, 0.0};
+  VarianceExcess excess;
   add(between_placements(clear), between_placements(others), 1.0, excess);
   const bool has_placements = excess.error > 0.0;
   add(between_trials(clear), between_trials(others), has_placements ? 1.0 - mean_of_trials : 1.0, excess);

@@ -26,16 +26,16 @@ Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& sensi
   return part;
 }
 
-/// A sensor that is set up anew stands and looks a little otherwise: by a part of what its pose is uncertain anyway. A
-/// campaign of one session is set up once; what is planned beside it is not that session, but a later one.
+/// A sensor that is set up anew stands and looks a little otherwise. A laboratory that states one σ of its pose means
+/// the pose of each session. A campaign of one session is set up once; what is planned beside it is not that session,
+/// but a later one.
 void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<Nuisance>& nuisances) {
-  constexpr double kPart = 0.4;
   std::set<int> sessions;
   for (const Condition& condition : predictor.conditions()) sessions.insert(condition.factors.session);
   if (sessions == std::set{0}) return;
   for (const int session : sessions)
     nuisances.push_back(
-        {fmt::format("{} of session {}", pose.name, session), kPart * pose.sigma,
+        {fmt::format("{} of session {}", pose.name, session), pose.sigma,
          part_of(predictor, pose.sensitivity, [&](const Factors& factors) { return factors.session == session; }),
          pose.name + " of sessions"});
 }

@@ -73,14 +73,6 @@ double wander_mm(const SensorModel& sensor, const Plane& desk) {
                         (believed.focal_px * believed.baseline));
 }
 
-/// 1 σ of its pitch by the same error: 1/z = q · (x/z, y/z, 1) changes in q's last part alone, which turns the plane as
-/// well as it lifts it.
-double pitch_of_wander_deg(double height_mm, const Plane& desk) {
-  const double down = std::abs(desk.normal.z());
-  return deg_from_radians(metres_from_mm(height_mm) * std::sqrt(std::max(1.0 - down * down, 0.0)) /
-                          (desk.offset * down));
-}
-
 /// The desk of a few rays, as far as it is no plane: what a unit's bias would be learned from. The points' disparities
 /// off their own plane, between pixels bilinear.
 DeskError desk_of_rays(std::span<const SensedPoint> desk, const LaboratoryRig& rig) {
@@ -344,9 +336,8 @@ std::optional<Predictor::Foreseen> Predictor::foresee(const Look& look, const Co
 double Predictor::value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const {
   const std::string& observable = observables_[row];
   if (observable == "desk_wander_mm") return wander_mm(foreseen.shot.rig.sensor, foreseen.estimates.desk);
-  if (observable == "desk_waves_px" || observable == "desk_roll_motion_deg") return 0.0;
-  if (observable == "desk_pitch_motion_deg")
-    return pitch_of_wander_deg(wander_mm(foreseen.shot.rig.sensor, foreseen.estimates.desk), foreseen.estimates.desk);
+  if (observable == "desk_waves_px" || observable == "desk_pitch_motion_deg" || observable == "desk_roll_motion_deg")
+    return 0.0;
   if (observable == "liquid_motion_mm") return scatter_by_waves_mm(foreseen.shot, model_.laboratory, condition.pixels);
   if (observable == "height_mm" && regions_[row] == kWholeInterior) return interior_height_mm(foreseen.estimates);
   for (const NamedValue& value : foreseen.named)

@@ -25,6 +25,22 @@ TEST(DiagnosisWords, AgreementThatHardlyHoldsIsSaidLessRoundly) {
                    "No effect is sure enough to be named, but the probability that nothing is missing is only 20 %."));
 }
 
+TEST(DiagnosisWords, WhatIsLikeliestStandsBesideADoubtfulAgreement) {
+  Diagnosis diagnosis = agreement(0.2);
+  diagnosis.ambiguity_set = {{{}, {}, {}, 0.2}, {{"sensor_height"}, {}, {}, 0.6}};
+  EXPECT_TRUE(says(diagnosis, "The likeliest is sensor height (60 %)."));
+}
+
+/// Heights of one session share an error, so that few errors make a wide gap.
+TEST(DiagnosisWords, AWideGapIsNotWavedThrough) {
+  Diagnosis diagnosis = agreement(0.6);
+  diagnosis.gap.train = {2.0, 1.9, 0.65};
+  EXPECT_TRUE(says(diagnosis, "or something differs there."));
+  EXPECT_TRUE(advice(diagnosis).front().starts_with("Look in heights.png"));
+  diagnosis.gap.train = {2.0, 0.6, 0.65};
+  EXPECT_FALSE(says(diagnosis, "something differs"));
+}
+
 TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {
   EXPECT_EQ(stratum_words({"height_mm", "time=early"}), "height in the cup, in the first third of the session");
   EXPECT_EQ(stratum_words({"height_mm", "time_since_pour=late"}),

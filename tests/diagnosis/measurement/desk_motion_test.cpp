@@ -20,6 +20,7 @@ const LaboratoryRig kRig = laboratory();
 /// Amplitudes of what changes from frame to frame, in disparity [px]; waves of 180 rows or columns, of any phase.
 struct Motion {
   double noise = 0.0, all = 0.0, along_rows = 0.0, along_columns = 0.0;
+  double shear = 0.0;      ///< between the middle row and the last
   double pitch_deg = 0.0;  ///< of the sensor, 1 σ
 };
 
@@ -27,10 +28,12 @@ struct Motion {
 std::vector<SensedPoint> desk_frame(const Motion& motion, Rng& rng) {
   LaboratoryRig trembling = kRig;
   if (motion.pitch_deg > 0.0) trembling.pitch_rad += radians_from_deg(motion.pitch_deg) * rng.normal();
-  const double all = motion.all * rng.normal(), phase = 2.0 * std::numbers::pi * rng.uniform();
+  const double all = motion.all * rng.normal(), shear = motion.shear > 0.0 ? motion.shear * rng.normal() : 0.0;
+  const double phase = 2.0 * std::numbers::pi * rng.uniform();
   const auto wave = [&](double at) { return std::sin(2.0 * std::numbers::pi * at / 180.0 + phase); };
   return desk_points(trembling, 4.0, [&](double column, double row, double) {
-    return motion.noise * rng.normal() + all + motion.along_rows * wave(row) + motion.along_columns * wave(column);
+    return motion.noise * rng.normal() + all + motion.along_rows * wave(row) + motion.along_columns * wave(column) +
+           shear * (row / 240.0 - 1.0);
   });
 }
 
@@ -113,6 +116,14 @@ TEST(DeskMotion, DeskThatMovesAsAWholeWandersAndMakesNoWaves) {
   EXPECT_GT(wander.z, kSure);
   EXPECT_NEAR(wander.value, expected, 0.35 * expected);  // 48 degrees of freedom: 3 σ and a little
   EXPECT_LT(std::abs(found("desk_waves_px", motion).z), kChance);
+  EXPECT_LT(std::abs(found("desk_pitch_motion_deg", motion).z), kChance);
+}
+
+/// A wander of depth would lift the desk without changing the slope of its disparities.
+TEST(DeskMotion, RowsThatAreShearedTurnTheDeskAndMakeNoCertainWander) {
+  const Motion motion{.noise = 0.1, .shear = 0.1};
+  EXPECT_GT(found("desk_pitch_motion_deg", motion).z, kSure);
+  EXPECT_LT(std::abs(found("desk_wander_mm", motion).z), kChance);
 }
 
 TEST(DeskMotion, RowsThatShakeMakeWavesAndNoCertainMotionOfThePlane) {
