@@ -51,6 +51,18 @@ class Model {
     return covariance_.whiten(predict_(values) - evidence_.predicted);
   }
 
+  /// All values of a parameter that the model knows in whole multiples of a step only; none of other parameters.
+  std::vector<double> steps_of(Eigen::Index k) const {
+    std::vector<double> result;
+    for (const int effect : effects_)
+      for (const Parameter& parameter : evidence_.candidates[effect].parameters) {
+        if (k-- != 0 || parameter.step == 0.0) continue;
+        for (double value = parameter.lower; value < parameter.upper + 0.5 * parameter.step; value += parameter.step)
+          result.push_back((value - parameter.nominal) / parameter.prior_scale);
+      }
+    return result;
+  }
+
   /// Over one standard error to either side, as `jacobian` has it: within that a gate that some pixel just passes is
   /// chance, not a slope. Neither beyond the bounds nor across where the parameter is absent: some effects change more
   /// by being there than by how much there is of them. What goes in steps answers to no small difference: its slope is
@@ -141,6 +153,20 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
       is_differenced = true;
     } else {
       damping = std::max(4.0 * damping, 1e-2);
+    }
+  }
+  // What goes in steps has no slopes that lead from one to the next.
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (x[k] == 0.0) continue;
+    for (const double other : model.steps_of(k)) {
+      Eigen::VectorXd moved = x;
+      moved[k] = other;
+      Eigen::VectorXd moved_change = model.change(moved);
+      const double moved_value = objective(moved, moved_change);
+      if (moved_value >= value - kEnough) continue;
+      x = moved;
+      change = std::move(moved_change);
+      value = moved_value;
     }
   }
   // What is there as a whole as soon as there is any of it answers to its amount otherwise than to its beginning.

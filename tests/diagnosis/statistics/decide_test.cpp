@@ -300,6 +300,33 @@ TEST(Refit, FindsWhatHasNoSlopeWhereItsEffectIsAbsent) {
   EXPECT_NEAR(kUsual_s + kScale_s * fit.hypothesis.parameters[1], 600.0, 10.0);
 }
 
+/// Codes in steps of 1/4 and of 3/4 px both keep to 1/4 px and not to 1/2 px: the smaller step is the likelier.
+TEST(Refit, TriesAllValuesOfWhatGoesInSteps) {
+  constexpr double kCode_px = 0.125, kScale_px = 3.0 * kCode_px;
+  const auto combs = [](double step_px) {
+    const long codes = std::lround(step_px / kCode_px);
+    return Eigen::Vector2d(codes % 2 == 0 ? 1.0 : 0.0, codes % 4 == 0 ? 1.0 : 0.0);
+  };
+  Evidence evidence;
+  evidence.observations.resize(2);
+  evidence.observations[0].value = 1.0;
+  evidence.predicted = Eigen::VectorXd::Zero(2);
+  evidence.numerical_sd = Eigen::VectorXd::Constant(2, 0.1);
+  Candidate steps{"steps", {{"step_px", kCode_px, kScale_px, kCode_px, 1.0, kCode_px}}, Eigen::MatrixXd::Zero(2, 1)};
+  steps.sensitivity(0, 0) = 1.0;
+  evidence.candidates = {steps};
+  Covariance covariance;
+  covariance.total = 0.01 * Eigen::MatrixXd::Identity(2, 2);
+  covariance.factor.compute(covariance.total);
+  const Problem problem = whitened_problem(evidence, covariance);
+  const Predict predict = [&](const std::vector<EffectValue>& effects) { return combs(effects[0].values[0]); };
+  for (const double start_px : {0.25, 0.5, 0.75, 1.0}) {
+    const Eigen::VectorXd start = Eigen::VectorXd::Constant(1, (start_px - kCode_px) / kScale_px);
+    const Refit fit = refit(evidence, predict, covariance, problem, {{0}, start});
+    EXPECT_NEAR(kCode_px + kScale_px * fit.hypothesis.parameters[0], 0.25, 0.5 * kCode_px) << start_px;
+  }
+}
+
 /// By its change near nothing it could never be as large, but it is as it grows.
 TEST(Decide, LeavesOpenWhatLooksTheSameOnlyWhereItIsLarge) {
   const World world(small_design());
