@@ -249,11 +249,13 @@ std::string what_was_moved(const Gap& gap) {
       gap.train.before_rms_mm, joined(inputs, "and"));
 }
 
-/// The likeliest explanation that has effects.
+/// The likeliest explanation, unless it is that something unknown is there: what_may_be_besides() says that.
 std::string likeliest_words(const std::vector<Explanation>& set) {
   const auto has_effects = [](const Explanation& one) { return !one.effects.empty() && !one.is_too_small; };
   const auto first = std::ranges::find_if(set, has_effects);
-  return first == set.end() ? "" : fmt::format("The likeliest is {}. ", rival_words(*first, true));
+  return first == set.end() || first->effects == std::vector<std::string>{"unknown"}
+             ? ""
+             : fmt::format("The likeliest is {}. ", rival_words(*first, true));
 }
 
 std::string agreement(const Diagnosis& diagnosis) {

@@ -108,9 +108,9 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   if (!diagnosis.data.missing.empty()) return diagnosis;
   const Case c(evidence, predict, settings);
   describe_evidence(c, diagnosis);
-  const Posterior posterior = posterior_of(c);
+  Posterior posterior = posterior_of(c);
   const std::vector<int> kinds = kinds_of_candidates(evidence);
-  const Shares shares = shares_of(posterior.options);
+  Shares shares = shares_of(posterior.options);
   const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
   const bool is_unknown = needs_unknown(shares);
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
@@ -122,7 +122,13 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const bool is_excess = !diagnosis.departures.excess.empty();
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
   diagnosis.verdict = verdict_of(c, set, kinds, shares, is_excess, is_unknown, names_all, sure.has_value());
-  if (is_excess) set.put_unknown_first();
+  if (is_excess) {
+    const auto& least = std::ranges::min_element(diagnosis.departures.excess, {}, &Excess::p);
+    weigh_failed_check(least->p, posterior.options);
+    shares = shares_of(posterior.options);
+    set = ambiguity_set(posterior.options, kinds, settings.delta);
+    set.put_unknown_first();
+  }
   diagnosis.ambiguity_set = explanations(c, posterior, set);
   diagnosis.probability_of_none = shares.nothing;
   diagnosis.probability_of_unknown = shares.unknown;

@@ -285,6 +285,17 @@ Shares shares_of(const std::vector<Option>& options) {
   return {shares.nothing / sum, shares.unknown / sum, shares.effects / sum};
 }
 
+void weigh_failed_check(double p, std::vector<Option>& options) {
+  const double least = std::max(p, 1e-300), log_factor = -1.0 - std::log(least) - std::log(-std::log(least));
+  for (Option& option : options) {
+    const auto alone = std::ranges::find_if(options, [&](const Option& other) {
+      return option.has_unknown && !other.has_unknown && other.effects == option.effects;
+    });
+    if (alone == options.end()) continue;
+    option.log_posterior = std::max(option.log_posterior, alone->log_posterior + kLogPriorUnknown + log_factor);
+  }
+}
+
 double probability_of(int effect, const std::vector<Option>& options, const std::vector<int>& kinds) {
   const double best = likeliest(options).log_posterior;
   double with = 0.0, sum = 0.0;

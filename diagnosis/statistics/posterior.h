@@ -31,6 +31,10 @@ struct Shares {
 };
 Shares shares_of(const std::vector<Option>& options);
 
+/// A check failed with that p, and effects do not explain it: evidence for something unknown of at most 1 / (−e p ln p)
+/// (Sellke, Bayarri & Berger 2001, Am. Stat. 55, 62), which the discrepancy did not see.
+void weigh_failed_check(double p, std::vector<Option>& options);
+
 /// Probability that the effect is there, in whatever liquid: of all options that have it.
 double probability_of(int effect, const std::vector<Option>& options, const std::vector<int>& kinds);
 

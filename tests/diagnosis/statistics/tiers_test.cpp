@@ -78,6 +78,10 @@ TEST(Excess, ASessionThatReadsHigherIsAFindingWithItsSize) {
   EXPECT_EQ(excess.observable, "height_mm");
   EXPECT_NEAR(excess.size, 1.9, 4.0 * excess.sigma);
   EXPECT_GT(excess.size, 5.0 * excess.sigma);
+  // The probabilities say what the verdict says.
+  EXPECT_GT(diagnosis.probability_of_unknown, 0.9);
+  EXPECT_EQ(diagnosis.ambiguity_set.front().effects, std::vector<std::string>{"unknown"});
+  EXPECT_NEAR(diagnosis.ambiguity_set.front().probability, diagnosis.probability_of_unknown, 0.05);
 }
 
 /// What is stated of sessions is known better than two sessions could tell: with one pour of each filling in each, they
