@@ -93,9 +93,11 @@ std::string liquids_left_open(const Diagnosis& diagnosis) {
   constexpr std::size_t kMost = 3;
   if (diagnosis.ambiguity_set.empty() || !diagnosis.ambiguity_set.front().is_liquid_open) return {};
   std::vector<std::string> others;
-  for (const std::vector<std::string>& other : diagnosis.ambiguity_set.front().alternatives)
+  for (std::vector<std::string> other : diagnosis.ambiguity_set.front().alternatives) {
+    std::erase(other, "unknown");
     if (others.size() < kMost) others.push_back(effects_words(other));
-  return fmt::format("In which liquids is not sure: it may also be {}. ", joined(others, "or"));
+  }
+  return fmt::format("It is not sure in which liquids: it may also be {}. ", joined(others, "or"));
 }
 
 /// "foam from surface tilt"
@@ -184,8 +186,10 @@ std::string excess_sentences(const std::vector<Excess>& excesses) {
     said.push_back(what);
     const ObservableWords words = observable_words(excess.observable);
     if (excess.level == "trial") {
-      text += fmt::format("The {} is {:.2g}{} more than its noise makes ({:.0f} σ): the sensor or the desk trembles. ",
-                          words.name, excess.size, words.unit, excess.size / excess.sigma);
+      text += fmt::format(
+          "The {} is {:.2g}{} more than its noise makes ({:.0f} σ): the sensor or the desk trembles, or images are "
+          "sheared. ",
+          words.name, excess.size, words.unit, excess.size / excess.sigma);
       continue;
     }
     if (excess.level == "unit") {
@@ -272,8 +276,8 @@ std::string agreement(const Diagnosis& diagnosis) {
   return agree +
          fmt::format("The {} differ by {:.2f} mm (rms), where errors alone make {:.2f} mm.{}", heights_words(diagnosis),
                      gap.after_rms_mm, gap.noise_floor_mm,
-                     is_wide(gap) ? " Those of a session, a pour or a placement share one error: a few such errors "
-                                    "happen to be large, or something differs there."
+                     is_wide(gap) ? " Heights of one session, pour or placement share an error: a few may be large by "
+                                    "chance, or something differs there."
                                   : "") +
          what_was_moved(diagnosis.gap);
 }
@@ -317,8 +321,8 @@ std::string finding_of_physics(const Diagnosis& diagnosis) {
     case Verdict::unknown:
       return where_sentence(diagnosis) + excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
     case Verdict::named_and_unknown:
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + excess_sentences(diagnosis.departures.excess) +
-             unknown_sentence(diagnosis);
+      return where_sentence(diagnosis) + named_sentence(diagnosis) + liquids_left_open(diagnosis) +
+             excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
   }
   return {};
 }

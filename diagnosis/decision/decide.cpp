@@ -112,6 +112,9 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const std::vector<int> kinds = kinds_of_candidates(evidence);
   Shares shares = shares_of(posterior.options);
   const std::optional<Refit> sure = sure_fit(c, posterior, kinds);
+  std::vector<double> sure_probabilities;
+  for (const int effect : sure ? sure->hypothesis.effects : std::vector<int>{})
+    sure_probabilities.push_back(probability_of(effect, posterior.options, kinds));
   const bool is_unknown = needs_unknown(shares);
   AmbiguitySet set = ambiguity_set(posterior.options, kinds, settings.delta, is_unknown ? 0.0 : std::log(kAlarmOdds));
   const Refit& fit = sure ? *sure : *find_fit(posterior.fits, {});
@@ -123,7 +126,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   const bool names_all = sure && sure->hypothesis.effects == likeliest(posterior.options).effects;
   diagnosis.verdict = verdict_of(c, set, kinds, shares, is_excess, is_unknown, names_all, sure.has_value());
   if (is_excess) {
-    const auto& least = std::ranges::min_element(diagnosis.departures.excess, {}, &Excess::p);
+    const auto least = std::ranges::min_element(diagnosis.departures.excess, {}, &Excess::p);
     weigh_failed_check(least->p, posterior.options);
     shares = shares_of(posterior.options);
     set = ambiguity_set(posterior.options, kinds, settings.delta);
@@ -143,8 +146,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
   diagnosis.limits.size_errors = size_errors(evidence, c.problem);
   if (sure) {
     diagnosis.effects = named_effects(c, *sure);
-    for (std::size_t e = 0; e < diagnosis.effects.size(); ++e)
-      diagnosis.effects[e].probability = probability_of(sure->hypothesis.effects[e], posterior.options, kinds);
+    for (std::size_t e = 0; e < diagnosis.effects.size(); ++e) diagnosis.effects[e].probability = sure_probabilities[e];
     diagnosis.parameter_covariance = covariance_in_units(c, *sure);
   }
   if (designs && (diagnosis.verdict == Verdict::ambiguous || diagnosis.verdict == Verdict::none))

@@ -67,10 +67,11 @@ std::optional<BandScatter> scatter_of(std::span<const DeskBands> trials) {
 /// 1/z = q · (x/z, y/z, 1) on a desk.
 Eigen::Vector3d inverse_depth(const Plane& desk) { return -desk.normal / desk.offset; }
 
+constexpr double kLevel = 0.1;  // of the desk's normal along the view: a camera that looks along the desk sees none
+
 /// The slope of disparities over the rows, as the pitch [°] of a camera about as high and as steep that makes it. An
 /// error that all disparities share leaves it alone.
 double turn_deg(const Eigen::Vector3d& q, const Plane& about) {
-  constexpr double kLevel = 0.1;  // a camera that looks along the desk sees none of it
   return deg_from_radians(q.y() * about.offset / std::max(std::abs(about.normal.z()), kLevel));
 }
 
@@ -134,7 +135,8 @@ PlaneOverRows plane_over_rows(const LaboratoryRig& rig) {
   const double y2 = desk.normal.y() * desk.normal.y(), z2 = desk.normal.z() * desk.normal.z();
   const double per_px = desk.offset / (rig.focal_px * rig.baseline_m);
   const double height_mm = mm_from_metres(desk.offset * per_px), slope_deg = deg_from_radians(per_px);
-  return {height_mm * height_mm * (y2 / mean_square + z2) / kRows, slope_deg * slope_deg / (z2 * mean_square) / kRows};
+  return {height_mm * height_mm * (y2 / mean_square + z2) / kRows,
+          slope_deg * slope_deg / (std::max(z2, kLevel * kLevel) * mean_square) / kRows};
 }
 
 /// The square of the height by which 1° of turn about the middle row lifts the desk.

@@ -80,14 +80,16 @@ Squares between_placements(const Observations& heights) {
   return squares;
 }
 
-void add(const Squares& clear, const Squares& other, double share, VarianceExcess& excess) {
-  if (std::min(clear.dof, other.dof) < kFewestDof) return;
+/// Whether they have enough degrees of freedom.
+bool add(const Squares& clear, const Squares& other, double share, VarianceExcess& excess) {
+  if (std::min(clear.dof, other.dof) < kFewestDof) return false;
   const double by_chance = clear.error_of(other.variance()), error = clear.error_of(clear.variance());
   excess.value += share * (clear.variance() - other.variance());
   excess.error = std::hypot(excess.error, share * by_chance,
                             share * std::hypot(other.error_of(other.variance()), kUnlike * other.variance()));
   excess.sampling =
       std::hypot(excess.sampling, share * std::sqrt(std::max(error * error - by_chance * by_chance, 0.0)));
+  return true;
 }
 
 /// Of one shot: what placements differ by holds a part of what trials do.
@@ -96,10 +98,11 @@ std::optional<VarianceExcess> excess_of(const Observations& clear, const Observa
   double mean_of_trials = 0.0;
   for (const Observation& o : clear) mean_of_trials += 1.0 / o.repeats / static_cast<double>(clear.size());
   VarianceExcess excess;
-  add(between_placements(clear), between_placements(others), 1.0, excess);
-  const bool has_placements = excess.error > 0.0;
-  add(between_trials(clear), between_trials(others), has_placements ? 1.0 - mean_of_trials : 1.0, excess);
-  if (excess.error == 0.0) return std::nullopt;
+  const bool has_placements = add(between_placements(clear), between_placements(others), 1.0, excess);
+  const bool has_trials =
+      add(between_trials(clear), between_trials(others), has_placements ? 1.0 - mean_of_trials : 1.0, excess);
+  const bool is_certain = excess.error == 0.0 && excess.sampling == 0.0;  // heights that are all alike
+  if ((!has_placements && !has_trials) || is_certain) return std::nullopt;
   return excess;
 }
 

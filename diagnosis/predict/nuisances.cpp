@@ -26,8 +26,8 @@ Eigen::VectorXd part_of(const Predictor& predictor, const Eigen::VectorXd& sensi
   return part;
 }
 
-/// A sensor that is set up anew stands and looks a little otherwise. A laboratory that states one σ of its pose means
-/// the pose of each session. A campaign of one session is set up once; what is planned beside it is not that session,
+/// A sensor that is set up anew stands and looks a little otherwise: by as much as the note of its pose may be off
+/// anyway. A campaign of one session is set up once; what is planned beside it is not that session,
 /// but a later one.
 void add_sessions(const Predictor& predictor, const Nuisance& pose, std::vector<Nuisance>& nuisances) {
   std::set<int> sessions;

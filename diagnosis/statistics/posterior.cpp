@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -286,14 +289,23 @@ Shares shares_of(const std::vector<Option>& options) {
 }
 
 void weigh_failed_check(double p, std::vector<Option>& options) {
-  const double least = std::max(p, 1e-300), log_factor = -1.0 - std::log(least) - std::log(-std::log(least));
-  for (Option& option : options) {
-    const auto alone = std::ranges::find_if(options, [&](const Option& other) {
-      return option.has_unknown && !other.has_unknown && other.effects == option.effects;
-    });
-    if (alone == options.end()) continue;
-    option.log_posterior = std::max(option.log_posterior, alone->log_posterior + kLogPriorUnknown + log_factor);
+  const double bounded = std::clamp(p, 1e-300, 1.0 / std::numbers::e);  // there it says nothing
+  const double log_odds = kLogPriorUnknown - 1.0 - std::log(bounded) - std::log(-std::log(bounded));
+  std::map<std::vector<int>, double> beside_unknown;  // log posteriors
+  for (const Option& option : options)
+    if (option.has_unknown) beside_unknown[option.effects] = option.log_posterior;
+  std::vector<Option> failed;
+  for (const Option& option : options) {
+    if (option.has_unknown) continue;
+    Option more = option;
+    more.has_unknown = true;
+    more.log_posterior += log_odds;
+    if (const auto known = beside_unknown.find(option.effects); known != beside_unknown.end())
+      more.log_posterior = std::max(more.log_posterior, known->second);
+    failed.push_back(std::move(more));
   }
+  std::erase_if(options, [](const Option& option) { return option.has_unknown; });
+  std::ranges::move(failed, std::back_inserter(options));
 }
 
 double probability_of(int effect, const std::vector<Option>& options, const std::vector<int>& kinds) {

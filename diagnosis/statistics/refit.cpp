@@ -156,6 +156,7 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
     }
   }
   // What goes in steps has no slopes that lead from one to the next.
+  bool has_jumped = false;
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (x[k] == 0.0) continue;
     for (const double other : model.steps_of(k)) {
@@ -167,11 +168,13 @@ Refit refit(const Evidence& evidence, const Predict& predict, const Covariance& 
       x = moved;
       change = std::move(moved_change);
       value = moved_value;
+      has_jumped = true;
     }
   }
   // What is there as a whole as soon as there is any of it answers to its amount otherwise than to its beginning.
   const Eigen::VectorXd straight = problem.sensitivities(Eigen::all, columns) * x;
-  if ((change - straight).norm() > kBent * change.norm()) jacobian = model.differences(x, change, jacobian);
+  if (has_jumped || (change - straight).norm() > kBent * change.norm())
+    jacobian = model.differences(x, change, jacobian);
   return weighed(problem, start.effects, x, std::move(change), std::move(jacobian));
 }
 

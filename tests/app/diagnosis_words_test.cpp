@@ -91,9 +91,9 @@ TEST(DiagnosisWords, WhereAnEffectIsNamedButNotItsLiquidsTheOthersAreSaid) {
   diagnosis.verdict = Verdict::named;
   diagnosis.effects = {{"fill_scale", {{"scale", 0.1, 0.08, 0.12}}}};
   diagnosis.ambiguity_set = {{{"fill_scale"}, {{"fill_scale@milk"}}, {}, 1.0}};
-  EXPECT_FALSE(says(diagnosis, "In which liquids is not sure"));
+  EXPECT_FALSE(says(diagnosis, "It is not sure in which liquids"));
   diagnosis.ambiguity_set.front().is_liquid_open = true;
-  EXPECT_TRUE(says(diagnosis, "In which liquids is not sure: it may also be fill scale of milk."));
+  EXPECT_TRUE(says(diagnosis, "It is not sure in which liquids: it may also be fill scale of milk."));
 }
 
 TEST(DiagnosisWords, WhatAnEffectSaysIsNotSaidOfItsDepartureAsWell) {

@@ -145,6 +145,18 @@ TEST(DeskMotion, ASensorThatTremblesMovesItsPitchAlone) {
   EXPECT_LT(std::abs(found("desk_pitch_motion_deg", {.noise = 0.1}).z), kChance);
 }
 
+/// Chance makes a variance, so the root of one is as significant as it. What other trials would have shown is a share
+/// of the root, half as large as of the variance.
+TEST(DeskMotion, ARootIsUncertainByChanceAndByHalfItsSampling) {
+  const auto error = [](VarianceExcess excess) {
+    const Observation root = root_of(excess, "desk_wander_mm", {}, 4);
+    return root.repeat_sd / std::sqrt(root.repeats);
+  };
+  EXPECT_NEAR(error({.value = 4.0, .error = 1.0}), 0.5, 1e-12);
+  EXPECT_NEAR(error({.value = 4.0, .error = 0.0, .sampling = 1.0}), 0.25, 1e-12);
+  EXPECT_NEAR(error({.value = 0.0, .error = 4.0}), 2.0, 1e-12);
+}
+
 TEST(DeskMotion, ColumnsThatShakeAreToldFromRows) {
   EXPECT_LT(found("desk_waves_px", {.noise = 0.1, .along_columns = 0.1}).z, -kSure + 2.0);
 }

@@ -199,6 +199,8 @@ TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   const Option is_nothing{{}, {}, false, 0.0, none};
   const double told_from_nothing = t_criterion(evidence, covariance, gauge, is_nothing, is_coaster);
   EXPECT_GT(told_from_nothing, 3.0);
+  // What the campaign itself says of a coaster is no merit of another look at nothing.
+  EXPECT_NEAR(t_criterion(evidence, covariance, blind, is_nothing, is_coaster), 0.0, 1e-6);
   // What may lift the gauge by any amount where there is a coaster excuses coasters, and nothing else.
   Design shaky = gauge;
   shaky.evidence.candidates[0].leeway.columns = Eigen::MatrixXd::Constant(1, 1, 1e3);
