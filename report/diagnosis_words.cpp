@@ -307,6 +307,7 @@ std::string look_words(const Departures& departures) {
 }
 
 std::string finding_of_physics(const Diagnosis& diagnosis) {
+  const std::string where = where_sentence(diagnosis);
   switch (diagnosis.verdict) {
     case Verdict::none:
       return agreement(diagnosis);
@@ -314,14 +315,13 @@ std::string finding_of_physics(const Diagnosis& diagnosis) {
       return fmt::format("No answer can be given from these measurements: {}.", joined(diagnosis.data.missing, "and"));
     case Verdict::named:
       if (diagnosis.effects.empty()) return agreement(diagnosis);
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + liquids_left_open(diagnosis) +
-             what_may_be_besides(diagnosis);
+      return where + named_sentence(diagnosis) + liquids_left_open(diagnosis) + what_may_be_besides(diagnosis);
     case Verdict::ambiguous:
-      return where_sentence(diagnosis) + ambiguous_sentence(diagnosis, !where_sentence(diagnosis).empty());
+      return where + ambiguous_sentence(diagnosis, !where.empty());
     case Verdict::unknown:
-      return where_sentence(diagnosis) + excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
+      return where + excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
     case Verdict::named_and_unknown:
-      return where_sentence(diagnosis) + named_sentence(diagnosis) + liquids_left_open(diagnosis) +
+      return where + named_sentence(diagnosis) + liquids_left_open(diagnosis) +
              excess_sentences(diagnosis.departures.excess) + unknown_sentence(diagnosis);
   }
   return {};

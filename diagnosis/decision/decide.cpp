@@ -132,7 +132,7 @@ Diagnosis decide_by(const Evidence& evidence, const Predict& predict, const Desi
     set = ambiguity_set(posterior.options, kinds, settings.delta);
     set.put_unknown_first();
   }
-  diagnosis.ambiguity_set = explanations(c, posterior, set);
+  diagnosis.ambiguity_set = explanations(c, posterior, set, kinds);
   diagnosis.probability_of_none = shares.nothing;
   diagnosis.probability_of_unknown = shares.unknown;
   if (diagnosis.verdict == Verdict::unknown || diagnosis.verdict == Verdict::named_and_unknown)

@@ -21,9 +21,9 @@ std::vector<std::string> words(const Evidence& evidence, const Option& option) {
 
 }  // namespace
 
-std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set) {
+std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set,
+                                      const std::vector<int>& kinds) {
   const Evidence& evidence = c.evidence;
-  const std::vector<int> kinds = kinds_of_candidates(evidence);
   std::vector<Explanation> result;
   for (const AmbiguityClass& one : set.classes) {
     const Option& first = one.options.front();

@@ -10,7 +10,9 @@
 
 namespace fathom {
 
-std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set);
+/// `kinds`: of kinds_of_candidates().
+std::vector<Explanation> explanations(const Case& c, const Posterior& posterior, const AmbiguitySet& set,
+                                      const std::vector<int>& kinds);
 
 /// Of each candidate a number that the same effect has in all liquids.
 std::vector<int> kinds_of_candidates(const Evidence& evidence);

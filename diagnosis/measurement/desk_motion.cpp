@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/estimate.h"
 #include "core/units.h"
 #include "diagnosis/statistics/groups.h"
 
@@ -114,12 +115,9 @@ constexpr double kUnexplained = 0.25;  // of the variance that local noise makes
 
 /// Between trials of one placement, 1 σ.
 double turn_scatter_deg(std::span<const DeskBands> trials) {
-  const auto n = static_cast<double>(trials.size());
-  const Plane& about = trials.front().desk;
-  double mean = 0.0, squares = 0.0;
-  for (const DeskBands& trial : trials) mean += turn_deg(inverse_depth(trial.desk), about) / n;
-  for (const DeskBands& trial : trials) squares += std::pow(turn_deg(inverse_depth(trial.desk), about) - mean, 2);
-  return std::sqrt(squares / (n - 1.0));
+  Mean turn;
+  for (const DeskBands& trial : trials) turn.add(turn_deg(inverse_depth(trial.desk), trials.front().desk));
+  return turn.estimate().standard_error * std::sqrt(static_cast<double>(trials.size()));
 }
 
 /// Variances of the desk's height and turn over the variance [px²] of bands of rows with independent errors.
@@ -188,12 +186,11 @@ double mean_of(std::span<const Scatter> placements, const Of& of) {
 /// Of the mean over placements. `noise`: the variance that is known, of one degree of freedom a placement at least.
 template <class Of>
 VarianceExcess mean_excess(std::span<const Scatter> placements, double noise, const Of& of) {
-  const auto n = static_cast<double>(placements.size());
-  const double mean = mean_of(placements, of);
-  const double error =
-      std::sqrt(mean_of(placements, [&](const Scatter& s) { return std::pow(of(s) - mean, 2); }) / (n - 1.0));
-  const double by_chance = std::min(error, noise * std::sqrt(2.0 / n));
-  return {mean, std::hypot(by_chance, kUnexplained * noise), std::sqrt(error * error - by_chance * by_chance)};
+  Mean mean;
+  for (const Scatter& scatter : placements) mean.add(of(scatter));
+  const auto [value, error] = mean.estimate();
+  const double by_chance = std::min(error, noise * std::sqrt(2.0 / static_cast<double>(placements.size())));
+  return {value, std::hypot(by_chance, kUnexplained * noise), std::sqrt(error * error - by_chance * by_chance)};
 }
 
 void add_motion(int session, std::span<const Scatter> placements, const LaboratoryRig& rig,
