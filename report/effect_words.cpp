@@ -114,7 +114,7 @@ std::string effect_clause(const NamedEffect& named) {
   text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
   std::vector<std::string> values;
   for (const NamedParameter& parameter : shown_parameters(named)) values.push_back(parameter_words(parameter));
-  return fmt::format("{}{}: {}", of, text, joined(values, "and"));
+  return of + text + (values.empty() ? "" : ": " + joined(values, "and"));
 }
 
 std::string effect_words(const std::string& name) {
@@ -150,11 +150,18 @@ std::string stratum_words(const GapLocation& where) {
 }
 
 std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {
-  std::vector<NamedParameter> shown = named.parameters;
   const Effect* effect = find_effect(effect_name(named.name).id);
-  for (std::size_t i = 0; effect && i < shown.size(); ++i)
-    if (const std::string_view inverse = effect->parameters[i].inverse; !inverse.empty() && shown[i].low95 > 0.0)
-      shown[i] = {std::string(inverse), 1.0 / shown[i].value, 1.0 / shown[i].high95, 1.0 / shown[i].low95};
+  if (!effect) return named.parameters;
+  std::vector<NamedParameter> shown;
+  for (std::size_t i = 0; i < named.parameters.size(); ++i) {
+    const NamedParameter& own = named.parameters[i];
+    const EffectParameter& parameter = effect->parameters[i];
+    if (parameter.is_switch()) continue;
+    if (parameter.inverse.empty() || own.low95 <= 0.0)
+      shown.push_back(own);
+    else
+      shown.push_back({std::string(parameter.inverse), 1.0 / own.value, 1.0 / own.high95, 1.0 / own.low95});
+  }
   return shown;
 }
 

@@ -18,7 +18,8 @@ std::string effect_words(const std::string& name);           ///< "subsurface sc
 std::string effects_words(const std::vector<std::string>&);  ///< of a set: "foam + surface tilt", "no effect"
 std::string effect_list(const std::vector<std::string>&, std::string_view last);  ///< "foam, ripples or meniscus"
 std::string effect_clause(const NamedEffect& effect);  ///< "every pour is 15 % (13 to 17 %) larger than was …"
-/// As people know them: where a parameter's inverse has a name, that.
+/// As people know them: where a parameter's inverse has a name, that. Not what is either there or not, which the
+/// effect's sentence says.
 std::vector<NamedParameter> shown_parameters(const NamedEffect& effect);
 std::string parameter_name(std::string_view parameter);        ///< "tilt_x_deg" → "tilt x"
 std::string_view parameter_unit(std::string_view parameter);   ///< "tilt_x_deg" → "°"; of shares nothing

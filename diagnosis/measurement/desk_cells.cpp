@@ -1,5 +1,6 @@
 #include "diagnosis/measurement/desk_cells.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +16,56 @@ constexpr double kMostly = 0.75;  ///< of a cell, in one cloud: where less is de
 /// [px] A unit's bias has a deviation of 0.1 and blocks on a slope one of as much: three of both together. Things lower
 /// than that, 3 mm at 0.65 m, pass for desk.
 constexpr double kMostOff = 0.45;
+constexpr double kMostBent = 2.5;  ///< [px] off the plane: a lens whose k1 is 0.1 bends corners so much
+
+/// A point of a cloud that may be desk.
+struct MaybeDesk {
+  std::size_t cell;
+  float off_px, nearer_px, weight;
+};
+
+using Quadratic = Eigen::Matrix<double, 6, 1>;
+
+/// 1, x, y, x², x y, y² in the middle of a cell.
+Quadratic terms_at(std::size_t cell) {
+  const auto column = static_cast<double>(cell % kCellColumns), row = static_cast<double>(cell / kCellColumns);
+  const Eigen::Vector3d plane = plane_at(kBiasCell_px * Eigen::Vector2d(column + 0.5, row + 0.5));
+  const double x = plane[1], y = plane[2];
+  return {1.0, x, y, x * x, x * y, y * y};
+}
+
+/// How far the desk is bent off its plane in each cell [px]. Lenses bend it like a quadratic of the image, by more than
+/// `kMostOff` at its borders. It is fitted to what is within that, again and again, so that it grows from where the
+/// plane holds and leaves out things that stand on the desk.
+std::vector<double> bent_px(std::span<const MaybeDesk> points) {
+  constexpr int kRounds = 8;
+  constexpr int kFewestCells = 24;    // four to a coefficient
+  constexpr double kPrecision = 2e-3;  // of a coefficient of 2 px beside a cell's 0.1
+  constexpr std::size_t kCells = static_cast<std::size_t>(kCellColumns) * kCellRows;
+  std::vector<double> mean(kCells), weight(kCells), bent(kCells, 0.0);
+  for (const MaybeDesk& point : points) {
+    mean[point.cell] += point.weight * point.off_px;
+    weight[point.cell] += point.weight;
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix<double, 6, 6> normal = kPrecision * Eigen::Matrix<double, 6, 6>::Identity();
+    Quadratic right = Quadratic::Zero();
+    int cells = 0;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+      if (weight[cell] < kMostly * kFullCell) continue;
+      const double off_px = mean[cell] / weight[cell];
+      if (std::abs(off_px - bent[cell]) > kMostOff) continue;
+      const Quadratic terms = terms_at(cell);
+      normal += terms * terms.transpose();
+      right += terms * off_px;
+      ++cells;
+    }
+    if (cells < kFewestCells) return std::vector<double>(kCells, 0.0);
+    const Quadratic fitted = normal.llt().solve(right);
+    for (std::size_t cell = 0; cell < kCells; ++cell) bent[cell] = fitted.dot(terms_at(cell));
+  }
+  return bent;
+}
 
 }  // namespace
 
@@ -27,15 +78,23 @@ void DeskCells::add(std::span<const SensedPoint> points, const Plane& desk, cons
   const Eigen::Isometry3d to_desk = desk_from_camera(desk);
   const double clear = view.cup ? clear_of_cup(rig) : 0.0;
   const Eigen::Vector2d axis = view.cup ? axis_from_camera(rig, *view.cup) : Eigen::Vector2d::Zero();
+  std::vector<MaybeDesk> maybe;
+  maybe.reserve(points.size());
   for (const SensedPoint& sensed : points) {
     const Eigen::Vector3d point = sensed.point.cast<double>();
     const double off_px = of_inverse * (1.0 - inverse_desk.dot(point)) / point.z();
-    if (std::abs(off_px) > kMostOff) continue;
+    if (std::abs(off_px) > kMostBent) continue;
     if (view.cup && ((to_desk * point).head<2>() - axis).squaredNorm() < clear * clear) continue;
-    Cell& cell = own.cells_[part_of_image(sensed.point, rig.focal_px, kCellColumns, kCellRows)];
-    cell.pixels += sensed.weight;
-    cell.error_px += sensed.weight * static_cast<float>(off_px);
-    cell.nearer_px += sensed.weight * static_cast<float>(of_inverse / point.z() - of_inverse / kReferenceDistance_m);
+    maybe.push_back({part_of_image(sensed.point, rig.focal_px, kCellColumns, kCellRows), static_cast<float>(off_px),
+                     static_cast<float>(of_inverse / point.z() - of_inverse / kReferenceDistance_m), sensed.weight});
+  }
+  const std::vector<double> bent = bent_px(maybe);
+  for (const MaybeDesk& point : maybe) {
+    if (std::abs(point.off_px - bent[point.cell]) > kMostOff) continue;
+    Cell& cell = own.cells_[point.cell];
+    cell.pixels += point.weight;
+    cell.error_px += point.weight * point.off_px;
+    cell.nearer_px += point.weight * point.nearer_px;
   }
   for (Cell& cell : own.cells_)
     if (cell.pixels < kMostly * kFullCell) cell = {};

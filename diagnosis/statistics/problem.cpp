@@ -56,6 +56,9 @@ Problem whitened_problem(const Evidence& evidence, const Covariance& covariance)
       const double infinity = std::numeric_limits<double>::infinity();
       problem.lower[column] = is_bounded ? (parameter.lower - parameter.nominal) / parameter.prior_scale : -infinity;
       problem.upper[column] = is_bounded ? (parameter.upper - parameter.nominal) / parameter.prior_scale : infinity;
+      // Of what goes in steps there is one at least, where it alone is the effect.
+      if (candidate.parameters.size() == 1 && problem.lower[column] == 0.0)
+        problem.lower[column] = parameter.step / parameter.prior_scale;
       const auto k = static_cast<Eigen::Index>(problem.columns.back().size());
       sensitivities.col(column) = parameter.prior_scale * candidate.sensitivity.col(k);
       problem.columns.back().push_back(column++);

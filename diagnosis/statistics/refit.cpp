@@ -54,11 +54,12 @@ class Model {
   /// All values of a parameter that the model knows in whole multiples of a step only; none of other parameters.
   std::vector<double> steps_of(Eigen::Index k) const {
     std::vector<double> result;
+    Eigen::Index next = 0;
     for (const int effect : effects_)
       for (const Parameter& parameter : evidence_.candidates[effect].parameters) {
-        if (k-- != 0 || parameter.step == 0.0) continue;
-        for (double value = parameter.lower; value < parameter.upper + 0.5 * parameter.step; value += parameter.step)
-          result.push_back((value - parameter.nominal) / parameter.prior_scale);
+        if (next++ != k || parameter.step == 0.0) continue;
+        const double step = parameter.step / parameter.prior_scale;
+        for (double value = lower_[k]; value < upper_[k] + 0.5 * step; value += step) result.push_back(value);
       }
     return result;
   }

@@ -18,6 +18,8 @@ struct EffectParameter {
   double lower, upper;
   std::string_view inverse = {};  ///< key of 1 / value, where that is what tables have: files may give either
   double step = 0.0;              ///< it is rounded to whole multiples of this; 0: it is not
+
+  bool is_switch() const { return step > 0.0 && step == upper - lower; }  ///< either there or not
 };
 
 /// The values of an effect's parameters, in their order, and of which liquid.

@@ -53,6 +53,33 @@ TEST(UnitBias, LearnedFromDesksFlattensThem) {
   EXPECT_LT(after, 0.1 * before);
 }
 
+/// The error of a lens whose k1 is 0.05: 1.5 px in the corners, three times what things on a desk may be off by.
+double bent_px(double column, double row) {
+  const double x = (column - 320.0) / kRig.focal_px, y = (row - 240.0) / kRig.focal_px;
+  return 1.3 * (3.0 * x * x + y * y);
+}
+
+BiasView view_of(const std::vector<SensedPoint>& points) {
+  DeskCells cells;
+  cells.add(points, estimate_frame(points, kRig, {})->desk, kRig, {});
+  return cells.view();
+}
+
+TEST(UnitBias, IsLearnedUpToTheCornersThatALensBends) {
+  const BiasView view = view_of(desk_points(kRig, 2.0, [&](double c, double r, double) { return bent_px(c, r); }));
+  EXPECT_EQ(view.cells.size(), 40u * 30u);
+}
+
+TEST(UnitBias, IsNotLearnedFromABoardOnTheDesk) {
+  constexpr double kBoard_px = 0.7;  // 7 mm high
+  const Eigen::AlignedBox2d board(Eigen::Vector2d(400.0, 240.0), Eigen::Vector2d(560.0, 400.0));
+  const BiasView view = view_of(desk_points(kRig, 2.0, [&](double c, double r, double) {
+    return bent_px(c, r) + (board.contains(Eigen::Vector2d(c, r)) ? kBoard_px : 0.0);
+  }));
+  EXPECT_EQ(view.cells.size(), 40u * 30u - 10u * 10u);
+  for (const BiasCell& cell : view.cells) EXPECT_FALSE(board.contains(cell.pixel_px()));
+}
+
 /// What lies in a part of the image.
 std::vector<SensedPoint> cut_out(std::vector<SensedPoint> points, const Eigen::AlignedBox2d& part_px) {
   std::erase_if(points, [&](const SensedPoint& p) { return !part_px.contains(bias_point(p.point, kRig).pixel_px); });

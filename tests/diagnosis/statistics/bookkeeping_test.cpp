@@ -174,6 +174,24 @@ TEST(Screen, HoldsNoEffectTwice) {
   EXPECT_TRUE(has_both_liquids);
 }
 
+/// A cloud is registered to the colour camera or it is not: a ninth of that explains nothing.
+TEST(Screen, WhatIsThereOrNotIsThereAsAWhole) {
+  Evidence evidence;
+  evidence.observations.resize(2);
+  evidence.observations[0].value = 3.0;
+  evidence.predicted = Eigen::VectorXd::Zero(2);
+  evidence.numerical_sd = Eigen::VectorXd::Constant(2, 0.1);
+  Candidate there{"there", {{"there", 0.0, 1.0, 0.0, 1.0, 1.0}}, Eigen::Vector2d(25.0, 0.0)};
+  evidence.candidates = {there};
+  Covariance covariance;
+  covariance.total = 0.01 * Eigen::MatrixXd::Identity(2, 2);
+  covariance.factor.compute(covariance.total);
+  const std::vector<Hypothesis> sets = screen(whitened_problem(evidence, covariance), 5);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(sets[0].parameters[0], 1.0);
+  EXPECT_LT(sets[0].gain, 0.0);
+}
+
 TEST(NextMeasurement, ThatSeesOneTwinAndNotTheOtherSettlesIt) {
   const World world(small_design());
   const Evidence evidence = world.measure({}, {}, 1);
