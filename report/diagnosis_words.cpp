@@ -175,7 +175,7 @@ std::string ambiguous_sentence(const Diagnosis& diagnosis, bool says_where) {
   return text;
 }
 
-/// "In session 1 the height in the cup is 1.9 mm higher than in the others (16 σ). ": of each session the clearest.
+/// "In session 1 the height in the cup is 1.9 mm higher than in other sessions (16 σ). ": of each session the clearest.
 std::string excess_sentences(const std::vector<Excess>& excesses) {
   constexpr std::size_t kMost = 3;
   std::vector<std::string> said;
@@ -206,9 +206,9 @@ std::string excess_sentences(const std::vector<Excess>& excesses) {
       continue;
     }
     text += fmt::format(
-        "In {} {} the {}{}{} is {:.2g}{} {} than in the others ({:.0f} σ), more than {}s should differ. ", excess.level,
+        "In {} {} the {}{}{} is {:.2g}{} {} than in other {}s ({:.0f} σ), more than {}s should differ. ", excess.level,
         excess.group, words.name, excess.part.empty() ? "" : " ", excess.part, std::abs(excess.size), words.unit,
-        excess.size < 0 ? words.less : words.more, std::abs(excess.size) / excess.sigma, excess.level);
+        excess.size < 0 ? words.less : words.more, excess.level, std::abs(excess.size) / excess.sigma, excess.level);
   }
   return text;
 }

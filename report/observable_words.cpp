@@ -11,6 +11,7 @@ namespace {
 constexpr std::array kWords{
     ObservableWords{"height_mm", "height in the cup", " mm", "higher", "lower"},
     ObservableWords{"content_shape_mm", "shape of what is seen in the cup", " mm", "higher", "lower"},
+    ObservableWords{"stray_share", "share of heights far from their median in the cup", "", "larger", "smaller"},
     ObservableWords{"height_sd_mm", "scatter of the heights in the cup", " mm", "wider", "narrower"},
     ObservableWords{"log_brightness", "logarithm of the brightness in the cup", "", "higher", "lower"},
     ObservableWords{"log_ir_contrast", "logarithm of the contrast of the infrared's dots in the cup", "", "higher",

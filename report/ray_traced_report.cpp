@@ -33,7 +33,8 @@ void add_values(const char* by, const Diagnosis& diagnosis, Rows& rows) {
   for (const NamedEffect& effect : diagnosis.effects) {
     std::vector<std::string> sizes;
     for (const NamedParameter& parameter : shown_parameters(effect)) sizes.push_back(parameter_words(parameter));
-    effects += (effects.empty() ? "" : "; ") + effect_words(effect.name) + (sizes.empty() ? "" : ": ") + joined(sizes, "and");
+    effects +=
+        (effects.empty() ? "" : "; ") + effect_words(effect.name) + (sizes.empty() ? "" : ": ") + joined(sizes, "and");
   }
   rows.push_back({by, std::string(name_of(diagnosis.verdict)), effects.empty() ? "nothing" : effects,
                   fmt::format("{:.3f}", diagnosis.gap.train.before_rms_mm),

@@ -39,7 +39,7 @@ Quadratic terms_at(std::size_t cell) {
 /// plane holds and leaves out things that stand on the desk.
 std::vector<double> bent_px(std::span<const MaybeDesk> points) {
   constexpr int kRounds = 8;
-  constexpr int kFewestCells = 24;    // four to a coefficient
+  constexpr int kFewestCells = 24;     // four to a coefficient
   constexpr double kPrecision = 2e-3;  // of a coefficient of 2 px beside a cell's 0.1
   constexpr std::size_t kCells = static_cast<std::size_t>(kCellColumns) * kCellRows;
   std::vector<double> mean(kCells), weight(kCells), bent(kCells, 0.0);

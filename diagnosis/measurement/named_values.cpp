@@ -19,6 +19,9 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
           {"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean), estimates.height[i].weight});
   if (estimates.interior.weight >= kFewestInside) {
     values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});
+    double near_median = 0.0;
+    for (const RegionEstimate& region : estimates.height) near_median += region.weight;
+    values.push_back({"stray_share", kWholeInterior, std::max(0.0, 1.0 - near_median / estimates.interior.weight)});
     const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;
     if (inside > 0.0 && desk > 0.0) values.push_back({"log_brightness", kWholeInterior, std::log(inside / desk)});
   }

@@ -2,17 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "core/json.h"
 #include "core/units.h"
+#include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/predict/candidates.h"
 #include "diagnosis/predict/liquid_motion.h"
 #include "diagnosis/predict/model_errors.h"
 #include "diagnosis/predict/nuisances.h"
 #include "diagnosis/predict/predictable.h"
 #include "diagnosis/statistics/evidence.h"
+#include "diagnosis/statistics/groups.h"
 
 namespace fathom {
 namespace {
@@ -24,6 +29,31 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
   for (std::size_t row = 0; row < are.size(); ++row)
     are[row] = !are[row] && std::isfinite(nominal[static_cast<Eigen::Index>(row)]);
   return are;
+}
+
+/// Heights of a table, which somebody reduced, by whatever form; those of clouds are the program's own.
+bool has_reduced_heights(const std::vector<Observation>& observations) {
+  return std::any_of(observations.begin(), observations.end(), [](const Observation& o) {
+    return o.observable == "height_mm" && o.factors.region == kWholeInterior;
+  });
+}
+
+/// Where a part of what is seen through a clear liquid strays, as under waves, it is no surface whose height could be
+/// compared: which heights count then is the matcher's. Its share of strays is compared instead, and nowhere else: in
+/// liquids that scatter it is the matcher's as well.
+void compare_strays_instead(const std::vector<Observation>& observations, const std::vector<bool>& is_clear,
+                            std::vector<bool>& kept) {
+  constexpr double kMostStray = 0.15;  // of heights that spread by 4 mm, 1 σ; a device matches a hundredth wrongly
+  std::set<std::string> no_surface;
+  for (std::size_t row = 0; row < kept.size(); ++row)
+    if (const Observation& o = observations[row]; o.observable == "stray_share") {
+      const bool strays = is_clear[row] && o.value > kMostStray;
+      kept[row] = kept[row] && strays;
+      if (strays) no_surface.insert(placement_key(o));
+    }
+  for (std::size_t row = 0; row < kept.size(); ++row)
+    if (observations[row].observable == "height_mm" && no_surface.contains(placement_key(observations[row])))
+      kept[row] = false;
 }
 
 /// Which rows are of a liquid that the model sees through, only of one with that label where there is one.
@@ -94,7 +124,8 @@ Physics physics_of(const Measurement& measurement, const SharedJson& model_effec
   const std::vector<Observation> observations = predictable(measurement.observations);
   const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file,
                                                      measurement.unit, measurement.desk_sights);
-  const std::vector<bool> kept = are_predicted(*predictor);
+  std::vector<bool> kept = are_predicted(*predictor);
+  compare_strays_instead(observations, see_through(*predictor, "", observations.size()), kept);
   for (std::size_t row = 0; row < kept.size(); ++row)
     if (kept[row]) evidence.observations.push_back(observations[row]);
   predictor->keep(kept);
@@ -118,6 +149,8 @@ Physics physics_of(const Measurement& measurement, const SharedJson& model_effec
   evidence.shared_errors = model_errors(evidence.observations, measurement.rig);
   Candidates candidates = candidates_of(*predictor, only, quiet);
   evidence.candidates = std::move(candidates.all);
+  if (only.empty() && !has_reduced_heights(evidence.observations))
+    std::erase_if(evidence.candidates, [](const Candidate& one) { return one.effect == "skew_approximation"; });
   for (Candidate& candidate : evidence.candidates) {
     const EffectName name = effect_name(candidate.effect);
     candidate.leeway = effect_errors(name.id, evidence.observations,

@@ -12,10 +12,11 @@
 namespace fathom {
 namespace {
 
-constexpr std::array<std::string_view, 11> kOfPlacements{
-    "height_mm",           "cup_x_mm",        "cup_y_mm",       "cup_radius_mm", "desk_height_mm",
-    "log_brightness",      "log_ir_contrast", "desk_wander_mm", "desk_waves_px", "desk_pitch_motion_deg",
-    "desk_roll_motion_deg"};
+constexpr std::array<std::string_view, 12> kOfPlacements{
+    "height_mm",      "stray_share",           "cup_x_mm",
+    "cup_y_mm",       "cup_radius_mm",         "desk_height_mm",
+    "log_brightness", "log_ir_contrast",       "desk_wander_mm",
+    "desk_waves_px",  "desk_pitch_motion_deg", "desk_roll_motion_deg"};
 constexpr std::array<std::string_view, 7> kOfSessions{"desk_pitch_deg", "desk_roll_deg", "desk_residual_mm",
                                                       "comb_strength",  "comb_quarter",  "comb_half",
                                                       "millimetre_comb"};

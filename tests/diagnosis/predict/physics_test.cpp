@@ -239,6 +239,45 @@ TEST(Physics, WavesShowInHowHeightsOfClearLiquidsScatter) {
   EXPECT_EQ(find(evidence, "refractive_index")->sensitivity(row, 0), 0.0);
 }
 
+TEST(Physics, WhatStraysUnderWavesIsNoHeight) {
+  Measurement measurement = paper_measurement(false);
+  const auto lies_at = [](const Observation& o, const char* liquid, double fill_mm) {
+    return o.factors.liquid == liquid && o.factors.fill_mm == fill_mm && o.factors.distance_mm == 300.0;
+  };
+  std::vector<Observation> strays;
+  for (const Observation& o : measurement.observations)
+    if (o.observable == "height_sd_mm") {
+      strays.push_back(o);
+      strays.back().observable = "stray_share";
+      strays.back().value = lies_at(o, "water", 30.0) || lies_at(o, "milk", 30.0) ? 0.3 : 0.01;
+    }
+  measurement.observations.insert(measurement.observations.end(), strays.begin(), strays.end());
+  const Evidence evidence = physics_of(measurement).evidence;
+  int compared = 0, of_milk = 0;
+  for (std::size_t row = 0; row < evidence.observations.size(); ++row) {
+    const Observation& o = evidence.observations[row];
+    of_milk += o.observable == "height_mm" && lies_at(o, "milk", 30.0);
+    EXPECT_FALSE(o.observable == "height_mm" && lies_at(o, "water", 30.0));
+    if (o.observable != "stray_share") continue;
+    ++compared;
+    EXPECT_TRUE(lies_at(o, "water", 30.0));
+    EXPECT_NEAR(evidence.predicted[static_cast<Eigen::Index>(row)], 0.0, 1e-9);
+    EXPECT_GT(find(evidence, "ripples")->sensitivity(static_cast<Eigen::Index>(row), 0), 0.0);
+  }
+  EXPECT_EQ(compared, 1);
+  EXPECT_GT(of_milk, 0);
+}
+
+/// Heights of clouds are reduced by the program itself.
+TEST(Physics, OnlyTablesMayHaveBeenReducedByAClosedForm) {
+  const Measurement clouds = paper_measurement(false);
+  EXPECT_FALSE(find(physics_of(clouds).evidence, "skew_approximation"));
+  Measurement table = clouds;
+  std::erase_if(table.observations, [](const Observation& o) { return o.observable != "height_sd_mm"; });
+  for (Observation& o : table.observations) o.observable = "height_mm";
+  EXPECT_TRUE(find(physics_of(table).evidence, "skew_approximation"));
+}
+
 // Trials of one noise, in whole millimetres: where a height is near one, none of them scatters.
 TEST(Physics, ScatterBelowWhatHeightsAreRoundedToIsNoMotion) {
   constexpr double kNoise_mm = 0.2;
