@@ -1,6 +1,5 @@
 #include "diagnosis/measurement/desk_cells.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -18,51 +17,43 @@ constexpr double kMostly = 0.75;  ///< of a cell, in one cloud: where less is de
 constexpr double kMostOff = 0.45;
 constexpr double kMostBent = 2.5;  ///< [px] off the plane: a lens whose k1 is 0.1 bends corners so much
 
+Eigen::Vector2d middle_of(std::size_t cell) {
+  const auto column = static_cast<double>(cell % kCellColumns), row = static_cast<double>(cell / kCellColumns);
+  return kBiasCell_px * Eigen::Vector2d(column + 0.5, row + 0.5);
+}
+
 /// A point of a cloud that may be desk.
 struct MaybeDesk {
   std::size_t cell;
   float off_px, nearer_px, weight;
 };
 
-using Quadratic = Eigen::Matrix<double, 6, 1>;
-
-/// 1, x, y, x², x y, y² in the middle of a cell.
-Quadratic terms_at(std::size_t cell) {
-  const auto column = static_cast<double>(cell % kCellColumns), row = static_cast<double>(cell / kCellColumns);
-  const Eigen::Vector3d plane = plane_at(kBiasCell_px * Eigen::Vector2d(column + 0.5, row + 0.5));
-  const double x = plane[1], y = plane[2];
-  return {1.0, x, y, x * x, x * y, y * y};
-}
-
 /// How far the desk is bent off its plane in each cell [px]. Lenses bend it like a quadratic of the image, by more than
 /// `kMostOff` at its borders. It is fitted to what is within that, again and again, so that it grows from where the
 /// plane holds and leaves out things that stand on the desk.
 std::vector<double> bent_px(std::span<const MaybeDesk> points) {
   constexpr int kRounds = 8;
-  constexpr int kFewestCells = 24;     // four to a coefficient
-  constexpr double kPrecision = 2e-3;  // of a coefficient of 2 px beside a cell's 0.1
+  constexpr std::size_t kFewestCells = 24;  // four to a coefficient
   constexpr std::size_t kCells = static_cast<std::size_t>(kCellColumns) * kCellRows;
-  std::vector<double> mean(kCells), weight(kCells), bent(kCells, 0.0);
+  std::vector<double> sum(kCells), weight(kCells), bent(kCells);
   for (const MaybeDesk& point : points) {
-    mean[point.cell] += point.weight * point.off_px;
+    sum[point.cell] += point.weight * point.off_px;
     weight[point.cell] += point.weight;
   }
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix<double, 6, 6> normal = kPrecision * Eigen::Matrix<double, 6, 6>::Identity();
-    Quadratic right = Quadratic::Zero();
-    int cells = 0;
+    std::vector<BiasCell> cells;
+    std::vector<double> off_px;
     for (std::size_t cell = 0; cell < kCells; ++cell) {
       if (weight[cell] < kMostly * kFullCell) continue;
-      const double off_px = mean[cell] / weight[cell];
-      if (std::abs(off_px - bent[cell]) > kMostOff) continue;
-      const Quadratic terms = terms_at(cell);
-      normal += terms * terms.transpose();
-      right += terms * off_px;
-      ++cells;
+      const double mean = sum[cell] / weight[cell];
+      if (std::abs(mean - bent[cell]) > kMostOff) continue;
+      const Eigen::Vector2d middle = middle_of(cell);
+      cells.push_back({middle.x(), middle.y(), 0.0, 1.0});
+      off_px.push_back(mean);
     }
-    if (cells < kFewestCells) return std::vector<double>(kCells, 0.0);
-    const Quadratic fitted = normal.llt().solve(right);
-    for (std::size_t cell = 0; cell < kCells; ++cell) bent[cell] = fitted.dot(terms_at(cell));
+    if (cells.size() < kFewestCells) return std::vector<double>(kCells);
+    const Quadratic fitted = quadratic_through(cells, off_px);
+    for (std::size_t cell = 0; cell < kCells; ++cell) bent[cell] = fitted.dot(quadratic_at(middle_of(cell)));
   }
   return bent;
 }
@@ -115,9 +106,8 @@ BiasView DeskCells::view() const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.pixels <= 0.0f) continue;
-    const auto column = static_cast<double>(i % kCellColumns), row = static_cast<double>(i / kCellColumns);
-    view.cells.push_back({(column + 0.5) * kBiasCell_px, (row + 0.5) * kBiasCell_px,
-                          static_cast<double>(cell.nearer_px / cell.pixels),
+    const Eigen::Vector2d middle = middle_of(i);
+    view.cells.push_back({middle.x(), middle.y(), static_cast<double>(cell.nearer_px / cell.pixels),
                           std::min(static_cast<double>(cell.pixels), kFullCell)});
     view.errors_px.push_back(static_cast<double>(cell.error_px / cell.pixels));
   }

@@ -37,6 +37,24 @@ Eigen::Vector3d plane_through(std::span<const BiasCell> cells, std::span<const d
   return normal.ldlt().solve(right);
 }
 
+Quadratic quadratic_at(const Eigen::Vector2d& pixel_px) {
+  const Eigen::Vector3d plane = plane_at(pixel_px);
+  const double x = plane[1], y = plane[2];
+  return {1.0, x, y, x * x, x * y, y * y};
+}
+
+Quadratic quadratic_through(std::span<const BiasCell> cells, std::span<const double> values) {
+  constexpr double kLittle = 1e-3;  // of a cell of one pixel
+  Eigen::Matrix<double, 6, 6> normal = kLittle * Eigen::Matrix<double, 6, 6>::Identity();
+  Quadratic right = Quadratic::Zero();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Quadratic at = quadratic_at(cells[i].pixel_px());
+    normal += cells[i].pixels * at * at.transpose();
+    right += cells[i].pixels * values[i] * at;
+  }
+  return normal.ldlt().solve(right);
+}
+
 std::vector<double> nearer_px(std::span<const BiasCell> cells) {
   std::vector<double> values;
   for (const BiasCell& cell : cells) values.push_back(cell.nearer_px);

@@ -46,6 +46,13 @@ inline double p_of_looks(double sigmas, std::size_t looks) {
 /// The plane, as coefficients of plane_at(), that is nearest to a value of each cell; cells count by their pixels.
 Eigen::Vector3d plane_through(std::span<const BiasCell> cells, std::span<const double> values);
 
+/// 1, x, y, x², x y, y² with x, y as of plane_at(): what a lens makes of a plane, and what is smoothest in a bias.
+using Quadratic = Eigen::Matrix<double, 6, 1>;
+Quadratic quadratic_at(const Eigen::Vector2d& pixel_px);
+
+/// The same as plane_through() of quadratics; terms that the cells do not settle are small.
+Quadratic quadratic_through(std::span<const BiasCell> cells, std::span<const double> values);
+
 /// What each cell has of `nearer_px`.
 std::vector<double> nearer_px(std::span<const BiasCell> cells);
 

@@ -177,6 +177,19 @@ TEST_F(DiagnoseCommand, FindsCupsThatHoldMore) {
   expect_found("fill_scale", "scale", 0.15, unit_of("xtion_pro_live_device"));
 }
 
+// Its corners are 1 px off the plane: more than things on a desk may be that pass for it. The cup is not to blame.
+TEST_F(DiagnoseCommand, FindsALensThatBendsTheDesk) {
+  const std::string spec = FATHOM_SCENES "/campaigns/bent_desk.json";
+  ASSERT_EQ(run_fathom("campaign " + spec + " -o " + path("campaign")).exit_code, 0);
+  const Json report = diagnosis("out");
+  EXPECT_EQ(report["verdict"], "named") << report["answer"];
+  ASSERT_EQ(report["effects"].size(), 1u) << report["answer"];
+  EXPECT_EQ(report["effects"][0]["name"], "radial_distortion");
+  const Json& ci95 = report["effects"][0]["parameters"]["k1"]["ci95"];
+  EXPECT_LT(ci95[0].get<double>(), 0.05);
+  EXPECT_GT(ci95[1].get<double>(), 0.05);
+}
+
 bool is_in_set(const Json& report, const std::string& effect) {
   for (const Json& explanation : report["ambiguity_set"]) {
     if (explanation["effects"] == Json{effect}) return true;
