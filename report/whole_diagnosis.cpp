@@ -65,8 +65,8 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
       "Cups that stand nearer to the sensor's foot, more in the middle, or are fuller show more of their inside.";
   constexpr std::size_t kNamed = 4;
   std::set<std::string> placements, compared_placements;
-  for (const Observation& o : compared)
-    if (o.observable == "height_mm") compared_placements.insert(placement_key(o));
+  for (const Observation& o : compared)  // where heights stray it is their share that is compared
+    if (o.observable == "height_mm" || o.observable == "stray_share") compared_placements.insert(placement_key(o));
   std::vector<std::string> missing;  // conditions
   std::size_t count = 0;
   for (const Observation& o : measurement.observations) {
@@ -93,6 +93,25 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
       "In {} of {} placements no height in the cup is compared: {}{}. By the model too little of the cup's inside is "
       "seen there. {}",
       count, placements.size(), fmt::join(missing, "; "), more > 0 ? fmt::format("; and {} more", more) : "", kRemedy);
+}
+
+/// Where what is seen in cups is no surface; nothing where it is everywhere.
+std::string on_strays(const std::vector<Observation>& compared) {
+  std::vector<std::string> where;
+  const auto placements = std::count_if(compared.begin(), compared.end(), [&](const Observation& o) {
+    if (o.observable != "stray_share") return false;
+    const Factors& f = o.factors;
+    if (std::string name =
+            fmt::format("{} at {}", filling_name(f.liquid, f.fill_mm), place_name(f.distance_mm, f.lateral_mm));
+        std::find(where.begin(), where.end(), name) == where.end())
+      where.push_back(std::move(name));
+    return true;
+  });
+  if (placements == 0) return {};
+  return fmt::format(
+      "In {} placements many heights in the cup lie more than 6 mm from their median: {}. Waves do that. What is seen "
+      "there is no single surface, so its height is not compared.",
+      placements, fmt::join(where, "; "));
 }
 
 /// What it costs that the bare desk was not seen where cups stand.
@@ -125,6 +144,8 @@ DiagnosisInput read_diagnosis_input(const DiagnosisSettings& settings, bool quie
   put_bookkeeping_right(input.model_effects, input.rig_file(), measurement);
   input.physics = physics_of(measurement, input.model_effects, input.rig_file(), {}, quiet);
   if (std::string note = on_missing_heights(measurement, input.physics.evidence.observations); !note.empty())
+    measurement.notes.push_back(std::move(note));
+  if (std::string note = on_strays(input.physics.evidence.observations); !note.empty())
     measurement.notes.push_back(std::move(note));
   if (std::string note = on_bare_desks(measurement, *input.physics.predictor); !note.empty())
     measurement.notes.push_back(std::move(note));

@@ -97,9 +97,15 @@ RegionEstimate region_mean(std::vector<SharedHeight>& heights) {
   if (heights.empty()) return {};
   const float middle = middle_height(heights);
   Sums sums;
+  double strays = 0.0;
   for (const SharedHeight& one : heights)
-    if (std::abs(one.height - middle) <= kNear) sums.add(one.height, one.weight);
-  return sums.estimate();
+    if (std::abs(one.height - middle) <= kNear)
+      sums.add(one.height, one.weight);
+    else
+      strays += one.weight;
+  RegionEstimate estimate = sums.estimate();
+  estimate.strays = strays;
+  return estimate;
 }
 
 void set_inside(std::span<const CupPoint> points, double radius, const FrameView& view, FrameEstimates& estimates) {

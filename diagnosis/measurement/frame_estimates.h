@@ -40,6 +40,7 @@ struct SensedPoint {
 struct RegionEstimate {
   double mean = 0.0, sd = 0.0;
   double weight = 0.0;  ///< sum of the points' weights [pixels]
+  double strays = 0.0;  ///< of those left out, being too far from the median
 };
 
 /// Mean disparity off the fitted desk's [px], of bands of 40 rows and of 40 columns of the image, and of its thirds.

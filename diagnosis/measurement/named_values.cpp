@@ -10,7 +10,7 @@ namespace fathom {
 
 std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   // Pixels; fewer are no evidence, and of a region no more than the edge of a shadow.
-  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0;
+  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0, kFewestForStrays = 150.0;
   constexpr std::string_view kDesk = "desk";
   std::vector<NamedValue> values;
   for (std::size_t i = 0; i < estimates.height.size(); ++i)
@@ -19,9 +19,10 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
           {"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean), estimates.height[i].weight});
   if (estimates.interior.weight >= kFewestInside) {
     values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});
-    double near_median = 0.0;
-    for (const RegionEstimate& region : estimates.height) near_median += region.weight;
-    values.push_back({"stray_share", kWholeInterior, std::max(0.0, 1.0 - near_median / estimates.interior.weight)});
+    double strays = 0.0, all = 0.0;  // of regions that have a height: others hold edges of walls
+    for (const RegionEstimate& region : estimates.height)
+      if (region.weight >= kFewestInRegion) strays += region.strays, all += region.weight + region.strays;
+    if (all >= kFewestForStrays) values.push_back({"stray_share", kWholeInterior, strays / all});
     const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;
     if (inside > 0.0 && desk > 0.0) values.push_back({"log_brightness", kWholeInterior, std::log(inside / desk)});
   }
