@@ -58,6 +58,13 @@ bool has_heights(const std::vector<Observation>& observations) {
                      [](const Observation& o) { return o.observable == "height_mm"; });
 }
 
+/// "45 mm of water at distance 300 mm, lateral 20 mm", unless it is among the names already.
+void add_condition(const Factors& f, std::vector<std::string>& names) {
+  std::string name =
+      fmt::format("{} at {}", filling_name(f.liquid, f.fill_mm), place_name(f.distance_mm, f.lateral_mm));
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+}
+
 /// Which heights in cups were not compared, why, and what would help; nothing where all were, or where there are no
 /// cups.
 std::string on_missing_heights(const Measurement& measurement, const std::vector<Observation>& compared) {
@@ -74,10 +81,7 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
     if (!has_cup(f) || f.within_mm || !placements.insert(placement_key(o)).second) continue;
     if (compared_placements.contains(placement_key(o))) continue;
     ++count;
-    if (std::string name =
-            fmt::format("{} at {}", filling_name(f.liquid, f.fill_mm), place_name(f.distance_mm, f.lateral_mm));
-        std::find(missing.begin(), missing.end(), name) == missing.end())
-      missing.push_back(std::move(name));
+    add_condition(f, missing);
   }
   if (missing.empty()) return {};
   if (compared_placements.empty())
@@ -100,11 +104,7 @@ std::string on_strays(const std::vector<Observation>& compared) {
   std::vector<std::string> where;
   const auto placements = std::count_if(compared.begin(), compared.end(), [&](const Observation& o) {
     if (o.observable != "stray_share") return false;
-    const Factors& f = o.factors;
-    if (std::string name =
-            fmt::format("{} at {}", filling_name(f.liquid, f.fill_mm), place_name(f.distance_mm, f.lateral_mm));
-        std::find(where.begin(), where.end(), name) == where.end())
-      where.push_back(std::move(name));
+    add_condition(o.factors, where);
     return true;
   });
   if (placements == 0) return {};
