@@ -338,7 +338,10 @@ double Predictor::value_of(std::size_t row, const Condition& condition, const Fo
   if (observable == "desk_wander_mm") return wander_mm(foreseen.shot.rig.sensor, foreseen.estimates.desk);
   if (observable == "desk_waves_px" || observable == "desk_pitch_motion_deg" || observable == "desk_roll_motion_deg")
     return 0.0;
-  if (observable == "liquid_motion_mm") return scatter_by_waves_mm(foreseen.shot, model_.laboratory, condition.pixels);
+  const auto through_waves = [&] { return under_waves(foreseen.shot, model_.laboratory, condition.pixels); };
+  if (observable == "liquid_motion_mm") return through_waves().scatter_mm;
+  if (observable == "stray_share")
+    if (const double share = through_waves().stray_share; share > 0.0) return share;
   if (observable == "height_mm" && regions_[row] == kWholeInterior) return interior_height_mm(foreseen.estimates);
   for (const NamedValue& value : foreseen.named)
     if (value.observable == observable && value.region == regions_[row]) return value.value;

@@ -346,27 +346,36 @@ std::array<double, kCupCells> cells_near_shadows(const SurrogateFrame& frame, co
   });
 }
 
-double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {
+UnderWaves under_waves(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {
   const SurrogateView view = surrogate_view(setup);
-  if (!view.cup || !is_clear(*view.cup)) return 0.0;
+  if (!view.cup || !is_clear(*view.cup)) return {};
   const std::vector<CupOptics> moments = moments_of(*view.cup);
-  if (moments.size() == 1) return 0.0;
+  if (moments.size() == 1) return {};
   const std::vector<SensedPoint> desk = desk_points(view, pixels);
   std::array<Mean, 5> heights;
+  double strays = 0.0, all = 0.0;
   for (const CupOptics& moment : moments) {
     std::vector<SensedPoint> points = points_through(view, std::span(&moment, 1), pixels, pixels.cup_weight);
     points.insert(points.end(), desk.begin(), desk.end());
     const auto estimates = estimate_frame(points, rig, pixels.view);
-    for (std::size_t region = 0; estimates && region < heights.size(); ++region)
-      if (estimates->height[region].weight >= kFewestInRegion) heights[region].add(estimates->height[region].mean);
+    if (!estimates) continue;
+    for (std::size_t region = 0; region < heights.size(); ++region) {
+      const RegionEstimate& height = estimates->height[region];
+      if (height.weight >= kFewestInRegion) heights[region].add(height.mean);
+      strays += height.strays;
+      all += height.weight + height.strays;
+    }
   }
+  UnderWaves seen;
+  if (all > 0.0) seen.stray_share = strays / all;
   double variance = 0.0, regions = 0.0;
   for (const Mean& height : heights) {
     if (height.count() < moments.size()) continue;  // phases make a variance only together
     variance += static_cast<double>(height.count() - 1) * std::pow(height.estimate().standard_error, 2);
     ++regions;
   }
-  return regions > 0.0 ? mm_from_metres(std::sqrt(variance / regions)) : 0.0;
+  if (regions > 0.0) seen.scatter_mm = mm_from_metres(std::sqrt(variance / regions));
+  return seen;
 }
 
 SurrogateFrame surrogate_points(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& fixed,

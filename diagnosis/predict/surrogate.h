@@ -62,8 +62,12 @@ std::optional<FrameEstimates> estimates_without(std::span<const Bias> biases, co
 /// Whether two set-ups' desks are read alike.
 bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b);
 
-/// By how much waves on a clear liquid let the height of a region differ between shots, 1 σ; 0 without waves.
-double scatter_by_waves_mm(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels);
+/// What single shots through waves on a clear liquid show, and their mean does not; 0 without waves.
+struct UnderWaves {
+  double scatter_mm = 0.0;   ///< by how much the height of a region differs between shots, 1 σ
+  double stray_share = 0.0;  ///< of a shot's heights, those that are too far from their median to count
+};
+UnderWaves under_waves(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels);
 
 /// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
 /// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.

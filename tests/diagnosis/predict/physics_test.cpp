@@ -262,6 +262,7 @@ TEST(Physics, WhatStraysUnderWavesIsNoHeight) {
     ++compared;
     EXPECT_TRUE(lies_at(o, "water", 30.0));
     EXPECT_NEAR(evidence.predicted[static_cast<Eigen::Index>(row)], 0.0, 1e-9);
+    EXPECT_GT(find(evidence, "ripples")->sensitivity(static_cast<Eigen::Index>(row), 0), 0.0);
   }
   EXPECT_EQ(compared, 1);
   EXPECT_GT(of_milk, 0);
