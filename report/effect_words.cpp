@@ -156,7 +156,7 @@ std::vector<NamedParameter> shown_parameters(const NamedEffect& named) {
   for (std::size_t i = 0; i < named.parameters.size(); ++i) {
     const NamedParameter& own = named.parameters[i];
     const EffectParameter& parameter = effect->parameters[i];
-    if (parameter.is_switch()) continue;
+    if (parameter.is_switch() && own.value > 0.0) continue;  // that it is on, the effect's sentence says
     if (parameter.inverse.empty() || own.low95 <= 0.0)
       shown.push_back(own);
     else

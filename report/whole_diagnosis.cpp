@@ -13,6 +13,7 @@
 #include "diagnosis/decision/decide.h"
 #include "diagnosis/decision/diagnosis_json.h"
 #include "diagnosis/measurement/cup_in_sight.h"
+#include "diagnosis/measurement/frame_estimates.h"
 #include "diagnosis/measurement/read_measurement.h"
 #include "diagnosis/predict/bookkeeping.h"
 #include "diagnosis/predict/predictable.h"
@@ -65,15 +66,22 @@ void add_condition(const Factors& f, std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
 }
 
+/// The first few, and how many more there are.
+std::string some_of(std::vector<std::string> names) {
+  constexpr std::size_t kNamed = 4;
+  const std::size_t more = names.size() - std::min(names.size(), kNamed);
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
 /// Which heights in cups were not compared, why, and what would help; nothing where all were, or where there are no
 /// cups.
 std::string on_missing_heights(const Measurement& measurement, const std::vector<Observation>& compared) {
   constexpr std::string_view kRemedy =
       "Cups that stand nearer to the sensor's foot, more in the middle, or are fuller show more of their inside.";
-  constexpr std::size_t kNamed = 4;
   std::set<std::string> placements, compared_placements;
-  for (const Observation& o : compared)  // where heights stray it is their share that is compared
-    if (o.observable == "height_mm" || o.observable == "stray_share") compared_placements.insert(placement_key(o));
+  for (const Observation& o : compared)
+    if (o.observable == "height_mm") compared_placements.insert(placement_key(o));
   std::vector<std::string> missing;  // conditions
   std::size_t count = 0;
   for (const Observation& o : measurement.observations) {
@@ -91,27 +99,27 @@ std::string on_missing_heights(const Measurement& measurement, const std::vector
                              "has them"
                            : "too few pixels show the inside of a cup",
                        kRemedy);
-  const std::size_t more = missing.size() - std::min(missing.size(), kNamed);
-  missing.resize(missing.size() - more);
   return fmt::format(
-      "In {} of {} placements no height in the cup is compared: {}{}. By the model too little of the cup's inside is "
+      "In {} of {} placements no height in the cup is compared: {}. By the model too little of the cup's inside is "
       "seen there. {}",
-      count, placements.size(), fmt::join(missing, "; "), more > 0 ? fmt::format("; and {} more", more) : "", kRemedy);
+      count, placements.size(), some_of(std::move(missing)), kRemedy);
 }
 
-/// Where what is seen in cups is no surface; nothing where it is everywhere.
+/// Where what is seen in cups is hardly one surface.
 std::string on_strays(const std::vector<Observation>& compared) {
   std::vector<std::string> where;
-  const auto placements = std::count_if(compared.begin(), compared.end(), [&](const Observation& o) {
-    if (o.observable != "stray_share") return false;
+  double most = 0.0;
+  for (const Observation& o : compared) {
+    if (o.observable != "height_mm" || o.stray_share <= kMostStray) continue;
     add_condition(o.factors, where);
-    return true;
-  });
-  if (placements == 0) return {};
+    most = std::max(most, o.stray_share);
+  }
+  if (where.empty()) return {};
   return fmt::format(
-      "In {} placements many heights in the cup lie more than 6 mm from their median: {}. Waves do that. What is seen "
-      "there is no single surface, so its height is not compared.",
-      placements, fmt::join(where, "; "));
+      "Many heights lie more than 6 mm from the median of their part of the cup, up to {:.0f} % of them: {}. Waves do "
+      "that, and views that show two surfaces. Which of them a device keeps is not predicted, so these parts hardly "
+      "count.",
+      100.0 * most, some_of(std::move(where)));
 }
 
 /// What it costs that the bare desk was not seen where cups stand.

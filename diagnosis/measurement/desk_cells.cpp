@@ -13,7 +13,8 @@ constexpr int kCellColumns = static_cast<int>(kImageWidth_px / kBiasCell_px),
 constexpr double kFullCell = kBiasCell_px * kBiasCell_px;
 constexpr double kMostly = 0.75;  ///< of a cell, in one cloud: where less is desk, blocks hold an edge
 /// [px] A unit's bias has a deviation of 0.1 and blocks on a slope one of as much: three of both together. Things lower
-/// than that, 3 mm at 0.65 m, pass for desk.
+/// than that, 3 mm at 0.65 m, pass for desk; so does what rises from it as gently as a bent desk, over much of the
+/// image.
 constexpr double kMostOff = 0.45;
 constexpr double kMostBent = 2.5;  ///< [px] off the plane: a lens whose k1 is 0.1 bends corners so much
 

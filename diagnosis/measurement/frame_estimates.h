@@ -36,11 +36,17 @@ struct SensedPoint {
   float device_z = 0.0f;  ///< [m] depth before a unit's bias was taken off; 0: none was
 };
 
+/// Of heights that stray from their median: where more do, what is seen is hardly one surface, but waves or two. Of a
+/// surface a device matches a hundredth wrongly.
+inline constexpr double kMostStray = 0.15;
+
 /// Mean over points.
 struct RegionEstimate {
   double mean = 0.0, sd = 0.0;
   double weight = 0.0;  ///< sum of the points' weights [pixels]
   double strays = 0.0;  ///< of those left out, being too far from the median
+
+  double stray_share() const { return strays > 0.0 ? strays / (weight + strays) : 0.0; }
 };
 
 /// Mean disparity off the fitted desk's [px], of bands of 40 rows and of 40 columns of the image, and of its thirds.

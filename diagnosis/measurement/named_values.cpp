@@ -10,19 +10,16 @@ namespace fathom {
 
 std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   // Pixels; fewer are no evidence, and of a region no more than the edge of a shadow.
-  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0, kFewestForStrays = 150.0;
+  constexpr double kFewestInside = 10.0, kFewestOnDesk = 100.0;
   constexpr std::string_view kDesk = "desk";
   std::vector<NamedValue> values;
   for (std::size_t i = 0; i < estimates.height.size(); ++i)
-    if (estimates.height[i].weight >= kFewestInRegion)
-      values.push_back(
-          {"height_mm", kCupRegionNames[i], mm_from_metres(estimates.height[i].mean), estimates.height[i].weight});
+    if (const RegionEstimate& region = estimates.height[i]; region.weight >= kFewestInRegion) {
+      values.push_back({"height_mm", kCupRegionNames[i], mm_from_metres(region.mean), region.weight});
+      values.push_back({"stray_share", kCupRegionNames[i], region.stray_share()});
+    }
   if (estimates.interior.weight >= kFewestInside) {
     values.push_back({"height_sd_mm", kWholeInterior, mm_from_metres(estimates.interior.sd)});
-    double strays = 0.0, all = 0.0;  // of regions that have a height: others hold edges of walls
-    for (const RegionEstimate& region : estimates.height)
-      if (region.weight >= kFewestInRegion) strays += region.strays, all += region.weight + region.strays;
-    if (all >= kFewestForStrays) values.push_back({"stray_share", kWholeInterior, strays / all});
     const double inside = estimates.interior_intensity.mean, desk = estimates.desk_intensity.mean;
     if (inside > 0.0 && desk > 0.0) values.push_back({"log_brightness", kWholeInterior, std::log(inside / desk)});
   }
@@ -54,10 +51,12 @@ std::vector<NamedValue> named_values(const FrameEstimates& estimates) {
   }
   values.push_back({"millimetre_comb", kDesk, estimates.millimetre_comb});
   for (int i = 0; i < kCupCells; ++i)
-    if (const RegionEstimate& cell = estimates.cell_height[i]; cell.weight >= kFewestInCell)
+    if (const RegionEstimate& cell = estimates.cell_height[i]; is_surface(cell))
       values.push_back({"cell_height_mm", name_of_cell(i), mm_from_metres(cell.mean), cell.weight});
   return values;
 }
+
+bool is_surface(const RegionEstimate& cell) { return cell.weight >= kFewestInCell && cell.stray_share() <= kMostStray; }
 
 std::string_view name_of_cell(int cell) {
   static const std::vector<std::string> names = [] {

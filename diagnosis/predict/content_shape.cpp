@@ -99,7 +99,7 @@ CellHeights cell_heights(const FrameEstimates& estimates) {
   CellHeights heights{};
   for (int i = 0; i < kCupCells; ++i) {
     const RegionEstimate& cell = estimates.cell_height[i];
-    heights[i] = cell.weight >= kFewestInCell ? mm_from_metres(cell.mean) : std::numeric_limits<double>::quiet_NaN();
+    heights[i] = is_surface(cell) ? mm_from_metres(cell.mean) : std::numeric_limits<double>::quiet_NaN();
   }
   return heights;
 }

@@ -16,7 +16,7 @@ namespace fathom {
 
 using CupCells = std::bitset<kCupCells>;
 
-/// Heights of the cells of a cup's raster [mm]; NaN of those with fewer than fifteen pixels.
+/// Heights of the cells of a cup's raster [mm]; NaN of those that show no surface.
 using CellHeights = std::array<double, kCupCells>;
 CellHeights cell_heights(const FrameEstimates& estimates);
 

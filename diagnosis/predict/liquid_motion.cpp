@@ -130,13 +130,13 @@ Factors middle_of(const Observations& heights) {
 
 std::vector<Observation> liquid_motion(const std::vector<Observation>& observations,
                                        const std::vector<bool>& sees_through) {
-  std::map<std::string, Observations> clear;
+  std::map<std::pair<std::string, double>, Observations> clear;  // by liquid and fill
   Observations others;
   for (std::size_t row = 0; row < observations.size(); ++row)
     if (const Observation& o = observations[row]; o.observable == "height_mm")
-      (sees_through[row] ? clear[o.factors.liquid] : others).push_back(o);
+      (sees_through[row] ? clear[{o.factors.liquid, o.factors.fill_mm}] : others).push_back(o);
   std::vector<Observation> result;
-  for (const auto& [liquid, heights] : clear)
+  for (const auto& [filling, heights] : clear)
     if (const auto excess = excess_of(heights, others))
       result.push_back(root_of(*excess, "liquid_motion_mm", middle_of(heights), static_cast<int>(heights.size())));
   return result;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
+#include <utility>
 
+#include "core/estimate.h"
 #include "core/json.h"
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
@@ -31,29 +33,40 @@ std::vector<bool> are_predicted(const Predictor& predictor) {
   return are;
 }
 
-/// Heights of a table, which somebody reduced, by whatever form; those of clouds are the program's own.
-bool has_reduced_heights(const std::vector<Observation>& observations) {
-  return std::any_of(observations.begin(), observations.end(), [](const Observation& o) {
-    return o.observable == "height_mm" && o.factors.region == kWholeInterior;
+/// Whether somebody reduced all heights, as a table has them, by whatever form; those of clouds are the program's own.
+bool are_reduced(const std::vector<Observation>& observations) {
+  return std::none_of(observations.begin(), observations.end(), [](const Observation& o) {
+    return o.observable == "height_mm" && o.factors.region != kWholeInterior;
   });
 }
 
-/// Where a part of what is seen through a clear liquid strays, as under waves, it is no surface whose height could be
-/// compared: which heights count then is the matcher's. Its share of strays is compared instead, and nowhere else: in
-/// liquids that scatter it is the matcher's as well.
-void compare_strays_instead(const std::vector<Observation>& observations, const std::vector<bool>& is_clear,
-                            std::vector<bool>& kept) {
-  constexpr double kMostStray = 0.15;  // of heights that spread by 4 mm, 1 σ; a device matches a hundredth wrongly
-  std::set<std::string> no_surface;
+/// To the heights of regions, what shares of theirs stray.
+void tell_heights_of_strays(std::vector<Observation>& observations) {
+  const auto key = [](const Observation& o) { return std::pair(placement_key(o), o.factors.region); };
+  std::map<std::pair<std::string, std::string>, double> shares;
+  for (const Observation& o : observations)
+    if (o.observable == "stray_share") shares[key(o)] = o.value;
+  for (Observation& o : observations)
+    if (const auto share = shares.find(key(o)); o.observable == "height_mm" && share != shares.end())
+      o.stray_share = share->second;
+}
+
+/// Keeps the shares of strays only of liquids that one sees through and of which, at one fill, more stray than a device
+/// matches wrongly. In liquids that scatter what strays is the matcher's. That nothing strays says nothing against
+/// waves either: windows take more of a wave together than a ray does.
+void leave_few_strays(const std::vector<Observation>& observations, const std::vector<bool>& is_clear,
+                      std::vector<bool>& kept) {
+  constexpr double kFew = 0.05;                          // a device matches a hundredth wrongly, of dark bottoms more
+  std::map<std::string, std::map<double, Mean>> shares;  // of each liquid, by fill
+  const auto is_share = [&](std::size_t row) { return kept[row] && observations[row].observable == "stray_share"; };
   for (std::size_t row = 0; row < kept.size(); ++row)
-    if (const Observation& o = observations[row]; o.observable == "stray_share") {
-      const bool strays = is_clear[row] && o.value > kMostStray;
-      kept[row] = kept[row] && strays;
-      if (strays) no_surface.insert(placement_key(o));
-    }
+    if (const Factors& f = observations[row].factors; is_share(row) && is_clear[row])
+      shares[f.liquid][f.fill_mm].add(observations[row].value);
   for (std::size_t row = 0; row < kept.size(); ++row)
-    if (observations[row].observable == "height_mm" && no_surface.contains(placement_key(observations[row])))
-      kept[row] = false;
+    if (is_share(row))
+      kept[row] = is_clear[row] && std::ranges::any_of(shares[observations[row].factors.liquid], [](const auto& fill) {
+                    return fill.second.estimate().value > kFew;
+                  });
 }
 
 /// Which rows are of a liquid that the model sees through, only of one with that label where there is one.
@@ -121,11 +134,12 @@ Physics physics_of(const Measurement& measurement, const SharedJson& model_effec
                      mm_from_metres(rig.placement_sigma_m)};
   evidence.is_calibrated = rig.unit.map != nullptr;
   evidence.odd_desks = odd_desks(measurement);
-  const std::vector<Observation> observations = predictable(measurement.observations);
+  std::vector<Observation> observations = predictable(measurement.observations);
+  tell_heights_of_strays(observations);
   const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file,
                                                      measurement.unit, measurement.desk_sights);
   std::vector<bool> kept = are_predicted(*predictor);
-  compare_strays_instead(observations, see_through(*predictor, "", observations.size()), kept);
+  leave_few_strays(observations, see_through(*predictor, "", observations.size()), kept);
   for (std::size_t row = 0; row < kept.size(); ++row)
     if (kept[row]) evidence.observations.push_back(observations[row]);
   predictor->keep(kept);
@@ -149,7 +163,7 @@ Physics physics_of(const Measurement& measurement, const SharedJson& model_effec
   evidence.shared_errors = model_errors(evidence.observations, measurement.rig);
   Candidates candidates = candidates_of(*predictor, only, quiet);
   evidence.candidates = std::move(candidates.all);
-  if (only.empty() && !has_reduced_heights(evidence.observations))
+  if (only.empty() && !are_reduced(evidence.observations))
     std::erase_if(evidence.candidates, [](const Candidate& one) { return one.effect == "skew_approximation"; });
   for (Candidate& candidate : evidence.candidates) {
     const EffectName name = effect_name(candidate.effect);

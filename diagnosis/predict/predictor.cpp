@@ -251,6 +251,7 @@ Setup Predictor::setup(const Condition& condition, const Change& change) const {
 
 std::vector<bool> Predictor::near_shadows() const {
   constexpr double kTooMuch = 0.35;  // of a region
+  const auto is_of_region = [](const std::string& name) { return name == "height_mm" || name == "stray_share"; };
   std::vector<bool> shadowed(observables_.size(), false);
   for (const std::vector<std::size_t>& group : alike({}, all_conditions())) {
     const Condition& first = conditions_[group.front()];
@@ -258,7 +259,7 @@ std::vector<bool> Predictor::near_shadows() const {
     for (const std::size_t condition : group)
       for (const std::size_t row : conditions_[condition].rows)
         for (std::size_t i = 0; i < shares.size(); ++i)
-          if (observables_[row] == "height_mm" && regions_[row] == kCupRegionNames[i] && shares[i] > kTooMuch)
+          if (is_of_region(observables_[row]) && regions_[row] == kCupRegionNames[i] && shares[i] > kTooMuch)
             shadowed[row] = true;
   }
   return shadowed;
@@ -330,18 +331,19 @@ std::optional<Predictor::Foreseen> Predictor::foresee(const Look& look, const Co
   auto estimates = look(shot, condition);
   if (!estimates) return std::nullopt;
   std::vector<NamedValue> named = named_values(*estimates);
-  return Foreseen{std::move(shot), std::move(*estimates), std::move(named)};
+  auto waves = under_waves(shot, model_.laboratory, condition.pixels);
+  return Foreseen{std::move(shot), std::move(*estimates), std::move(named), waves};
 }
 
-double Predictor::value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const {
+double Predictor::value_of(std::size_t row, const Foreseen& foreseen) const {
   const std::string& observable = observables_[row];
   if (observable == "desk_wander_mm") return wander_mm(foreseen.shot.rig.sensor, foreseen.estimates.desk);
   if (observable == "desk_waves_px" || observable == "desk_pitch_motion_deg" || observable == "desk_roll_motion_deg")
     return 0.0;
-  const auto through_waves = [&] { return under_waves(foreseen.shot, model_.laboratory, condition.pixels); };
-  if (observable == "liquid_motion_mm") return through_waves().scatter_mm;
-  if (observable == "stray_share")
-    if (const double share = through_waves().stray_share; share > 0.0) return share;
+  if (observable == "liquid_motion_mm") return foreseen.waves ? foreseen.waves->scatter_mm : 0.0;
+  if (observable == "stray_share" && foreseen.waves)
+    for (std::size_t i = 0; i < kCupRegionNames.size(); ++i)
+      if (regions_[row] == kCupRegionNames[i]) return foreseen.waves->stray_share[i];
   if (observable == "height_mm" && regions_[row] == kWholeInterior) return interior_height_mm(foreseen.estimates);
   for (const NamedValue& value : foreseen.named)
     if (value.observable == observable && value.region == regions_[row]) return value.value;
@@ -365,8 +367,7 @@ void Predictor::predict_alike(const Look& look, const Change& change, const std:
   for (const std::size_t i : conditions) {
     if (foreseen && !shapes_.empty()) values.cells[i] = cell_heights(foreseen->estimates);
     for (const std::size_t row : conditions_[i].rows)
-      values.of_rows[row] =
-          foreseen ? value_of(row, conditions_[i], *foreseen) : std::numeric_limits<double>::quiet_NaN();
+      values.of_rows[row] = foreseen ? value_of(row, *foreseen) : std::numeric_limits<double>::quiet_NaN();
   }
 }
 

@@ -94,6 +94,7 @@ class Predictor {
     Setup shot;
     FrameEstimates estimates;
     std::vector<NamedValue> named;  ///< of the estimates
+    std::optional<UnderWaves> waves;
   };
 
   /// Of all observations; and of the conditions that were looked at, the cells' heights.
@@ -111,7 +112,7 @@ class Predictor {
   const BiasField* bias_of(const Change& change, BiasField& own) const;
   Eigen::VectorXd predict_from(const std::function<std::optional<FrameEstimates>(const Condition&)>& estimates) const;
   std::optional<Foreseen> foresee(const Look& look, const Condition& condition, const Change& change) const;
-  double value_of(std::size_t row, const Condition& condition, const Foreseen& foreseen) const;
+  double value_of(std::size_t row, const Foreseen& foreseen) const;
   /// Rows of conditions that are alike.
   void predict_alike(const Look& look, const Change& change, const std::vector<std::size_t>& conditions,
                      Values& values) const;

@@ -346,14 +346,14 @@ std::array<double, kCupCells> cells_near_shadows(const SurrogateFrame& frame, co
   });
 }
 
-UnderWaves under_waves(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {
+std::optional<UnderWaves> under_waves(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels) {
   const SurrogateView view = surrogate_view(setup);
-  if (!view.cup || !is_clear(*view.cup)) return {};
+  if (!view.cup || !is_clear(*view.cup)) return std::nullopt;
   const std::vector<CupOptics> moments = moments_of(*view.cup);
-  if (moments.size() == 1) return {};
+  if (moments.size() == 1) return std::nullopt;
   const std::vector<SensedPoint> desk = desk_points(view, pixels);
   std::array<Mean, 5> heights;
-  double strays = 0.0, all = 0.0;
+  std::array<RegionEstimate, 5> sums;
   for (const CupOptics& moment : moments) {
     std::vector<SensedPoint> points = points_through(view, std::span(&moment, 1), pixels, pixels.cup_weight);
     points.insert(points.end(), desk.begin(), desk.end());
@@ -362,12 +362,12 @@ UnderWaves under_waves(const Setup& setup, const LaboratoryRig& rig, const Sampl
     for (std::size_t region = 0; region < heights.size(); ++region) {
       const RegionEstimate& height = estimates->height[region];
       if (height.weight >= kFewestInRegion) heights[region].add(height.mean);
-      strays += height.strays;
-      all += height.weight + height.strays;
+      sums[region].strays += height.strays;
+      sums[region].weight += height.weight;
     }
   }
   UnderWaves seen;
-  if (all > 0.0) seen.stray_share = strays / all;
+  for (std::size_t region = 0; region < sums.size(); ++region) seen.stray_share[region] = sums[region].stray_share();
   double variance = 0.0, regions = 0.0;
   for (const Mean& height : heights) {
     if (height.count() < moments.size()) continue;  // phases make a variance only together

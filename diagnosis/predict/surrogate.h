@@ -1,6 +1,8 @@
 // What a frame of a set-up says in the mean, by some hundred exact rays instead of a picture.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 
 #include "diagnosis/measurement/unit_bias.h"
@@ -62,12 +64,14 @@ std::optional<FrameEstimates> estimates_without(std::span<const Bias> biases, co
 /// Whether two set-ups' desks are read alike.
 bool desk_looks_alike(const SurrogateView& a, const SurrogateView& b);
 
-/// What single shots through waves on a clear liquid show, and their mean does not; 0 without waves.
+/// What single shots through waves on a clear liquid show, and their mean does not.
 struct UnderWaves {
-  double scatter_mm = 0.0;   ///< by how much the height of a region differs between shots, 1 σ
-  double stray_share = 0.0;  ///< of a shot's heights, those that are too far from their median to count
+  double scatter_mm = 0.0;  ///< by how much the height of a region differs between shots, 1 σ
+  /// Of every region of the cup: of a shot's heights, those that are too far from their median to count.
+  std::array<double, 5> stray_share{};
 };
-UnderWaves under_waves(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels);
+/// Nothing without waves.
+std::optional<UnderWaves> under_waves(const Setup& setup, const LaboratoryRig& rig, const SampledPixels& pixels);
 
 /// Of every region of the cup the share that lies in a shadow, or behind the rim, or within a matcher's reach of
 /// either: what is measured there is decided by windows that hold two surfaces, which no ray tells of.

@@ -35,8 +35,9 @@ struct Observation {
   double value = 0.0;      ///< mean of the repeats
   double repeat_sd = 0.0;  ///< of one repeat; 0 with one repeat
   int repeats = 1;
-  double pixels = 0.0;            ///< of one repeat, that the value is the mean of; 0: of no certain number
-  double rounding = 0.0;          ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  double pixels = 0.0;       ///< of one repeat, that the value is the mean of; 0: of no certain number
+  double rounding = 0.0;     ///< 1 σ of the error of each repeat's being rounded; 0: too little to count
+  double stray_share = 0.0;  ///< of a height: of those that it could be the mean of, which are too far off to count
   std::vector<SeenPart> parts{};  ///< of the cup, of whose heights it is the sum; none: of something else, or not known
   bool is_of_session = false;     ///< mean of a session's placements: liquid, fill and place are those of one of them
   bool has_all_errors = false;    ///< repeats are set-ups made anew, so that what they scatter by is all its error

@@ -89,8 +89,7 @@ void ViewScatter::add(std::span<const BiasView> views) {
   Eigen::MatrixXd errors(cells, static_cast<Eigen::Index>(views.size()));
   Eigen::Index row = 0;
   for (const auto& [cell, of_views] : errors_of) {
-    const Eigen::Vector3d at = plane_at({cell.first, cell.second});
-    shapes.row(row) << at.transpose(), at[1] * at[1], at[1] * at[2], at[2] * at[2];
+    shapes.row(row) = quadratic_at({cell.first, cell.second}).transpose();
     errors.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(of_views.data(), errors.cols());
   }
   errors.colwise() -= errors.rowwise().mean().eval();

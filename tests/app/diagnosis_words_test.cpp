@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/effect_words.h"
+
 namespace fathom {
 namespace {
 
@@ -39,6 +41,14 @@ TEST(DiagnosisWords, AWideGapIsNotWavedThrough) {
   EXPECT_TRUE(advice(diagnosis).front().starts_with("Look in heights.png"));
   diagnosis.gap.train = {2.0, 0.6, 0.65};
   EXPECT_FALSE(says(diagnosis, "something differs"));
+}
+
+TEST(DiagnosisWords, ThatAnEffectIsThereIsNoSizeUnlessItIsNot) {
+  const auto shown = [](double law) {
+    return shown_parameters({"depth_quantization", {{"law", law, 0.0, 1.0}, {"step_px", 0.25, 0.2, 0.3}}}).size();
+  };
+  EXPECT_EQ(shown(1.0), 1u);
+  EXPECT_EQ(shown(0.0), 2u);
 }
 
 TEST(DiagnosisWords, ThirdsOfASessionAreNoValues) {

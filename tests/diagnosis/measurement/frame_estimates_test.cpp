@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/units.h"
+#include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/sensed_frame.h"
 
 namespace fathom {
@@ -33,6 +34,30 @@ TEST(FrameEstimates, TellNothingOfCodesWhereRowsAreWholeCodesApart) {
   EXPECT_TRUE(spans_codes(1));
   EXPECT_TRUE(spans_codes(7));
   EXPECT_FALSE(spans_codes(10));
+}
+
+/// A fifth of a cup's inside, spread evenly, lies 20 mm above the rest.
+TEST(FrameEstimates, SayWhichShareOfHeightsStraysFromTheirMedian) {
+  const LaboratoryRig rig;
+  const Eigen::Vector2d cup(0.0, 0.3);
+  std::vector<SensedPoint> points = desk_of_rows(rig, 2);
+  const Eigen::Isometry3d to_desk = desk_from_camera(plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}));
+  std::size_t number = 0;
+  for (SensedPoint& sensed : points) {
+    Eigen::Vector3d p = to_desk * sensed.point.cast<double>();
+    if ((p.head<2>() - axis_from_camera(rig, cup)).norm() > interior_radius(rig.cup)) continue;
+    p.z() = number++ % 5 == 0 ? 0.040 : 0.020;
+    sensed.point = (to_desk.inverse() * p).cast<float>();
+    sensed.weight = 4.0f;
+  }
+  FrameView view;
+  view.cup = cup;
+  const auto estimates = estimate_frame(points, rig, view);
+  ASSERT_TRUE(estimates);
+  for (const RegionEstimate& region : estimates->height) {
+    EXPECT_NEAR(region.mean, 0.020, 0.0002);
+    EXPECT_NEAR(region.stray_share(), 0.2, 0.02);
+  }
 }
 
 /// Pixels that points stand for, of all and of those as near to a cup's axis as counts for the cup.

@@ -115,8 +115,8 @@ TEST(Surrogate, SaysOfWavesWhatFramesSayInTheMean) {
   EXPECT_LT(few, -0.05);         // waves deepen what they show
   EXPECT_NEAR(few, mean, 0.02);  // pixels at a region's border come and go
   EXPECT_GT(scatter, 0.05);
-  EXPECT_NEAR(scatter_by_waves_mm(moved, rig, pixels) / scatter, 1.0, 0.5);
-  EXPECT_EQ(scatter_by_waves_mm(still, rig, pixels), 0.0);
+  EXPECT_NEAR(under_waves(moved, rig, pixels).value().scatter_mm / scatter, 1.0, 0.5);
+  EXPECT_FALSE(under_waves(still, rig, pixels));
 }
 
 // Of their slope's second order, whatever its size: rays that steep waves throw aside neither stick nor turn the sign.
