@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "diagnosis/measurement/cup_regions.h"
 #include "diagnosis/measurement/sensed_frame.h"
+#include "tests/diagnosis/measurement/tilted_desk.h"
 
 namespace fathom {
 namespace {
@@ -38,9 +39,9 @@ TEST(FrameEstimates, TellNothingOfCodesWhereRowsAreWholeCodesApart) {
 
 /// A fifth of a cup's inside, spread evenly, lies 20 mm above the rest.
 TEST(FrameEstimates, SayWhichShareOfHeightsStraysFromTheirMedian) {
-  const LaboratoryRig rig;
+  const LaboratoryRig rig = laboratory();
   const Eigen::Vector2d cup(0.0, 0.3);
-  std::vector<SensedPoint> points = desk_of_rows(rig, 2);
+  std::vector<SensedPoint> points = desk_of_rows(rig, 1);
   const Eigen::Isometry3d to_desk = desk_from_camera(plane_from(DeskPrior{rig.height_m, rig.pitch_rad, rig.roll_rad}));
   std::size_t number = 0;
   for (SensedPoint& sensed : points) {
@@ -48,7 +49,6 @@ TEST(FrameEstimates, SayWhichShareOfHeightsStraysFromTheirMedian) {
     if ((p.head<2>() - axis_from_camera(rig, cup)).norm() > interior_radius(rig.cup)) continue;
     p.z() = number++ % 5 == 0 ? 0.040 : 0.020;
     sensed.point = (to_desk.inverse() * p).cast<float>();
-    sensed.weight = 4.0f;
   }
   FrameView view;
   view.cup = cup;
