@@ -69,12 +69,16 @@ bool shows_desk_in_front(std::span<const SensedPoint> points, const LaboratoryRi
   return seen >= kFewest_px && std::abs(height / seen) < 0.5 * rig.cup.bottom();
 }
 
+/// Whether walls as wide as the rig's cup stand there or nearby.
+bool shows_width(const std::optional<FrameEstimates>& estimates) {
+  constexpr double kAsWide = 0.003;  // [m]
+  return estimates && estimates->outline && std::abs(estimates->outline->wider) < kAsWide;
+}
+
 /// Whether the rig's cup is where it should be.
 bool shows_cup_of(const LaboratoryRig& rig, std::span<const SensedPoint> points,
                   const std::optional<FrameEstimates>& estimates, const Eigen::Vector2d& cup) {
-  constexpr double kAsWide = 0.003;  // [m]
-  return shows_walls(estimates) && std::abs(estimates->outline->wider) < kAsWide &&
-         shows_desk_in_front(points, rig, estimates->desk, cup);
+  return shows_walls(estimates) && shows_width(estimates) && shows_desk_in_front(points, rig, estimates->desk, cup);
 }
 
 /// Cups that a reading moves, and those that stand where it says.
@@ -106,7 +110,8 @@ StandsElsewhere stands_elsewhere(std::span<const SensedPoint> points, const Labo
     apply(kReadings[i], rig, other);
     const Eigen::Vector2d place(other.lateral_m, other.distance_m);
     const std::optional<FrameEstimates> there = estimate_frame(points, rig, {place, frame.fill_m});
-    stands[i] = shows_cup_of(rig, points, there, place) || (shows_bottom(there) && !shows_bottom(as_written));
+    stands[i] = shows_cup_of(rig, points, there, place) ||
+                (shows_bottom(there) && !shows_bottom(as_written) && !shows_width(as_written));
   }
   return stands;
 }

@@ -123,6 +123,22 @@ TEST_F(Places, AnotherCupIsNoOtherPlace) {
   }
 }
 
+// The bias of a sensor that hangs high lowers a thin bottom to the desk and moves walls by a centimetre. A step farther
+// the wall would pass for a bottom.
+TEST_F(Places, ACupThatStandsNearbyIsNotLookedForElsewhere) {
+  write_text(
+      folder / "rig.json",
+      fmt::format(R"({{"sensor": {{"model": "xtion_pro_live", "height_mm": 650, "pitch_deg": {}}}, "liquids": {{}},
+                 "cup": {{"bottom_mm": 3}}}})",
+                  kPitchDeg));
+  for (const double distance_mm : {250.0, 300.0, 350.0, 400.0}) {
+    add(0, distance_mm, 0, distance_mm);
+    write_pcd(folder / fmt::format("clouds/{}.pcd", next - 1),
+              cloud_of_cup(0.0, metres_from_mm(distance_mm - 10.0), 1.0, 0.0015));
+  }
+  EXPECT_TRUE(read().mistakes.empty());
+}
+
 TEST_F(Places, WhatIsNoMistakeOfAllIsNotPutRight) {
   for (const double lateral_mm : {-100.0, -50.0, 50.0, 100.0}) add(lateral_mm + 4, 296, lateral_mm, 300);
   for (const double lateral_mm : {-80.0, 80.0, 90.0}) add(lateral_mm, 300, -lateral_mm, 300);
