@@ -21,13 +21,17 @@ struct Pair {
   std::size_t row, earlier;
 };
 
-std::vector<Pair> equal_clouds(std::span<const CloudPrint> prints) {
+/// The earlier row is of the same placement, where one of it has the same cloud.
+std::vector<Pair> equal_clouds(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints) {
+  std::map<std::uint64_t, std::map<PlacementKey, std::size_t>> firsts;
   std::map<std::uint64_t, std::size_t> first;
   std::vector<Pair> pairs;
   for (std::size_t row = 0; row < prints.size(); ++row) {
-    if (prints[row].whole == 0) continue;
-    const auto [known, is_new] = first.emplace(prints[row].whole, row);
-    if (!is_new) pairs.push_back({row, known->second});
+    const std::uint64_t print = prints[row].whole;
+    if (print == 0) continue;
+    const auto [of_all, is_new] = first.emplace(print, row);
+    const auto [of_placement, is_first] = firsts[print].emplace(placement_of(frames[row]), row);
+    if (!is_new) pairs.push_back({row, is_first ? of_all->second : of_placement->second});
   }
   return pairs;
 }
@@ -153,7 +157,7 @@ CloudPrint print_of(std::span<const SensedPoint> points, double focal_px) {
 Copies find_copies(const std::vector<FrameRecord>& frames, std::span<const CloudPrint> prints) {
   PlacementRows placements;
   for (std::size_t row = 0; row < frames.size(); ++row) placements[placement_of(frames[row])].push_back(row);
-  std::vector<Pair> pairs = equal_clouds(prints);
+  std::vector<Pair> pairs = equal_clouds(frames, prints);
   for (const Pair& pair : equal_rows(frames, placements)) pairs.push_back(pair);
 
   const bool may_be_without = !does_desk_scatter(frames, prints);

@@ -78,6 +78,12 @@ class Model {
   /// The same of one parameter.
   Eigen::VectorXd difference(Eigen::Index k, const Eigen::VectorXd& at, const Eigen::VectorXd& change_at,
                              const Eigen::MatrixXd& jacobian) const {
+    const auto chord = [&] {
+      Eigen::VectorXd absent = at;
+      absent[k] = 0.0;
+      return Eigen::VectorXd((change_at - change(absent)) / at[k]);
+    };
+    if (lower_[k] == upper_[k] && at[k] != 0.0) return chord();
     const double step = std::max(standard_errors(jacobian)[k], kDifference);
     double low = std::max(at[k] - step, lower_[k]), high = std::min(at[k] + step, upper_[k]);
     if (low <= 0.0 && at[k] > 0.0) low = at[k];
@@ -89,9 +95,7 @@ class Model {
     moved[k] = low;
     slope -= low == at[k] ? change_at : change(moved);
     slope /= high - low;
-    if (slope.norm() > kNoAnswer || at[k] == 0.0) return slope;
-    moved[k] = 0.0;
-    return (change_at - change(moved)) / at[k];
+    return slope.norm() > kNoAnswer || at[k] == 0.0 ? slope : chord();
   }
 
  private:

@@ -190,6 +190,24 @@ TEST_F(DiagnoseCommand, FindsALensThatBendsTheDesk) {
   EXPECT_GT(ci95[1].get<double>(), 0.05);
 }
 
+// Of deep water half the heights are too far off to count.
+TEST_F(DiagnoseCommand, FindsWavesByWhatStraysFromTheMedian) {
+  Json spec = read_json(FATHOM_SCENES "/campaigns/bent_desk.json");
+  spec.erase("$schema");
+  spec["effects"] = {{{"name", "ripples"}, {"mean_square_slope", 0.005}}};
+  write_json(path("waves.json"), spec);
+  ASSERT_EQ(run_fathom("campaign " + path("waves.json") + " -o " + path("campaign")).exit_code, 0);
+  const Json report = diagnosis("out");
+  EXPECT_EQ(report["verdict"], "named") << report["answer"];
+  ASSERT_EQ(report["effects"].size(), 1u) << report["answer"];
+  EXPECT_EQ(report["effects"][0]["name"], "ripples");
+  const Json& notes = report["notes"];
+  EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
+    return note.find("more than 6 mm from the median") != std::string::npos &&
+           note.find("45 mm of water") != std::string::npos;
+  })) << notes;
+}
+
 bool is_in_set(const Json& report, const std::string& effect) {
   for (const Json& explanation : report["ambiguity_set"]) {
     if (explanation["effects"] == Json{effect}) return true;

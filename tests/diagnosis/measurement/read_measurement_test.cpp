@@ -287,6 +287,22 @@ TEST(Copies, OfCloudsAreToldFromASensorWithoutNoise) {
   EXPECT_EQ(rows_repeated(frames, prints(1, false), frames, prints(1, false)), 0u);
 }
 
+/// Two sessions of bare desks that are alike, and two cups that are not; of each placement two trials.
+TEST(Copies, OfASensorWithoutNoiseMayBeOfSeveralSessions) {
+  std::vector<FrameRecord> frames(8);
+  std::vector<CloudPrint> prints(8);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].session = frames[i].placement = static_cast<int>(i / 4);
+    frames[i].trial = static_cast<int>(i % 2);
+    const bool is_bare = i % 4 < 2;
+    frames[i].liquid = is_bare ? "none" : "water";
+    frames[i].distance_m = is_bare ? 0.0 : 0.3;
+    prints[i].whole = is_bare ? 1 : 2 + i / 4;
+    prints[i].parts.fill(1);
+  }
+  EXPECT_TRUE(find_copies(frames, prints).mistakes.empty());
+}
+
 TEST_F(MeasurementFolder, RowsOfFewPointsOnTheStepsOfDepthAreNoCopies) {
   // Six points on two or three steps of depth: the desk moves the height, which is rounded, and not the spread.
   constexpr std::array kSpreads{0.027, 0.592, 0.586, 0.108, 0.702};
