@@ -23,10 +23,10 @@ inline constexpr double kFewestInInterior = 10.0;
 inline constexpr double kFewestInCell = 15.0;
 
 /// "height_mm" of every region of the cup with at least sixty pixels, and "stray_share", the share of its heights that
-/// are too far from their median to count; of its walls "cup_x_mm", "cup_y_mm" (of the axis
-/// from where it should stand) and "cup_radius_mm" (less the rig's); of the desk "desk_height_mm" (of the camera above
-/// it), "desk_pitch_deg", "desk_roll_deg", "desk_residual_mm" of each third of the image with at least a hundred,
-/// of the disparities' fractions "comb_strength" (mean cosine: 1 on the device's steps, −1 half a step beside them),
+/// are too far from their median to count; of its walls "cup_x_mm", "cup_y_mm" (of the axis from where it should stand)
+/// and "cup_radius_mm" (less the rig's); of the desk "desk_height_mm" (of the camera above it), "desk_pitch_deg",
+/// "desk_roll_deg", "desk_residual_mm" of each third of the image with at least a hundred pixels, of the disparities'
+/// fractions "comb_strength" (mean cosine: 1 on the device's steps, −1 half a step beside them),
 /// "comb_quarter" and "comb_half" how far disparities keep to steps of 1/4 and 1/2 px, "millimetre_comb" of the depths'
 /// in the first way; of the whole interior "height_sd_mm", "log_brightness", the natural logarithm of the brightness
 /// inside over that of the desk, and "log_ir_contrast", the same of the contrast of the infrared's dots, where the desk

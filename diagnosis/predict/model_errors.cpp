@@ -219,10 +219,9 @@ OwnErrors effect_errors(std::string_view id, const std::vector<Observation>& obs
 Eigen::VectorXd numerical_errors(const std::vector<Observation>& observations) {
   // Of few rays against as many as make no difference (tests/diagnosis/predict/surrogate_test.cpp).
   constexpr double kLength_mm = 0.007, kAngle_deg = 0.0005, kShare = 0.02;
-  // Which heights of two surfaces, or of waves, a matcher keeps is its own. Those that stray are more than 6 mm off,
-  // say
-  // 12. If it kept those of one side only, a mean would be off by their share of that. In photometric frames of waves
-  // regions of which 0.13 to 0.5 stray are off by 5 mm.
+  // Which heights of two surfaces, or of waves, a matcher keeps is its own. Those that stray are some 12 mm off: twice
+  // the 6 mm from which they do. If it kept those of one side only, a mean would be off by their share of that. It may
+  // be more: in photometric frames of waves regions of which 0.13 to 0.23 stray are off by 5 to 6 mm.
   constexpr double kOfStrays_mm = 12.0;
   Eigen::VectorXd errors(static_cast<Eigen::Index>(observations.size()));
   for (std::size_t i = 0; i < observations.size(); ++i) {

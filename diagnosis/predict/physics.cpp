@@ -54,7 +54,7 @@ void tell_heights_of_strays(std::vector<Observation>& observations) {
 /// Keeps the shares of strays only of liquids that one sees through and of which, at one fill, more stray than a device
 /// matches wrongly. In liquids that scatter what strays is the matcher's. That nothing strays says nothing against
 /// waves either: windows take more of a wave together than a ray does.
-void leave_few_strays(const std::vector<Observation>& observations, const std::vector<bool>& is_clear,
+void keep_many_strays(const std::vector<Observation>& observations, const std::vector<bool>& is_clear,
                       std::vector<bool>& kept) {
   constexpr double kFew = 0.05;                          // a device matches a hundredth wrongly, of dark bottoms more
   std::map<std::string, std::map<double, Mean>> shares;  // of each liquid, by fill
@@ -139,7 +139,7 @@ Physics physics_of(const Measurement& measurement, const SharedJson& model_effec
   const auto predictor = std::make_shared<Predictor>(measurement.rig, observations, model_effects, file,
                                                      measurement.unit, measurement.desk_sights);
   std::vector<bool> kept = are_predicted(*predictor);
-  leave_few_strays(observations, see_through(*predictor, "", observations.size()), kept);
+  keep_many_strays(observations, see_through(*predictor, "", observations.size()), kept);
   for (std::size_t row = 0; row < kept.size(); ++row)
     if (kept[row]) evidence.observations.push_back(observations[row]);
   predictor->keep(kept);
